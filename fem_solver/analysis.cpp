@@ -45,6 +45,13 @@ Symmetry symmetry_for(const Stage& stage, const std::vector<materials::Law>& law
     return general ? Symmetry::general : Symmetry::symmetric;
 }
 
+/// Loads and pore pressure, without the reactions of supports [N].
+Eigen::VectorXd loads_of(const Model& model, const Motion& motion) {
+    Eigen::VectorXd loads = model.external_force;
+    add_pressure_force(model, motion.p, loads);
+    return loads;
+}
+
 }  // namespace
 
 Analysis::Analysis(process::Session& session, Model model)
@@ -144,6 +151,7 @@ void Analysis::make_newton(const Stage& stage, const NewtonCounts& counts) {
 void Analysis::begin_stage(const Stage& stage) {
     laws_ = laws_for(model_, stage.laws);
     const bool is_static = stage.kind == StageKind::static_equilibrium;
+    const Eigen::VectorXd loads_before = loads_of(model_, motion_);
     set_softening(stage, model_, laws_);
     if (!newton_) make_newton(stage, counts_);
     set_permeability(session_.scene(), stage.permeability, model_);
@@ -163,7 +171,12 @@ void Analysis::begin_stage(const Stage& stage) {
     if (fem_.changes_the_body()) settle_stresses(*newton_, laws_, motion_, trial_);
     if (is_static) {
         position_.load_step = 1.0 / stage.load_steps;
+        position_.at_limit = false;
         stage_force_ = motion_.force;
+        // What a support gave an edge that now moves is part of the edge's own force from the start.
+        if (position_.stage > 0)
+            for (const Model::Driven& each : model_.driven)
+                stage_force_[each.dof] = loads_before[each.dof];
         if (drains) return;
         Eigen::VectorXd of_water = Eigen::VectorXd::Zero(model_.dofs());
         add_pressure_force(model_, motion_.p, of_water);
@@ -339,22 +352,21 @@ Analysis::StageEnd Analysis::static_stage(const Stage& stage) {
 
 /// Soil that an edge pushes yields everywhere at once when its limit state is reached exactly. Its
 /// tangent is singular there: the step is tried again with a part of the elastic stiffness and a wider
-/// tolerance. The residual enters the next step, so it does not add up. Load steps keep their tolerance:
-/// beyond its limit a load has no equilibrium.
+/// tolerance, and so are the steps behind it until one fails. The residual enters the next step, so it
+/// does not add up. Load steps keep their tolerance: beyond its limit a load has no equilibrium.
 NewtonOutcome Analysis::static_balance(double load) {
-    constexpr double elastic_share = 0.05;
-    constexpr double grace = 100.0;  // times the tolerance
     const auto step = [&] {
         return static_step(*newton_, model_, laws_, load, stage_force_, motion_, prediction_,
                            trial_);
     };
-    NewtonOutcome outcome = step();
-    if (outcome.end == End::converged || model_.driven.empty()) return outcome;
-    newton_->stiffen(elastic_share);
-    outcome = step();
-    newton_->stiffen(0.0);
-    if (outcome.end == End::not_converged && outcome.residual <= grace * fem_.force_tolerance)
-        outcome.end = End::converged;
+    if (!position_.at_limit) {
+        const NewtonOutcome outcome = step();
+        if (outcome.end == End::converged || model_.driven.empty()) return outcome;
+    }
+    newton_->take(Newton::Tangent::stiffened);
+    const NewtonOutcome outcome = step();
+    newton_->take(Newton::Tangent::of_the_laws);
+    position_.at_limit = outcome.end == End::converged;
     return outcome;
 }
 
@@ -543,6 +555,11 @@ void Analysis::accept(double dt, double stop, const NewtonOutcome& outcome) {
     position_.easy_steps = easy ? position_.easy_steps + 1 : 0;
     if (position_.dt < stage.time_step && position_.easy_steps >= easy_steps_before_growth) {
         position_.dt = std::min(stage.time_step, growth * position_.dt);
+        position_.easy_steps = 0;
+    }
+    // A step cut short to meet a stop: its velocities may be those of an instant, too.
+    if (growth * dt < (1.0 - 1e-9) * position_.dt) {
+        position_.dt = growth * dt;
         position_.easy_steps = 0;
     }
     keep_largest_excess_pressure();

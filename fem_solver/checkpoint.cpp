@@ -25,8 +25,9 @@ void put(exchange::Archive& archive, const Position& p) {
     archive.reals["position"] = {
         p.load,           p.load_step,     p.time,          p.dt,
         p.next_telemetry, p.external_work, p.internal_work, p.viscous_dissipation};
-    archive.integers["position"] = {p.stage,         p.easy_steps,      p.step,        p.cut_steps,
-                                    p.next_snapshot, p.telemetry_lines, p.stage_begun, p.moving};
+    archive.integers["position"] = {p.stage,       p.easy_steps,    p.step,
+                                    p.cut_steps,   p.next_snapshot, p.telemetry_lines,
+                                    p.stage_begun, p.moving,        p.at_limit};
 }
 
 Position position_from(const exchange::Archive& archive) {
@@ -47,7 +48,8 @@ Position position_from(const exchange::Archive& archive) {
             .viscous_dissipation = r.at(7),
             .telemetry_lines = i.at(5),
             .stage_begun = i.at(6) != 0,
-            .moving = i.at(7) != 0};
+            .moving = i.at(7) != 0,
+            .at_limit = i.at(8) != 0};
 }
 
 constexpr const char* memory_name = "memory";

@@ -29,6 +29,7 @@ struct Position {
     std::int64_t telemetry_lines = 0;
     bool stage_begun = false;  ///< the stage's laws are in force
     bool moving = false;       ///< a dynamic stage has begun
+    bool at_limit = false;     ///< static stage: what an edge pushes has reached its limit state
 };
 
 struct Checkpoint {

@@ -6,7 +6,7 @@
 namespace breach::fem {
 
 /// Raised when the numbers change for the same input: the cache takes no result of another one.
-inline constexpr int numerics = 16;
+inline constexpr int numerics = 17;
 
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
 process::Outcome run(process::Session& session);

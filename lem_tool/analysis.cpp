@@ -185,7 +185,8 @@ process::Plan plan(const scene::Scene& whole) {
          lem.tension_crack ? "surfaces end at its foot" : "no crack is given",
          "/lem/tension_crack"},
         {"non-circular surfaces", use(lem.non_circular.has_value()),
-         lem.non_circular ? "straight pieces, by Spencer's method" : "circles only",
+         lem.non_circular ? "straight pieces, by Spencer's method"
+                          : "not asked for: only from surfaces along thin weak layers",
          "/lem/non_circular"},
         {"limit on m_alpha", use(lem.m_alpha.least > 0.0),
          "surfaces below " + spelt("%.3g", lem.m_alpha.least) + " do not count", "/lem/m_alpha"},

@@ -183,8 +183,8 @@ json answer(const scene::Scene& scene, const Families& families, const json& giv
     parts["bishop"] = facts_of(families.circles);
     if (!families.composites.empty()) parts["composite"] = least_composite(families.composites);
     const bool asked = lem.non_circular && lem.non_circular->vertices > 0;
-    const json along = parts.value("composite", json());
-    if (asked || (!along.is_null() && along.at("spencer").is_null())) {
+    // An arc meets a thin weak layer at one angle only, a wedge with those of least resistance.
+    if (asked || !families.composites.empty()) {
         const Searched& start = families.least();
         scene::Scene bent = scene;
         if (!asked) bent.lem->non_circular = scene::NonCircular{{}, usual_vertices};

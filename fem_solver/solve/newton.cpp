@@ -46,6 +46,11 @@ Eigen::VectorXd shares_of_dofs(const Model& model, const Unknowns& unknowns) {
 /// many times the tolerance; what is out of balance enters the next step, it does not add up.
 constexpr double worst_jump = 100.0;
 
+/// Of the elastic stiffness, in the tangents of a limit state.
+constexpr double elastic_share = 0.05;
+/// Times the tolerance, at a limit state.
+constexpr double grace = 100.0;
+
 /// The residuals of one step: tells when they no longer fall.
 class Progress {
   public:
@@ -171,7 +176,8 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
     }
     {
         const Stopwatch watch(seconds_, &Seconds::assembly);
-        if (stiffened_ > 0.0) internal_force_.add_elastic_stiffness(stiffened_, matrix_);
+        if (tangent_ == Tangent::stiffened)
+            internal_force_.add_elastic_stiffness(elastic_share, matrix_);
         add_inertia_and_water(problem.rule);
     }
     unsolvable_ = !factorise(problem.rule);
@@ -384,12 +390,15 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
             ++counts_.stalled;
             return {End::converged, iteration, residual};
         }
+        const bool near_limit =
+            tangent_ == Tangent::stiffened && residual <= grace * settings_.tolerance;
+        if (near_limit && progress.stalled()) return {End::converged, iteration, residual};
         if (iteration == 0) first = std::max(residual, settings_.tolerance);
         const bool lost = !std::isfinite(residual) || residual > 1e4 * first;
         if (lost || iteration >= settings_.largest_iterations ||
             progress.without_better() > settings_.patience) {
             memory_.has_matrix = false;
-            return {End::not_converged, iteration, residual};
+            return {near_limit ? End::converged : End::not_converged, iteration, residual};
         }
         // Iterations that the present rate of convergence would still need.
         // Before the first correction nothing is known about it.

@@ -66,10 +66,11 @@ class Newton {
 
     /// Finds trial.u and trial.p (starting from the values they have), fills the rest of trial.
     NewtonOutcome solve(const StepProblem& problem, Motion& trial);
-    /// Adds this share of the elastic stiffness to tangents from now on: at a limit state, where theirs
-    /// is singular, the iterations stay bounded. The equilibrium that they find is the same.
-    void stiffen(double share) {
-        stiffened_ = share;
+    /// stiffened: with a part of the elastic stiffness, for limit states, where the laws' tangents are
+    /// singular. There a solution within a wider tolerance counts once its residual falls no further.
+    enum class Tangent { of_the_laws, stiffened };
+    void take(Tangent tangent) {
+        tangent_ = tangent;
         forget_matrix();
     }
     /// The next solve starts with a new factorisation.
@@ -113,7 +114,7 @@ class Newton {
     LinearSystem matrix_;
     std::optional<LinearSystem> elastic_;  ///< only with stiffness-proportional damping
     NewtonMemory memory_;                  ///< values stay in matrix_
-    double stiffened_ = 0.0;               ///< share of the elastic stiffness in tangents [-]
+    Tangent tangent_ = Tangent::of_the_laws;
     NewtonCounts counts_;
     Eigen::VectorXd viscous_;    ///< only with a viscosity: its force, per dof [N]
     Eigen::VectorXd R_u_;        ///< out-of-balance force, per dof [N]

@@ -58,10 +58,11 @@ std::vector<Flag> walls_reached(const scene::Mpm& mpm, const FlowView& view, con
     return flags;
 }
 
-/// Downstream end of the soil that does not count for the runout, and its level there.
+/// Downstream end of the soil that does not count for the runout, and its levels there.
 struct GroundEnd {
     double x = -infinity;
     double top = -infinity;
+    double bottom = infinity;
 };
 
 std::optional<GroundEnd> ground_end(const scene::Scene& scene) {
@@ -71,8 +72,9 @@ std::optional<GroundEnd> ground_end(const scene::Scene& scene) {
         if (named.empty() || std::ranges::find(named, region.name) != named.end()) continue;
         for (const scene::Vec2& vertex : region.polygon) {
             if (vertex.x() < end.x) continue;
-            end.top = vertex.x() > end.x ? vertex.y() : std::max(end.top, vertex.y());
-            end.x = vertex.x();
+            if (vertex.x() > end.x) end = {.x = vertex.x()};
+            end.top = std::max(end.top, vertex.y());
+            end.bottom = std::min(end.bottom, vertex.y());
         }
     }
     if (end.x == -infinity) return std::nullopt;
@@ -100,8 +102,9 @@ std::optional<Flag> ground_left(const scene::Scene& scene, const FlowView& view,
                     " m and nature does not: the runout is wrong; draw the ground on to the end of "
                     "domain_x, x = " +
                     text_of(view.high, 9) +
-                    " m, or write the terrain beyond it: \"terrain\": [..., [" +
-                    text_of(end->x, 9) + ", " + text_of(end->top, 9) + "], [" +
+                    " m, or let the terrain rise to its top behind it: \"terrain\": [..., [" +
+                    text_of(end->x, 9) + ", " + text_of(end->bottom, 9) + "], [" +
+                    text_of(end->x + 0.1 * view.width, 9) + ", " + text_of(end->top, 9) + "], [" +
                     text_of(view.high, 9) + ", " + text_of(end->top, 9) + "]]",
                 "/section/regions"};
 }

@@ -17,7 +17,7 @@ namespace {
 // CPU seconds and bytes per piece of work: fits to the runs of README.md, in this folder. Another
 // machine is within the factor of two that all ranges have, or `learn` says how far it is off.
 constexpr double start_up = 0.01;                  // a program's own [s]
-constexpr double per_surface_and_slice = 6.8e-8;   // [s]
+constexpr double per_slice = 1.05e-7;              // [s]
 constexpr double per_polyline_and_slice = 6.5e-7;  // [s]
 constexpr double per_element_step = 2.5e-6;        // iterations included [s]
 constexpr double softening_elements = 1200;        // with more of them bands need more iterations
@@ -48,11 +48,10 @@ PhaseCost lem_cost(const scene::Scene& scene) {
     const scene::Lem& lem = *scene.lem;
     const Searches searches = searches_of(scene);
     const double circles = searches.surfaces * searches.stages;
-    const double per_slice =
-        per_surface_and_slice * circles + per_polyline_and_slice * searches.polylines;
     return {phases::lem.program,
             {{"surfaces", circles + searches.polylines}},
-            around(start_up + per_slice * lem.slices),
+            around(start_up + per_slice * searches.slices +
+                   per_polyline_and_slice * searches.polylines * lem.slices),
             around(lem_bytes(lem)),
             ""};
 }

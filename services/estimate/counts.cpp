@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "core/scene/resolution.hpp"
 
@@ -133,14 +136,93 @@ double searches_for(scene::VariedSurface surface, double variations, double surf
     return 1.0 + (surface == scene::VariedSurface::searched ? variations : variations / surfaces);
 }
 
-/// Surfaces of straight pieces: the given one, and those on the way down from each stage's circle.
-double polylines_of(const scene::Lem& lem) {
-    if (!lem.non_circular) return 0.0;
-    const double given = lem.non_circular->given.empty() ? 0.0 : 1.0;
+/// Straight lower borders of regions that circles can touch: each line once, none below the lowest level.
+double boundaries_of(const scene::Scene& scene) {
+    const auto& lowest = scene.lem->search->lowest_level;
+    std::set<std::pair<double, double>> lines;
+    for (const scene::Region& region : scene.section.regions) {
+        const Polygon& ring = region.polygon;
+        const bool anticlockwise = scene::signed_area(ring) > 0.0;
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Vec2& a = ring[i];
+            const Vec2& b = ring[(i + 1) % ring.size()];
+            const double run = anticlockwise ? b.x() - a.x() : a.x() - b.x();
+            if (run <= 0.0 || (lowest && std::max(a.y(), b.y()) <= *lowest)) continue;
+            const double slope = (b.y() - a.y()) / (b.x() - a.x());
+            lines.emplace(std::round(1e6 * slope), std::round(1e3 * (a.y() - slope * a.x())));
+        }
+    }
+    return static_cast<double>(lines.size()) + (lowest ? 1.0 : 0.0);
+}
+
+/// Vertical strips of the section: every vertex of a region or of the phreatic line begins one.
+double strips_of(const scene::Scene& scene) {
+    std::set<double> starts;
+    const auto add = [&](const std::vector<Vec2>& points) {
+        for (const Vec2& p : points) starts.insert(std::round(1e6 * p.x()));
+    };
+    for (const scene::Region& region : scene.section.regions) add(region.polygon);
+    if (scene.lem->water) add(scene.lem->water->line);
+    return static_cast<double>(starts.size()) - 1.0;
+}
+
+/// Strength of a region under 100 kPa [Pa].
+double strength_of(const scene::Scene& scene, const scene::Region& region) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    if (region.material >= scene.materials.size()) return unknown;
+    const auto strength = limit_strength(scene.materials[region.material]);
+    return strength ? strength->c + 1e5 * strength->tan_phi : unknown;
+}
+
+/// Layers thinner than a tenth of their depth and weaker than all thicker soil: each is searched along.
+double thin_weak_layers(const scene::Scene& scene) {
+    double top = -std::numeric_limits<double>::infinity();
+    for (const scene::Region& each : scene.section.regions)
+        top = std::max(top, scene::bounding_box(each.polygon).high.y());
+    const auto is_thin = [&](const scene::Region& region) {
+        const scene::Box box = scene::bounding_box(region.polygon);
+        const double thickness = scene::area(region.polygon) / (box.high.x() - box.low.x());
+        return thickness < 0.1 * (top - box.low.y());
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (const scene::Region& each : scene.section.regions)
+        if (!is_thin(each)) least = std::min(least, strength_of(scene, each));
+    return static_cast<double>(
+        std::ranges::count_if(scene.section.regions, [&](const scene::Region& each) {
+            return is_thin(each) && strength_of(scene, each) < 0.95 * least;
+        }));
+}
+
+/// Slices cut by a whole search, by its grid alone, and by the grid without the scene's bounds.
+struct SlicesCut {
+    double whole, grid, without_bounds;
+};
+
+SlicesCut slices_cut(const scene::Scene& scene) {
+    constexpr double coarse_slices = 25.0;
+    constexpr double descents = 4600.0;  // measured: 4,073 to 4,600 for 24 x 24 x 24
+    const scene::Lem& lem = *scene.lem;
+    const scene::SlipSearch& search = *lem.search;
+    const double touching = 2.0 * boundaries_of(scene), strips = strips_of(scene);
+    const double pairs = static_cast<double>(search.entry_points) * search.exit_points;
+    const double per_circle = std::min<double>(lem.slices, coarse_slices) + strips;
+    const double grid = pairs * (search.depths + touching) * per_circle;
+    constexpr double coarser = 2.0 / 3.0;
+    return {grid + descents * (lem.slices + strips), grid,
+            coarser * coarser * pairs * (coarser * search.depths + touching) * per_circle};
+}
+
+/// Surfaces of straight pieces: the given one, and those on the way down from each stage's surface,
+/// where they are asked for or a thin weak layer is there.
+double polylines_of(const scene::Lem& lem, double thin_layers) {
+    constexpr int usual_vertices = 13;
+    const double given = lem.non_circular && !lem.non_circular->given.empty() ? 1.0 : 0.0;
+    const int asked = lem.non_circular ? lem.non_circular->vertices : 0;
+    const int vertices = asked == 0 && thin_layers > 0.0 ? usual_vertices : asked;
     const auto stages = static_cast<double>(lem.liquefaction.size());
     const double descents = stages > 0.0 ? 2.0 + stages : 1.0;  // that without layers twice
     // measured: 7,336, 10,401 and 16,784 with 13, 30 and 60 vertices, 6,105 to 8,859 with 13
-    return given + descents * 2100.0 * std::sqrt(lem.non_circular->vertices);
+    return given + descents * 2100.0 * std::sqrt(vertices);
 }
 
 }  // namespace
@@ -216,16 +298,28 @@ double runout_step(const scene::Scene& scene) {
 Searches searches_of(const scene::Scene& scene) {
     const scene::Lem& lem = *scene.lem;
     constexpr double refinement = 1.33;  // measured: 18,424 and 17,897 for 24 x 24 x 24
-    Searches all{1.0, 1.0 + static_cast<double>(lem.liquefaction.size()), polylines_of(lem)};
-    if (lem.search)
+    const double thin_layers = lem.search ? thin_weak_layers(scene) : 0.0;
+    Searches all{1.0, 1.0 + static_cast<double>(lem.liquefaction.size()),
+                 polylines_of(lem, thin_layers), 0.0};
+    SlicesCut cut{static_cast<double>(lem.slices), 0.0, 0.0};
+    if (lem.search) {
         all.surfaces =
             refinement * lem.search->entry_points * lem.search->exit_points * lem.search->depths;
+        cut = slices_cut(scene);
+    }
+    // The crack's depth is sought on 2 to 13 grids; one or two whole searches follow.
+    constexpr double wholes_with_crack = 2.5, grids_with_crack = 7.0;
+    const double family =
+        lem.tension_crack ? wholes_with_crack * cut.whole + grids_with_crack * cut.grid : cut.whole;
+    all.slices = all.stages * ((1.0 + thin_layers) * family + cut.without_bounds);
+    double varied = 0.0;
     if (lem.sensitivity)
-        all.stages +=
+        varied +=
             searches_for(lem.sensitivity->surface, 2.0 * strength_parameters(scene), all.surfaces);
     if (lem.probability)
-        all.stages +=
-            searches_for(lem.probability->surface, lem.probability->samples, all.surfaces);
+        varied += searches_for(lem.probability->surface, lem.probability->samples, all.surfaces);
+    all.stages += varied;
+    all.slices += varied * cut.whole;
     return all;
 }
 

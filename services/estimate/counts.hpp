@@ -36,6 +36,8 @@ struct Searches {
     double surfaces;
     double stages;
     double polylines;
+    /// Of all circles, those along thin weak layers, of other crack depths and beyond the bounds, too.
+    double slices;
 };
 /// Of a scene with /lem.
 Searches searches_of(const scene::Scene& scene);

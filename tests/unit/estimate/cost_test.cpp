@@ -98,6 +98,40 @@ TEST(Counts, VariationsAndSurfacesOfStraightPiecesAreSearchedFor) {
         49904.0, 0.1 * 49904.0);
 }
 
+TEST(Counts, CracksThinWeakLayersAndBoundsAreSearchedFor) {
+    const double alone = searches_of(shipped("slope")).slices;
+    EXPECT_GT(searches_of(shipped("slope", {R"(/lem/tension_crack={"depth":2})"})).slices,
+              3.0 * alone);
+    const scene::Scene seam =
+        scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/acads4_scene.json");
+    scene::Scene sound = seam;
+    for (scene::Material& each : sound.materials) each = sound.materials.front();
+    EXPECT_GT(searches_of(seam).slices, 1.5 * searches_of(sound).slices);
+}
+
+TEST(Cost, OfLimitEquilibriumIsWithinTwoOfWhatItTook) {
+    // CPU seconds on 2026-11-26, on a loaded machine of two cores, the least of two or three runs.
+    const auto expect = [](const scene::Scene& scene, double measured) {
+        const Range said = of(cost_of(scene), "lem_tool").cpu_seconds;
+        std::printf("    %-22s took %.3f CPU s, said %.3f to %.3f\n", scene.name.c_str(), measured,
+                    said.low, said.high);
+        EXPECT_GT(measured, said.low) << scene.name;
+        EXPECT_LT(measured, said.high) << scene.name;
+    };
+    expect(shipped("slope"), 0.091);
+    expect(shipped("flow_slope"), 0.085);
+    expect(shipped("static_lift"), 0.176);
+    expect(shipped("static_phreatic_rise"), 0.166);
+    expect(shipped("static_toe_cut"), 0.131);
+    expect(shipped("mochikoshi"), 1.131);
+    expect(shipped("merriespruit"), 1.645);
+    expect(shipped("slope", {R"(/lem/tension_crack={"depth":2})"}), 0.562);
+    expect(shipped("slope", {R"(/lem/sensitivity={"surface":"searched"})"}), 0.640);
+    expect(shipped("slope", {R"(/lem/non_circular={"vertices":13})"}), 0.494);
+    expect(scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/acads4_scene.json"), 0.587);
+    expect(shipped("mochikoshi", {R"(/lem/sensitivity={"surface":"searched"})"}), 5.735);
+}
+
 TEST(Cost, HasThePhasesOfTheScene) {
     std::vector<std::string> phases;
     for (const PhaseCost& each : cost_of(shipped("mochikoshi_runout")))

@@ -88,6 +88,36 @@ TEST(NodeForces, WhatCannotActIsRefusedWithItsPlace) {
     EXPECT_EQ(refused(force({1, 1}, 1, 0)), "/fem/stages/1/forces/0") << "the wall holds it";
 }
 
+TEST(DisplacedEdges, ThrustHasAllThatTheSupportBeforeGave) {
+    // 50 kPa on top between smooth walls; then the left one is driven in twice, 1 mm each time.
+    constexpr double at_rest = nu / (1.0 - nu) * q, per_metre = E / (1.0 - nu * nu);
+    const json drive = {{{"name", "wall"}, {"from", {0, 0}}, {"to", {0, 1}}, {"x", 1e-3}}};
+    json scene = bench::scene_of(
+        {.columns = 2,
+         .rows = 2,
+         .gravity = 0.0,
+         .stages = {
+             static_stage("rest", pressed(q / 1e3)),
+             static_stage("in", {{"release", {"left"}}, {"load_steps", 4}, {"displace", drive}}),
+             static_stage("farther in", {{"load_steps", 4}, {"displace", drive}})}});
+    scene["fem"]["supports"][2]["fixes"] = "y";
+    bench::Run run(scene);
+    run.go();
+    for (int n = 0; n < 2; ++n) {
+        const std::string stage = n == 0 ? "in" : "farther in";
+        const json& path = run.session().result()["geostatic"][stage]["displaced"]["wall"];
+        ASSERT_EQ(path.size(), 4u);
+        double largest = 0.0;
+        for (const json& at : path) {
+            const double moved = 1e-3 * (n + at["load"].get<double>());
+            largest = std::max(
+                largest,
+                std::abs(at["force_x"].get<double>() / (at_rest + per_metre * moved) - 1.0));
+        }
+        expect_error(stage + ": thrust at the wall", largest, 1e-8);
+    }
+}
+
 /// Creep of epsilon_q is a principal strain of that times sqrt(3)/2 in the plane.
 constexpr double principal(double epsilon_q) { return 0.5 * std::numbers::sqrt3 * epsilon_q; }
 

@@ -62,6 +62,32 @@ def test_walls(scratch):
     print(f"roller at 25 m: {walled.result['runout']:.1f} m, flagged; with the domain that the flag advises {again.result['runout']:.1f} m of {runout:.1f} m")
 
 
+def test_end_of_the_ground(scratch):
+    """A column on 3 m of firm ground that ends in a step 15 m beyond its toe, half as far as the column runs."""
+    def on_ground(end, **mpm):
+        friction = [{"from": 0, "to": 100, "coefficient": 0.5}]
+        scene = column(**{"domain_x": [0, 100], "domain_y": [-5, 24], "floor": {"level": -3, "friction": friction},
+                          "runout": {"toe": [10, 0], "regions": ["s"]}, **mpm})
+        scene["materials"]["firm"] = {"density": 2000, "law": {"type": "linear_elastic", "E_MPa": 100, "nu": 0.3}}
+        scene["section"]["regions"].append({"name": "ground", "material": "firm",
+                                            "polygon": [[0, -3], [end, -3], [end, 0], [10, 0], [0, 0], [0, -3]]})
+        return scene
+
+    whole = Run(scratch, on_ground(100))
+    assert whole.flag("reached_wall") is None, whole.result["flags"]
+    short = Run(scratch, on_ground(25))
+    flag = short.flag("reached_wall")
+    assert flag and flag["severity"] == "questionable" and flag["pointer"] == "/section/regions", short.result["flags"]
+    assert "end of the section's ground (x = 25 m), where the model drops by 3 m" in flag["message"], flag
+    # The advice, as it stands in the message.
+    beyond = json.loads("[" + flag["message"].split("[..., ")[1].split("]]")[0] + "]]")
+    floor = {"level": -5, "friction": [{"from": 0, "to": 100, "coefficient": 0.5}]}
+    advised = Run(scratch, on_ground(25, floor=floor, terrain=[[0, -3], *beyond]))
+    runouts = [each.result["runout"] for each in (whole, short, advised)]
+    print("ground to 100 m: {:.1f} m; to 25 m: {:.1f} m, flagged; with the terrain that the flag advises {:.1f} m".format(*runouts))
+    assert advised.flag("reached_wall") is None and abs(runouts[2] / runouts[0] - 1) < 0.1, advised.result["flags"]
+
+
 def test_support_below_the_section(scratch):
     for gap, more in ((5, {"domain_y": [-8, 24], "floor": {"level": -7, "friction": [{"from": 0, "to": 60, "coefficient": 0.5}]},
                            "terrain": [[0, -5], [60, -5]]}),
@@ -116,6 +142,7 @@ if __name__ == "__main__":
         sys.exit(77)
     with tempfile.TemporaryDirectory() as scratch:
         test_walls(scratch)
+        test_end_of_the_ground(scratch)
         test_banks(scratch)
         test_advice(scratch)
         test_support_below_the_section(scratch)
