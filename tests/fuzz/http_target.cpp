@@ -83,6 +83,8 @@ class Stand : public httplib::Server {
                    retention_,
                    board_,
                    frames_,
+                   earlier_costs_,
+                   keys_,
                    folder_.path(),
                    {{"lem_tool", 1}, {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}},
                    BREACH_ROOT "/services/web/static",
@@ -110,6 +112,8 @@ class Stand : public httplib::Server {
     ProgressBoard board_;
     NoExecutor executor_;
     FrameReader frames_;
+    EarlierCosts earlier_costs_;
+    KeysInProgress keys_;
     Dispatcher dispatcher_;
     Retention retention_;
     Service service_;

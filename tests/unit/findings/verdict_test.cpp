@@ -24,7 +24,8 @@ TEST(Verdict, IsUsableWhereNothingIsAgainstIt) {
 }
 
 TEST(Verdict, IsNoOfASectionThatDoesNotStandAsBuilt) {
-    const Verdict verdict = verdict_of({.state = "succeeded", .unstable = Unstable{1, 1, 0.054, ""}});
+    const Verdict verdict =
+        verdict_of({.state = "succeeded", .unstable = Unstable{1, 1, 0.054, ""}});
     EXPECT_EQ(verdict.usable, Usable::no);
     ASSERT_EQ(verdict.reasons.size(), 1u);
     EXPECT_EQ(verdict.reasons[0].code, "does_not_stand");
@@ -43,23 +44,25 @@ TEST(Verdict, IsNoOfImplausibleEntriesThoughTheyAreWarnings) {
                           .raised = {raised("implausible", Severity::warning, 1, 1)}})
                   .usable,
               Usable::no);
-    EXPECT_EQ(verdict_of({.state = "succeeded",
-                          .raised = {raised("far_crest", Severity::warning, 1, 1)}})
-                  .usable,
-              Usable::with_remarks);
+    EXPECT_EQ(
+        verdict_of({.state = "succeeded", .raised = {raised("far_crest", Severity::warning, 1, 1)}})
+            .usable,
+        Usable::with_remarks);
 }
 
 TEST(Verdict, IsNoWhereNothingWasTransferred) {
     Facts facts{.state = "partial", .without_transfer = {{"", true, "window: not met"}}};
     EXPECT_EQ(verdict_of(facts).usable, Usable::no);
     facts.has_runout = true;
-    EXPECT_EQ(verdict_of(facts).usable, Usable::with_remarks) << "another variant has one, and this dam may stand";
+    EXPECT_EQ(verdict_of(facts).usable, Usable::with_remarks)
+        << "another variant has one, and this dam may stand";
     facts.without_transfer[0].stood = false;
     EXPECT_EQ(verdict_of(facts).usable, Usable::questionable);
 }
 
 TEST(Verdict, IsNoWhereAllTransfersCameBeforeLiquefactionHadEnded) {
-    EXPECT_EQ(verdict_of({.state = "succeeded", .early = Early{2, 2, 1.0, 3.9}}).usable, Usable::no);
+    EXPECT_EQ(verdict_of({.state = "succeeded", .early = Early{2, 2, 1.0, 3.9}}).usable,
+              Usable::no);
     EXPECT_EQ(verdict_of({.state = "succeeded", .early = Early{2, 9, 1.0, 3.9}}).usable,
               Usable::questionable);
 }
@@ -92,9 +95,9 @@ TEST(Verdict, SaysOnceWhatSeveralPhasesSayOfOneScene) {
 
 TEST(Verdict, IsNotFinishedWhileTheRunGoesOn) {
     EXPECT_EQ(verdict_of({.state = "running"}).usable, Usable::not_finished);
-    EXPECT_EQ(verdict_of({.state = "failed", .broken = {{"fem_solver", 1, 1, "fem: full disk"}}})
-                  .usable,
-              Usable::in_part);
+    EXPECT_EQ(
+        verdict_of({.state = "failed", .broken = {{"fem_solver", 1, 1, "fem: full disk"}}}).usable,
+        Usable::in_part);
 }
 
 TEST(Flags, MakeDistancesLowerBoundsWhereTheSoilStillMoves) {
