@@ -363,9 +363,11 @@ test("a scene without a FEM is shown by variant: no transfer time, no triggers, 
 
     const { mpm, ...standing } = flow.scene;
     await submit({ ...flow, title: "Stability alone", name: "stability-alone", scene: standing });
+    // The run before had as many markers of the same quantity: only what is offered tells that this one is shown.
+    const offered = async () => (await page.locator("#runout-measure option:not([hidden])").allTextContents()).join();
+    await until("its only quantity", async () => (await offered()) === "factor of safety");
     await until("one marker per variant", async () => (await markers()) === 2);
     assert.equal(await text_of("#runout-title"), "Factor of safety by variant");
-    assert.deepEqual(await page.locator("#runout-measure option:not([hidden])").allTextContents(), ["factor of safety"]);
     for (const none of ["#particles", "#telemetry", "#triggers"]) assert.ok(!(await page.isVisible(none)), `${none} has nothing to show`);
     await screenshot(page, "static_stability");
     await page.click("#run-list li:last-child a");
