@@ -85,7 +85,7 @@ TEST(Queue, RetryRunsWhatEndedBadlyAndNothingElse) {
     EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").status, 202);
     const json end = service.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
-    EXPECT_EQ(end.at("message"), "");
+    EXPECT_EQ(end.at("message"), "1 of 1 runouts flagged implausible");
     EXPECT_EQ(task_labelled(end, "fem").at("attempts").size(), 1u);
     EXPECT_EQ(task_labelled(end, "mpm_0.250000").at("attempts").size(), 2u);
 }

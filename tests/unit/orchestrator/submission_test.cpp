@@ -141,7 +141,8 @@ TEST(ResultsThatMove, AreQuestionableWhereverTheyAreShown) {
     const json ended = service.wait_for_end(run);
     EXPECT_EQ(ended.at("state"), "questionable");
     EXPECT_EQ(ended.at("questionable"), 2);
-    EXPECT_EQ(ended.at("message"), "2 of 3 runouts still moving: lower bounds");
+    EXPECT_EQ(ended.at("message"),
+              "3 of 3 runouts flagged implausible; 2 of 3 runouts still moving: lower bounds");
     EXPECT_EQ(ended.at("flag_counts"), json({{"still_moving", 2}, {"implausible", 3}}));
     const json task = task_labelled(ended, "mpm_0.500000");
     EXPECT_EQ(task.at("state"), "succeeded");  // what the lifecycle says
