@@ -76,10 +76,59 @@ void send_file(const Service& service, Call& call, const std::string& name) {
 
 /// openapi.json; what a row of results holds is said by the table of its columns, what right an operation takes by
 /// the table of the routes.
+using Description = nlohmann::ordered_json;
+
+/// "problems": statuses that are answered by a problem; any other may be, too.
+void add_problems(Description& operation) {
+    const json problem{{"$ref", "#/components/responses/Problem"}};
+    for (const auto& status : operation.value("problems", Description::array()))
+        operation["responses"][std::to_string(status.get<int>())] = problem;
+    operation["responses"]["default"] = problem;
+    operation.erase("problems");
+}
+
+/// "json": the schema of a JSON body.
+void name_media_type(Description& body) {
+    if (!body.contains("json")) return;
+    body["content"]["application/json"]["schema"] = body["json"];
+    body.erase("json");
+}
+
+/// "{run}" of the path is a required parameter, before those that are listed.
+void add_path_parameters(const std::string& path, Description& operation) {
+    Description parameters = Description::array();
+    for (std::size_t at = path.find('{'); at != std::string::npos; at = path.find('{', at + 1))
+        parameters.push_back({{"name", path.substr(at + 1, path.find('}', at) - at - 1)},
+                              {"in", "path"},
+                              {"required", true},
+                              {"schema", {{"type", "string"}}}});
+    for (auto& each : operation.value("parameters", Description::array()))
+        parameters.push_back(each);
+    if (!parameters.empty()) operation["parameters"] = std::move(parameters);
+}
+
+/// "extends": the properties of another schema come before its own.
+void extend(Description& schemas, Description& schema) {
+    if (!schema.contains("extends")) return;
+    Description& base = schemas[schema["extends"].get<std::string>()];
+    extend(schemas, base);
+    Description whole = base;
+    whole["properties"].update(schema["properties"]);
+    for (auto& each : schema["required"]) whole["required"].push_back(each);
+    schema = std::move(whole);
+}
+
 std::string api_description(const Router& router) {
-    auto document = nlohmann::ordered_json::parse(openapi_text());
+    auto document = Description::parse(openapi_text());
+    Description& schemas = document["components"]["schemas"];
+    for (auto& each : schemas) extend(schemas, each);
+    schemas.erase("Sweep");  // only extended
     for (auto& [path, operations] : document["paths"].items()) {
         for (auto& [method, operation] : operations.items()) {
+            for (auto& response : operation["responses"]) name_media_type(response);
+            if (operation.contains("requestBody")) name_media_type(operation["requestBody"]);
+            add_problems(operation);
+            add_path_parameters(path, operation);
             std::string name = method;
             std::ranges::transform(name, name.begin(),
                                    [](unsigned char c) { return std::toupper(c); });
@@ -89,8 +138,8 @@ std::string api_description(const Router& router) {
             operation["security"] = json::array({json::object(), {{"bearer", {name_of(right)}}}});
         }
     }
-    document["components"]["schemas"]["SweepRow"] = schema_of_rows(result_columns());
-    document["components"]["schemas"]["SweepMean"] = schema_of_rows(mean_columns());
+    schemas["SweepRow"] = schema_of_rows(result_columns());
+    schemas["SweepMean"] = schema_of_rows(mean_columns());
     return document.dump(1);
 }
 
