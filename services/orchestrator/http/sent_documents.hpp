@@ -6,7 +6,7 @@
 #include <string>
 
 #include "services/orchestrator/http/service.hpp"
-#include "services/orchestrator/study/study.hpp"
+#include "services/orchestrator/study/read_study.hpp"
 
 namespace breach::orchestrator {
 

@@ -46,15 +46,4 @@ struct Study {
         warnings;  ///< of its scenes, each once; pointers are those of the study
 };
 
-/// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
-Study read_study(std::string_view text, const SentFiles& files = {});
-Study read_study_document(nlohmann::json document, const SentFiles& files = {});
-
-struct WholeScene {
-    nlohmann::json completed;
-    std::vector<fault::Flag> warnings;
-};
-/// A scene on its own, as /v1/scenes/plan takes it. Throws BadInput.
-WholeScene read_whole_scene(std::string_view text, const SentFiles& files = {});
-
 }  // namespace breach::orchestrator

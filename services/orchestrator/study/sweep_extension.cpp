@@ -8,6 +8,7 @@
 #include "core/phases/phases.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
+#include "services/orchestrator/study/read_study.hpp"
 
 namespace breach::orchestrator {
 

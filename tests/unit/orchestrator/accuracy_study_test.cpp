@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "services/orchestrator/accuracy/measured.hpp"
+#include "services/orchestrator/study/read_study.hpp"
 #include "tests/unit/orchestrator/column_study.hpp"
 
 namespace breach::orchestrator::accuracy_study_test {

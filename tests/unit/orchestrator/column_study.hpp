@@ -7,6 +7,7 @@
 
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/study/graph.hpp"
+#include "services/orchestrator/study/read_study.hpp"
 
 namespace breach::orchestrator {
 

@@ -1,4 +1,4 @@
-#include "services/orchestrator/study/study.hpp"
+#include "services/orchestrator/study/read_study.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 
+#include "services/orchestrator/study/read_study.hpp"
 #include "tests/unit/orchestrator/column_study.hpp"
 
 namespace breach::orchestrator::uncertainty_study_test {

@@ -1,0 +1,19 @@
+// Reads a study: one reader for each kind of question.
+#pragma once
+
+#include "services/orchestrator/study/study.hpp"
+
+namespace breach::orchestrator {
+
+/// Throws BadInput with every fault; pointers are those of the study ("/scene/materials/...").
+Study read_study(std::string_view text, const SentFiles& files = {});
+Study read_study_document(nlohmann::json document, const SentFiles& files = {});
+
+struct WholeScene {
+    nlohmann::json completed;
+    std::vector<fault::Flag> warnings;
+};
+/// A scene on its own, as /v1/scenes/plan takes it. Throws BadInput.
+WholeScene read_whole_scene(std::string_view text, const SentFiles& files = {});
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,144 @@
+#include "services/orchestrator/study/transfers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/check/measured.hpp"
+#include "core/criteria/expression.hpp"
+#include "services/orchestrator/records/identity.hpp"
+
+namespace breach::orchestrator {
+
+using fault::BadInput;
+using fault::Fault;
+using nlohmann::json;
+
+namespace {
+
+constexpr std::size_t most_times = 10000;
+constexpr double unknown_span = 1e9;  // of a FEM that could not be read [s]: nothing is too late
+constexpr double microsecond = 1e-6;  // two times closer than this would share a snapshot's name
+
+/// The double nearest to the spelt time: 0.1 + 0.2 becomes 0.3, so snapshot, override and row
+/// agree.
+double in_microseconds(double time) { return std::stod(spelt(time)); }
+
+std::vector<double> even_range(const json& range, std::vector<Fault>& faults) {
+    const double from = range.at("from");
+    const double to = range.at("to");
+    const double step = range.at("step");
+    if (to < from) {
+        faults.push_back({"/transfer_times/to", "the range ends before it begins",
+                          "give to >= from, or a list of times"});
+        return {};
+    }
+    if (step < microsecond) {
+        faults.push_back({"/transfer_times/step", "the step is below one microsecond",
+                          "give a step of at least 1e-6 s"});
+        return {};
+    }
+    const double count = std::floor((to - from) / step + 1e-9) + 1;
+    if (count > static_cast<double>(most_times)) {
+        faults.push_back({"/transfer_times/step",
+                          "the range holds more than " + std::to_string(most_times) + " times",
+                          "give a larger step"});
+        return {};
+    }
+    std::vector<double> times;
+    for (double i = 0; i < count; ++i) times.push_back(from + i * step);
+    return times;
+}
+
+std::vector<double> wanted_times(const json& entry, std::vector<Fault>& faults) {
+    std::vector<double> times =
+        entry.is_array() ? entry.get<std::vector<double>>() : even_range(entry, faults);
+    for (double& time : times) time = in_microseconds(time);
+    std::ranges::sort(times);
+    const auto equal = std::ranges::adjacent_find(times);
+    if (equal != times.end()) {
+        faults.push_back({"/transfer_times", "the time " + spelt(*equal) + " s is given twice",
+                          "give each transfer time once (they are told apart to 1e-6 s)"});
+    }
+    return times;
+}
+
+/// Fields that a condition asks for; none where it cannot be read, which is told elsewhere.
+std::vector<std::string> fields_of(const std::string& condition) {
+    try {
+        return criteria::parse(condition, criteria::Kind::condition, "").fields;
+    } catch (const BadInput&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+double dynamic_duration(const scene::Fem& fem) {
+    double sum = 0.0;
+    for (const scene::Stage& stage : fem.stages) sum += stage.duration;
+    return sum;
+}
+
+bool is_late(double time, const scene::Fem& fem) {
+    return time > dynamic_duration(fem) + microsecond;
+}
+
+void check_times(const std::vector<double>& times, const scene::Fem& fem,
+                 std::vector<Fault>& faults) {
+    if (times.empty()) return;
+    if (is_late(times.back(), fem)) {
+        faults.push_back({"/transfer_times",
+                          "the transfer at " + spelt(times.back()) +
+                              " s comes after the end of the dynamic stages at " +
+                              spelt(dynamic_duration(fem)) + " s",
+                          "transfer earlier or lengthen /scene/fem/stages"});
+    }
+}
+
+void check_fields(const json& triggers, const scene::Scene& scene, bool stability,
+                  std::vector<Fault>& faults) {
+    const bool staged = stability && scene.lem && !scene.lem->liquefaction.empty();
+    for (std::size_t i = 0; i < triggers.size(); ++i) {
+        for (const char* key : {"when", "lower", "upper"}) {
+            if (!triggers[i].contains(key)) continue;
+            const std::string at = "/triggers/" + std::to_string(i) + "/" + key;
+            const auto fields = fields_of(triggers[i][key].get<std::string>());
+            std::ranges::move(check::unmeasured(fields, scene, at), std::back_inserter(faults));
+            if (!staged && std::ranges::find(fields, "critical_depth") != fields.end())
+                faults.push_back(
+                    {at, "asks for critical_depth, which only a stability analysis in stages gives",
+                     "give /scene/lem/liquefaction and leave \"stability\" on"});
+        }
+    }
+}
+
+void read_transfers(const json& document, const scene::Fem* fem, Study& study,
+                    std::vector<Fault>& faults) {
+    const std::size_t before = faults.size();
+    const double span = fem ? dynamic_duration(*fem) : unknown_span;
+    CheckedTriggers checked = check_triggers(document["triggers"], span, "/triggers", faults);
+    std::vector<double> times;
+    const auto take = [&](const json& entry) {
+        const std::vector<double> more = wanted_times(entry, faults);
+        times.insert(times.end(), more.begin(), more.end());
+    };
+    if (document.contains("transfer_times")) take(document["transfer_times"]);
+    for (const json& each : checked.at_time) take(each);
+    std::ranges::sort(times);
+    const auto repeated = std::ranges::unique(times);
+    times.erase(repeated.begin(), repeated.end());
+    study.transfer_times = std::move(times);
+    study.triggers = std::move(checked.live);
+    study.snapshot_interval = checked.snapshot_interval;
+    if (fem) check_times(study.transfer_times, *fem, faults);
+    if (fem && fem->snapshot_interval > 0.0 && study.snapshot_interval > fem->snapshot_interval)
+        study.snapshot_interval = 0.0;  // the scene's own are finer
+    if (study.reach != Reach::chain) return;
+    if (faults.size() == before && study.transfer_times.empty() && document["triggers"].empty()) {
+        faults.push_back({"/transfer_times", "nothing says when to transfer",
+                          "give \"transfer_times\", \"triggers\" or both"});
+    }
+}
+
+}  // namespace breach::orchestrator

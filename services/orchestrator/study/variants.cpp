@@ -1,0 +1,213 @@
+#include "services/orchestrator/study/variants.hpp"
+
+#include <algorithm>
+#include <future>
+#include <set>
+#include <thread>
+
+#include "services/orchestrator/study/checked_scene.hpp"
+#include "services/orchestrator/study/transfers.hpp"
+
+namespace breach::orchestrator {
+
+using fault::Fault;
+using fault::Flag;
+using nlohmann::json;
+
+namespace {
+
+/// What a variant changes for the worse: faults that the scene itself does not have.
+std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& base,
+                                     const std::vector<double>& times) {
+    std::vector<Fault> own;
+    for (const Fault& each : changed.faults) {
+        const bool known = std::ranges::any_of(base.faults, [&](const Fault& other) {
+            return other.pointer == each.pointer && other.cause == each.cause;
+        });
+        if (!known) own.push_back(each);
+    }
+    std::vector<Fault> late;
+    if (changed.scene.fem) check_times(times, *changed.scene.fem, late);
+    for (const Fault& each : late) own.push_back({"/fem/stages", each.cause, each.remedy});
+    return own;
+}
+
+/// Of this list, what the service has not made.
+std::vector<VariantEntry> own_among(const json& entries, const std::string& pointer) {
+    std::vector<VariantEntry> own;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i].contains("made_by")) continue;
+        const std::string at = pointer + "/" + std::to_string(i);
+        own.push_back({.name = entries[i].at("name"),
+                       .overrides = entries[i].at("overrides"),
+                       .name_pointer = at + "/name",
+                       .pointer = at + "/overrides",
+                       .made_by = ""});
+    }
+    return own;
+}
+
+/// One variant's scene as it was checked.
+struct CheckedVariant {
+    json scene;  ///< completed; null where it has faults
+    std::vector<Fault> faults;
+    std::vector<Flag> warnings;  ///< that the scene itself does not have
+};
+
+bool is_same(const Flag& one, const Flag& other) {
+    return one.code == other.code && one.pointer == other.pointer && one.message == other.message;
+}
+
+CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
+                               const std::vector<double>& times) {
+    std::vector<std::string> overrides = base.overrides;
+    overrides.insert(overrides.end(), entry.overrides.begin(), entry.overrides.end());
+    check::Checked changed = check_sent_scene(base.scene, overrides, base.files, *base.recordings);
+    CheckedVariant variant{
+        .scene = nullptr, .faults = faults_of_variant(changed, base, times), .warnings = {}};
+    for (const Flag& each : changed.scene.warnings)
+        if (std::ranges::none_of(base.warnings,
+                                 [&](const Flag& known) { return is_same(known, each); }))
+            variant.warnings.push_back(each);
+    if (changed.faults.empty()) variant.scene = std::move(changed.completed);
+    return variant;
+}
+
+/// All of them, on several threads where they are many: no variant's check hangs on another's.
+std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries, const Base& base,
+                                         const std::vector<double>& times) {
+    constexpr std::size_t worth_a_thread = 50;
+    const std::size_t threads = std::clamp<std::size_t>(
+        std::min<std::size_t>(std::thread::hardware_concurrency(), entries.size() / worth_a_thread),
+        1, 8);
+    std::vector<CheckedVariant> checked(entries.size());
+    const auto check_from = [&](std::size_t first) {
+        for (std::size_t i = first; i < entries.size(); i += threads)
+            checked[i] = checked_variant(entries[i], base, times);
+    };
+    std::vector<std::future<void>> others;
+    for (std::size_t first = 1; first < threads; ++first)
+        others.push_back(std::async(std::launch::async, check_from, first));
+    check_from(0);
+    for (std::future<void>& each : others) each.get();
+    return checked;
+}
+
+/// The warnings of all variants, each once, with the first variant that has it and how many do.
+void add_warnings(const std::vector<VariantEntry>& entries,
+                  const std::vector<CheckedVariant>& checked, std::vector<Flag>& warnings) {
+    struct Found {
+        Flag flag;
+        std::string first;
+        std::size_t variants;
+    };
+    std::vector<Found> found;
+    for (std::size_t i = 0; i < entries.size(); ++i)
+        for (const Flag& flag : checked[i].warnings) {
+            const auto known = std::ranges::find_if(found, [&](const Found& each) {
+                return each.flag.code == flag.code && each.flag.pointer == flag.pointer;
+            });
+            if (known == found.end())
+                found.push_back({flag, entries[i].name, 1});
+            else
+                ++known->variants;
+        }
+    for (Found& each : found) {
+        std::string of = "variant \"" + each.first + "\"";
+        if (each.variants > 1) of += " and " + std::to_string(each.variants - 1) + " more";
+        each.flag.message = of + ": " + each.flag.message;
+        each.flag.pointer = "/scene" + each.flag.pointer;
+        warnings.push_back(std::move(each.flag));
+    }
+}
+
+}  // namespace
+
+std::vector<VariantEntry> own_variants(const json& document) {
+    std::vector<VariantEntry> own = own_among(document["variants"], "/variants");
+    if (!own.empty() || document["variants"].empty() || !document.contains(kept_variants))
+        return own;
+    return own_among(document[kept_variants], std::string("/") + kept_variants);
+}
+
+std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, const json& scene,
+                                          std::vector<Fault>& faults) {
+    constexpr std::size_t longest_name = 32;  // of the schema
+    const Draws draws = draws_of(document);
+    std::vector<VariantEntry> own = own_variants(document);
+    if (draws.first == 0 && draws.count == 1) return own;
+    if (!can_redraw(draws.of, reach)) {
+        if (!document.contains("check")) check_draws(draws, reach, "", faults);
+        return own;
+    }
+    const bool waits = std::ranges::any_of(
+        document["triggers"], [](const json& each) { return each.value("kind", "") != "at_time"; });
+    const std::string refusal(refusal_of_triggers(draws));
+    if (!refusal.empty() && waits && !document.contains("check"))
+        faults.push_back({"/draws_of", refusal,
+                          "give \"transfer_times\", or leave \"draws_of\" out: draws of the "
+                          "points share one FEM and its triggers"});
+    if (own.empty())
+        own.push_back({.name = "",
+                       .overrides = {},
+                       .name_pointer = "/draws",
+                       .pointer = "/draws",
+                       .made_by = ""});
+    std::vector<VariantEntry> entries = repeated(own, draws, reach, scene);
+    for (const VariantEntry& each : entries)
+        if (each.name.size() > longest_name)
+            faults.push_back({each.name_pointer,
+                              "the name of its repeat, \"" + each.name + "\", is too long",
+                              "give the variant a shorter name"});
+    return entries;
+}
+
+json as_json(const std::vector<VariantEntry>& entries) {
+    json list = json::array();
+    for (const VariantEntry& each : entries) {
+        list.push_back({{"name", each.name}, {"overrides", each.overrides}});
+        if (!each.made_by.empty()) list.back()["made_by"] = each.made_by;
+        if (!each.sample.is_null()) list.back()["sample"] = each.sample;
+    }
+    return list;
+}
+
+void keep_variants(const std::vector<VariantEntry>& entries, json& document) {
+    const std::vector<VariantEntry> own = own_variants(document);
+    document["variants"] = as_json(entries);
+    document.erase(kept_variants);
+    if (!own.empty() && own_variants(document).empty()) document[kept_variants] = as_json(own);
+}
+
+std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, const Base& base,
+                                      const std::vector<double>& times, std::vector<Fault>& faults,
+                                      std::vector<Flag>& warnings) {
+    if (entries.empty()) return {{.name = "", .overrides = {}, .scene = base.scene}};
+    std::vector<Variant> variants;
+    std::set<std::string> names;
+    std::vector<CheckedVariant> checked = each_checked(entries, base, times);
+    add_warnings(entries, checked, warnings);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const VariantEntry& entry = entries[i];
+        if (!names.insert(entry.name).second) {
+            faults.push_back({entry.name_pointer, "the name \"" + entry.name + "\" is given twice",
+                              "give each variant a name of its own"});
+        }
+        for (const Fault& each : checked[i].faults) {
+            const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
+            const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
+                              each.pointer + ": " + each.cause,
+                              each.remedy + (of_lattice ? "; or ask for no draws" : "")};
+            const bool told = std::ranges::any_of(faults, [&](const Fault& other) {
+                return of_lattice && other.pointer == fault.pointer && other.cause == fault.cause;
+            });
+            if (!told) faults.push_back(fault);
+        }
+        variants.push_back({.name = entry.name,
+                            .overrides = entry.overrides,
+                            .scene = std::move(checked[i].scene)});
+    }
+    return variants;
+}
+
+}  // namespace breach::orchestrator
