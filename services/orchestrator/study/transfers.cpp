@@ -6,6 +6,7 @@
 
 #include "core/check/measured.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/words/number.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
@@ -57,7 +58,8 @@ std::vector<double> wanted_times(const json& entry, std::vector<Fault>& faults) 
     std::ranges::sort(times);
     const auto equal = std::ranges::adjacent_find(times);
     if (equal != times.end()) {
-        faults.push_back({"/transfer_times", "the time " + spelt(*equal) + " s is given twice",
+        faults.push_back({"/transfer_times",
+                          "the time " + words::text_of(*equal, 9) + " s is given twice",
                           "give each transfer time once (they are told apart to 1e-6 s)"});
     }
     return times;
@@ -89,9 +91,9 @@ void check_times(const std::vector<double>& times, const scene::Fem& fem,
     if (times.empty()) return;
     if (is_late(times.back(), fem)) {
         faults.push_back({"/transfer_times",
-                          "the transfer at " + spelt(times.back()) +
+                          "the transfer at " + words::text_of(times.back(), 9) +
                               " s comes after the end of the dynamic stages at " +
-                              spelt(dynamic_duration(fem)) + " s",
+                              words::text_of(dynamic_duration(fem), 9) + " s",
                           "transfer earlier or lengthen /scene/fem/stages"});
     }
 }
