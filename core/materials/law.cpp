@@ -40,6 +40,11 @@ Law with_S(Law law, double S) {
     return law;
 }
 
+Law with_plasticity(const Law& law, const Plastic& strength) {
+    const auto& [c, phi, psi, tension_cutoff, strength_of] = strength;
+    return MohrCoulomb{elasticity(law), c, phi, psi, tension_cutoff, {}, strength_of};
+}
+
 Law scaled(Law law, double stiffness, double softening_strains) {
     std::visit([&](auto& each) { each.elasticity.E *= stiffness; }, law);
     if (Softening* softens = softening(law)) {

@@ -142,6 +142,16 @@ Law with_strength(Law law, const StrengthOfPoint<double>& strength);
 /// NorSand with the additional softening S of a stage; other laws as they are.
 Law with_S(Law law, double S);
 
+/// Its elasticity alone.
+inline Law elastic_part(const Law& law) { return LinearElastic{elasticity(law)}; }
+/// A strength that does not soften [Pa, rad]; psi: of dilatancy.
+struct Plastic {
+    double c = 0.0, phi = 0.0, psi = 0.0, tension_cutoff = 0.0;
+    StrengthOf strength_of = StrengthOf::law;
+};
+/// Its elasticity with that strength instead of its own.
+Law with_plasticity(const Law& law, const Plastic& strength);
+
 /// E and, where given, the strains of softening multiplied.
 Law scaled(Law law, double stiffness, double softening_strains);
 /// Carries at least this share of its unconfined compressive strength in tension, where it has one.
