@@ -9,23 +9,18 @@ namespace {
 /// A strength that is not the same everywhere stays with the profile, which the law then names.
 void use_limit_strength(scene::Material& material) {
     if (!material.limit_strength && !scene::lem_takes_profile(material)) return;
-    materials::MohrCoulomb law{.elasticity = materials::elasticity(material.law),
-                               .c = 0.0,
-                               .phi = 0.0,
-                               .psi = 0.0,
-                               .tension_cutoff = 0.0,
-                               .softening = {}};
+    materials::Plastic limit;
     if (material.limit_strength) {
-        law.c = material.limit_strength->c;
-        law.phi = material.limit_strength->phi;
+        limit.c = material.limit_strength->c;
+        limit.phi = material.limit_strength->phi;
     } else {
         const materials::StrengthCurve& peak = material.strength->peak;
-        law.c = materials::strength_at(peak, {10.0, 0.0, 1e5}).c;  // > 0 where it can vary
+        limit.c = materials::strength_at(peak, {10.0, 0.0, 1e5}).c;  // > 0 where it can vary
         if (const auto* effective = std::get_if<materials::Effective>(&peak.kind))
-            law.phi = effective->phi;
-        if (!materials::is_uniform(peak)) law.strength_of = materials::StrengthOf::point;
+            limit.phi = effective->phi;
+        if (!materials::is_uniform(peak)) limit.strength_of = materials::StrengthOf::point;
     }
-    material.law = law;
+    material.law = materials::with_plasticity(material.law, limit);
 }
 
 /// Levels at which the layers cut a region, from the top down, without its own top and bottom.
@@ -100,11 +95,13 @@ void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
 /// Paths are walked once, however often a strength is varied.
 void walk_paths(const scene::Scene& scene, std::vector<scene::UndrainedRegion>& entries) {
     for (scene::UndrainedRegion& each : entries) {
-        if (!each.strength.norsand) continue;
+        if (!each.strength.on_path) continue;
         const scene::Material& material =
             scene.materials[scene.section.regions[each.region].material];
-        each.strength.by_state = std::make_shared<const materials::StrengthByState>(
-            std::get<materials::NorSand>(material.law), *each.strength.norsand);
+        materials::if_state_parameter(material.law, [&](const auto& law) {
+            each.strength.by_state = std::make_shared<const materials::UndrainedByPlace>(
+                undrained_by_place(law, *each.strength.on_path));
+        });
     }
 }
 

@@ -5,11 +5,8 @@ namespace breach::fem {
 std::vector<materials::Law> laws_for(const Model& model, scene::StageLaws laws) {
     std::vector<materials::Law> result;
     for (const Zone& zone : model.zones) {
-        if (laws == scene::StageLaws::elastic) {
-            result.emplace_back(materials::LinearElastic{materials::elasticity(zone.law)});
-        } else {
-            result.push_back(zone.law);
-        }
+        const bool elastic = laws == scene::StageLaws::elastic;
+        result.push_back(elastic ? materials::elastic_part(zone.law) : zone.law);
     }
     return result;
 }

@@ -40,16 +40,10 @@ std::vector<materials::Law> frictional_laws(const Model& model, const std::vecto
     std::vector<materials::Law> laws;
     for (std::size_t z = 0; z < phi.size(); ++z) {
         const materials::Law& law = model.zones[z].law;
-        if (!materials::remembers(law)) {
-            laws.push_back(law);
-            continue;
-        }
-        laws.emplace_back(materials::MohrCoulomb{.elasticity = materials::elasticity(law),
-                                                 .c = c,
-                                                 .phi = phi[z],
-                                                 .psi = phi[z],
-                                                 .tension_cutoff = c / std::tan(phi[z]),
-                                                 .softening = {}});
+        laws.push_back(law);
+        if (materials::remembers(law))
+            laws.back() =
+                materials::with_plasticity(law, {c, phi[z], phi[z], c / std::tan(phi[z])});
     }
     return laws;
 }
