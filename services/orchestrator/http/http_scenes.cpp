@@ -1,6 +1,7 @@
 // Stored scenes: kept under the SHA-256 of their completed text, found by it and by names.
 #include "core/exchange/provenance.hpp"
 #include "core/scene/file_paths.hpp"
+#include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
