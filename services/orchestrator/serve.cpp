@@ -83,6 +83,8 @@ int serve(const ServeSettings& settings) {
                      ? "stopping: running phases save their checkpoints"
                      : "stopping: running phases go on");
     server.stop();
+    // Not left to its destructor: that comes when the last client has its answer, and some are slow.
+    dispatcher.stop();
     return 0;
 }
 
