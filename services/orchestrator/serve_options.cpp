@@ -89,26 +89,12 @@ void ServeOptions::add_door(CLI::App& serving) {
                        "PEM file of the certificate, and those between it and the authority: TLS");
     serving.add_option("--tls-key", http.key, "PEM file of its private key, without a password");
     serving
-        .add_option("--request-limit", http.requests_per_token,
-                    "requests a second that one token may make; 0: not limited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    serving
-        .add_option("--address-limit", http.requests_per_address,
-                    "requests a second of one address without a valid token, where tokens are "
-                    "needed; 0: not "
-                    "limited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    serving
         .add_option(
             "--patience", patience_seconds_,
             "seconds that a client has for a request's head, and may pause in its body or in "
             "reading an answer")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
-    serving.add_flag("--behind-proxy", http.behind_proxy,
-                     "a proxy on this machine says in X-Forwarded-For whose request it passes on");
     serving
         .add_option("--allow-folder", allowed_folders_,
                     "scenes may name files below it by their paths; repeatable. Not given: "

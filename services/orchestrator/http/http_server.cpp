@@ -3,11 +3,9 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <cmath>
 #include <thread>
 
 #include "services/orchestrator/access/callers.hpp"
-#include "services/orchestrator/access/rates.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/listener.hpp"
 
@@ -121,14 +119,6 @@ class Intake {
     httplib::ContentReader reader_{nullptr, nullptr};
 };
 
-Problem too_often(httplib::Response& response, double wait) {
-    response.set_header("Retry-After", std::to_string(static_cast<int>(std::ceil(wait))));
-    return {
-        429, "/problems/too-often", "Too many requests",
-        "more requests than this service takes of one sender (--request-limit, --address-limit); "
-        "ask again after Retry-After seconds"};
-}
-
 Problem missing_right(const Caller& caller, Right needed) {
     const std::string right(name_of(needed));
     return {403, "/problems/missing-right", "Missing right",
@@ -159,8 +149,6 @@ class HttpServer::Implementation {
     Implementation(Service& service, HttpSettings settings)
         : settings_(std::move(settings)),
           callers_(settings_.token, settings_.tokens),
-          token_rates_(settings_.requests_per_token),
-          address_rates_(settings_.requests_per_address),
           server_(certificates_of(settings_), settings_.patience) {
         add_all_routes(router_, service, stopping_);
         server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
@@ -263,29 +251,12 @@ class HttpServer::Implementation {
         if (!callers_.needs_token()) return {"", Right::admin};
         const std::string secret = secret_of(request);
         const auto known = secret.empty() ? std::nullopt : callers_.caller(secret);
-        const double wait =
-            known ? token_rates_.wait_of(known->name) : address_rates_.wait_of(address_of(request));
-        if (wait > 0.0) throw too_often(response, wait);
         const Right needed = router_.needed(request.method, request.path);
         if (known && known->right < needed) throw missing_right(*known, needed);
         if (known || needed == Right::none) return known.value_or(Caller{});
         response.set_header("WWW-Authenticate", "Bearer");
         throw Problem{401, "/problems/unauthorized", "Unauthorized",
                       "send a token of this service: Authorization: Bearer ..."};
-    }
-
-    /// Who connects; behind a proxy on this machine, who connected to that. An IPv6 client has 2^64 addresses.
-    std::string address_of(const httplib::Request& request) const {
-        std::string address = request.remote_addr;
-        const std::string forwarded = request.get_header_value("X-Forwarded-For");
-        if (settings_.behind_proxy && is_loopback(address) && !forwarded.empty()) {
-            address = forwarded.substr(forwarded.rfind(',') + 1);  // npos + 1 = 0: the only one
-            address.erase(0, address.find_first_not_of(' '));
-        }
-        std::size_t groups = 0;
-        for (std::size_t i = 0; i < address.size(); ++i)
-            if (address[i] == ':' && ++groups == 4) return address.substr(0, i);
-        return address;
     }
 
     void bind() {
@@ -316,8 +287,6 @@ class HttpServer::Implementation {
 
     HttpSettings settings_;
     Callers callers_;
-    mutable Rates token_rates_;
-    mutable Rates address_rates_;
     Router router_;
     std::atomic<bool> stopping_ = false;
     std::atomic<bool> ended_ = false;

@@ -17,9 +17,6 @@ struct HttpSettings {
     std::filesystem::path tokens;       ///< file of named ones (access/tokens.hpp); empty: none
     std::filesystem::path certificate;  ///< with `key`: TLS; empty: plain
     std::filesystem::path key;
-    double requests_per_token = 2000;   ///< [1/s]; 0: not limited
-    double requests_per_address = 100;  ///< those without a valid token [1/s]; 0: not limited
-    bool behind_proxy = false;          ///< X-Forwarded-For of a proxy on this machine is believed
     Patience patience;
 };
 
