@@ -32,8 +32,7 @@ std::unique_ptr<Executor> executor_of(const ServeSettings& settings) {
 }
 
 void announce(const ServeSettings& settings, int port) {
-    const std::string scheme = settings.http.certificate.empty() ? "http" : "https";
-    const std::string url = scheme + "://" + settings.http.host + ":" + std::to_string(port);
+    const std::string url = "http://" + settings.http.host + ":" + std::to_string(port);
     std::cout << nlohmann::json{{"event", "listening"}, {"url", url}, {"port", port}}.dump()
               << std::endl;
     spdlog::info("listening on {}, data in {}, {} slots {}", url, settings.data.string(),
