@@ -32,8 +32,7 @@ std::unique_ptr<Executor> executor_of(const ServeSettings& settings) {
 }
 
 void announce(const ServeSettings& settings, int port) {
-    const std::string scheme = settings.http.certificate.empty() ? "http" : "https";
-    const std::string url = scheme + "://" + settings.http.host + ":" + std::to_string(port);
+    const std::string url = "http://" + settings.http.host + ":" + std::to_string(port);
     std::cout << nlohmann::json{{"event", "listening"}, {"url", url}, {"port", port}}.dump()
               << std::endl;
     spdlog::info("listening on {}, data in {}, {} slots {}", url, settings.data.string(),
@@ -83,6 +82,8 @@ int serve(const ServeSettings& settings) {
                      ? "stopping: running phases save their checkpoints"
                      : "stopping: running phases go on");
     server.stop();
+    // Not left to its destructor: that comes when the last client has its answer, and some are slow.
+    dispatcher.stop();
     return 0;
 }
 

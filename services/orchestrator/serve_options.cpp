@@ -82,33 +82,8 @@ void ServeOptions::add_door(CLI::App& serving) {
         ->capture_default_str();
     serving.add_option("--token-file", token_file_,
                        "file whose first line is the token that clients must send");
-    HttpSettings& http = settings_.http;
-    serving.add_option("--tokens", http.tokens,
+    serving.add_option("--tokens", settings_.http.tokens,
                        "file of named tokens with rights (breachline token new NAME --rights ...)");
-    serving.add_option("--tls-cert", http.certificate,
-                       "PEM file of the certificate, and those between it and the authority: TLS");
-    serving.add_option("--tls-key", http.key, "PEM file of its private key, without a password");
-    serving
-        .add_option("--request-limit", http.requests_per_token,
-                    "requests a second that one token may make; 0: not limited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    serving
-        .add_option("--address-limit", http.requests_per_address,
-                    "requests a second of one address without a valid token, where tokens are "
-                    "needed; 0: not "
-                    "limited")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
-    serving
-        .add_option(
-            "--patience", patience_seconds_,
-            "seconds that a client has for a request's head, and may pause in its body or in "
-            "reading an answer")
-        ->check(CLI::Range(0.1, 3600.0))
-        ->capture_default_str();
-    serving.add_flag("--behind-proxy", http.behind_proxy,
-                     "a proxy on this machine says in X-Forwarded-For whose request it passes on");
     serving
         .add_option("--allow-folder", allowed_folders_,
                     "scenes may name files below it by their paths; repeatable. Not given: "
@@ -213,8 +188,6 @@ ServeSettings ServeOptions::settings() const {
     wanted.dispatch.bin = std::filesystem::absolute(wanted.dispatch.bin);
     wanted.dispatch.retry_delay =
         std::chrono::milliseconds(static_cast<int>(1000 * retry_seconds_));
-    wanted.http.patience.patience =
-        std::chrono::milliseconds(static_cast<int>(1000 * patience_seconds_));
     for (const std::string& each : limits_) wanted.dispatch.limits.insert(limit_in(each));
     if (!token_file_.empty()) wanted.http.token = token_in(token_file_);
     const bool tokens = !wanted.http.token.empty() || !wanted.http.tokens.empty();

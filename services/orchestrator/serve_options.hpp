@@ -31,7 +31,6 @@ class ServeOptions {
     std::filesystem::path token_file_;
     std::vector<std::filesystem::path> allowed_folders_;
     double retry_seconds_ = 0.5;
-    double patience_seconds_ = 10.0;
     std::vector<std::string> limits_;
 };
 

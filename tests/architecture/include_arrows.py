@@ -70,7 +70,7 @@ owners = {
     "sqlite3.h": ["services/orchestrator/store/"],
     "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],
     "CLI/": ["core/process/", "services/orchestrator/", "services/cli/", "services/report/"],
-    "openssl/": ["core/exchange/", "services/orchestrator/"],
+    "openssl/": ["core/exchange/", "services/orchestrator/access/"],
 }
 include = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 

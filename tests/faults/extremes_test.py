@@ -104,5 +104,28 @@ class Extremes(unittest.TestCase):
         self.assertEqual(self.service.raw(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n" + many + b"\r\n"), 431)
 
 
+    def test_a_body_too_large_is_refused_before_it_is_there(self):
+        head = b"POST /v1/runs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n"
+        before = self.resident_mb()
+        for length in (17 << 20, 1 << 40):
+            clients = [self.service.connect(head % length) for _ in range(8)]
+            for each in clients:
+                try:
+                    for _ in range(15):
+                        each.sendall(b" " * (1 << 20))
+                except OSError:
+                    pass
+            self.assertLess(self.resident_mb() - before, 40, "8 bodies of 15 MB are not kept")
+            for each in clients:
+                each.close()
+        with self.service.connect(head % (17 << 20)) as connection:
+            connection.sendall(b" " * (17 << 20))
+            self.assertIn(b" 413 ", connection.recv(4096))
+
+    def resident_mb(self):
+        status = pathlib.Path(f"/proc/{self.service.process.pid}/status").read_text()
+        return int(status.split("VmRSS:")[1].split()[0]) / 1024
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

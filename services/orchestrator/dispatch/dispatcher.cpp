@@ -85,7 +85,10 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
-Dispatcher::~Dispatcher() {
+Dispatcher::~Dispatcher() { stop(); }
+
+void Dispatcher::stop() {
+    if (!thread_.joinable()) return;
     thread_.request_stop();
     wake();
     thread_.join();

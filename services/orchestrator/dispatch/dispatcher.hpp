@@ -55,11 +55,12 @@ class Dispatcher {
   public:
     Dispatcher(Store& store, const DataFolder& data, Executor& executor, ProgressBoard& board,
                DispatchSettings settings);
-    /// Stops the running attempts with their checkpoints saved; the next start goes on with them.
     ~Dispatcher();
     Dispatcher(const Dispatcher&) = delete;
     Dispatcher& operator=(const Dispatcher&) = delete;
 
+    /// Stops the running attempts with their checkpoints saved; the next start goes on with them.
+    void stop();
     /// Look again: a run was submitted or cancelled.
     void wake();
     /// Look at every blocked task again: some were set back.

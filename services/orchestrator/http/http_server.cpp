@@ -1,15 +1,13 @@
 #include "services/orchestrator/http/http_server.hpp"
 
 #include <spdlog/spdlog.h>
+#include <sys/socket.h>
 
 #include <chrono>
-#include <cmath>
 #include <thread>
 
 #include "services/orchestrator/access/callers.hpp"
-#include "services/orchestrator/access/rates.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
-#include "services/orchestrator/http/listener.hpp"
 
 namespace breach::orchestrator {
 
@@ -17,7 +15,11 @@ namespace {
 
 constexpr std::size_t largest_body = 16 << 20;
 constexpr std::size_t most_headers = 64;
-constexpr std::size_t added_by_httplib = 4;  // REMOTE_ADDR and the like appear among the headers
+constexpr std::size_t added_by_httplib = 4;    // REMOTE_ADDR and the like appear among the headers
+constexpr std::size_t most_connections = 256;  // each holds a thread, a stream of events for long
+constexpr std::size_t most_requests_per_connection = 1000;
+constexpr auto longest_pause = std::chrono::seconds(10);  // of a client that sends or reads
+constexpr int backlog = 512;
 
 bool is_loopback(const std::string& host) {
     return host == "localhost" || host == "::1" || host == "[::1]" || host.starts_with("127.");
@@ -121,14 +123,6 @@ class Intake {
     httplib::ContentReader reader_{nullptr, nullptr};
 };
 
-Problem too_often(httplib::Response& response, double wait) {
-    response.set_header("Retry-After", std::to_string(static_cast<int>(std::ceil(wait))));
-    return {
-        429, "/problems/too-often", "Too many requests",
-        "more requests than this service takes of one sender (--request-limit, --address-limit); "
-        "ask again after Retry-After seconds"};
-}
-
 Problem missing_right(const Caller& caller, Right needed) {
     const std::string right(name_of(needed));
     return {403, "/problems/missing-right", "Missing right",
@@ -136,15 +130,6 @@ Problem missing_right(const Caller& caller, Right needed) {
                 std::string(name_of(caller.right)) +
                 "\". Whoever runs the service can make one: breachline token new NAME --rights " +
                 right};
-}
-
-std::unique_ptr<Certificates> certificates_of(const HttpSettings& settings) {
-    if (settings.certificate.empty() && settings.key.empty()) return nullptr;
-    if (settings.certificate.empty() || settings.key.empty())
-        throw fault::BadInput("command line", {{settings.key.empty() ? "--tls-key" : "--tls-cert",
-                                                "is missing beside the other of the two",
-                                                "give --tls-cert FILE and --tls-key FILE"}});
-    return std::make_unique<Certificates>(settings.certificate, settings.key);
 }
 
 Problem problem_of(int status) {
@@ -157,20 +142,17 @@ Problem problem_of(int status) {
 class HttpServer::Implementation {
   public:
     Implementation(Service& service, HttpSettings settings)
-        : settings_(std::move(settings)),
-          callers_(settings_.token, settings_.tokens),
-          token_rates_(settings_.requests_per_token),
-          address_rates_(settings_.requests_per_address),
-          server_(certificates_of(settings_), settings_.patience) {
+        : settings_(std::move(settings)), callers_(settings_.token, settings_.tokens) {
         add_all_routes(router_, service, stopping_);
         server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
+        set_connections();
         set_doors();
         bind();
     }
 
     int port() const { return port_; }
     void serve() {
-        server_.serve();
+        server_.listen_after_bind();
         ended_ = true;
     }
     void stop() {
@@ -183,6 +165,20 @@ class HttpServer::Implementation {
     }
 
   private:
+    void set_connections() {
+        server_.new_task_queue = [] { return new httplib::ThreadPool(most_connections); };
+        server_.set_keep_alive_max_count(most_requests_per_connection);
+        server_.set_read_timeout(longest_pause);
+        server_.set_write_timeout(longest_pause);
+        server_.set_tcp_nodelay(true);
+        // Not httplib's default, which lets a second service share the port.
+        server_.set_socket_options([this](socket_t socket) {
+            const int on = 1;
+            setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+            listening_ = socket;
+        });
+    }
+
     void set_doors() {
         server_.set_pre_routing_handler(
             [this](const httplib::Request& request, httplib::Response& response) {
@@ -263,29 +259,12 @@ class HttpServer::Implementation {
         if (!callers_.needs_token()) return {"", Right::admin};
         const std::string secret = secret_of(request);
         const auto known = secret.empty() ? std::nullopt : callers_.caller(secret);
-        const double wait =
-            known ? token_rates_.wait_of(known->name) : address_rates_.wait_of(address_of(request));
-        if (wait > 0.0) throw too_often(response, wait);
         const Right needed = router_.needed(request.method, request.path);
         if (known && known->right < needed) throw missing_right(*known, needed);
         if (known || needed == Right::none) return known.value_or(Caller{});
         response.set_header("WWW-Authenticate", "Bearer");
         throw Problem{401, "/problems/unauthorized", "Unauthorized",
                       "send a token of this service: Authorization: Bearer ..."};
-    }
-
-    /// Who connects; behind a proxy on this machine, who connected to that. An IPv6 client has 2^64 addresses.
-    std::string address_of(const httplib::Request& request) const {
-        std::string address = request.remote_addr;
-        const std::string forwarded = request.get_header_value("X-Forwarded-For");
-        if (settings_.behind_proxy && is_loopback(address) && !forwarded.empty()) {
-            address = forwarded.substr(forwarded.rfind(',') + 1);  // npos + 1 = 0: the only one
-            address.erase(0, address.find_first_not_of(' '));
-        }
-        std::size_t groups = 0;
-        for (std::size_t i = 0; i < address.size(); ++i)
-            if (address[i] == ':' && ++groups == 4) return address.substr(0, i);
-        return address;
     }
 
     void bind() {
@@ -295,13 +274,13 @@ class HttpServer::Implementation {
                 {{"--host",
                   settings_.host + " can be reached from other machines, and there is "
                                    "no token",
-                  "give --tokens FILE or --token-file FILE, or stay on 127.0.0.1"}});
+                  "stay on 127.0.0.1; for other machines give --tokens FILE (or --token-file FILE) "
+                  "and put nginx with TLS in front (docs/reverse_proxy.md)"}});
         }
-        if (!is_loopback(settings_.host) && settings_.certificate.empty())
+        if (!is_loopback(settings_.host))
             spdlog::warn(
-                "tokens and results travel unencrypted: give --tls-cert and --tls-key, or stay on "
-                "127.0.0.1 "
-                "behind a proxy (docs/reverse_proxy.md)");
+                "tokens and results travel unencrypted: stay on 127.0.0.1 and put nginx with TLS "
+                "in front (docs/reverse_proxy.md)");
         if (settings_.port == 0) {
             port_ = server_.bind_to_any_port(settings_.host);
         } else if (server_.bind_to_port(settings_.host, settings_.port)) {
@@ -312,17 +291,19 @@ class HttpServer::Implementation {
                 settings_.host + ":" + std::to_string(settings_.port) +
                 ": cannot be bound; is the port in use? choose another with --port");
         }
+        // Debian's httplib listens with a backlog of 5: of fifty clients that connect at once, some would
+        // wait a second or give up.
+        ::listen(listening_, backlog);
     }
 
     HttpSettings settings_;
     Callers callers_;
-    mutable Rates token_rates_;
-    mutable Rates address_rates_;
     Router router_;
     std::atomic<bool> stopping_ = false;
     std::atomic<bool> ended_ = false;
     int port_ = -1;
-    Listener server_;
+    socket_t listening_ = INVALID_SOCKET;
+    httplib::Server server_;
 };
 
 HttpServer::HttpServer(Service& service, HttpSettings settings)

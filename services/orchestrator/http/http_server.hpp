@@ -1,10 +1,10 @@
-// The service's HTTP side: limits, hardening, routes. cpp-httplib stays inside this folder.
+// The service's HTTP side: sizes, hardening, tokens, routes. TLS, slow clients and rates are nginx's
+// (docs/reverse_proxy.md). cpp-httplib stays inside this folder.
 #pragma once
 
 #include <memory>
 #include <string>
 
-#include "services/orchestrator/http/patience.hpp"
 #include "services/orchestrator/http/service.hpp"
 
 namespace breach::orchestrator {
@@ -14,19 +14,13 @@ struct HttpSettings {
     int port = 0;  ///< 0: any free one
     std::string
         token;  ///< of the admin; without it and without `tokens` none is needed, which only loopback allows
-    std::filesystem::path tokens;       ///< file of named ones (access/tokens.hpp); empty: none
-    std::filesystem::path certificate;  ///< with `key`: TLS; empty: plain
-    std::filesystem::path key;
-    double requests_per_token = 2000;   ///< [1/s]; 0: not limited
-    double requests_per_address = 100;  ///< those without a valid token [1/s]; 0: not limited
-    bool behind_proxy = false;          ///< X-Forwarded-For of a proxy on this machine is believed
-    Patience patience;
+    std::filesystem::path tokens;  ///< file of named ones (access/tokens.hpp); empty: none
 };
 
 class HttpServer {
   public:
     /// Binds. Throws IoError when it cannot, BadInput when the host is not loopback and there is no
-    /// token, or when tokens or certificates cannot be used.
+    /// token, or when the tokens cannot be used.
     HttpServer(Service& service, HttpSettings settings);
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;

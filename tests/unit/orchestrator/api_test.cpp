@@ -326,6 +326,7 @@ TEST(ApiDoor, OtherMachinesAreNotServedWithoutAToken) {
     EXPECT_FALSE(service.valid());
     EXPECT_EQ(service.exit_code(), 2);
     EXPECT_NE(service.complaint().find("--token-file"), std::string::npos) << service.complaint();
+    EXPECT_NE(service.complaint().find("nginx"), std::string::npos) << service.complaint();
 }
 
 TEST(ApiDoor, PortInUseIsSaid) {
