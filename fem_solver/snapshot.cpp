@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/materials/norsand/instability.hpp"
 #include "fem_solver/model/pore_water.hpp"
 
 namespace breach::fem {
@@ -20,18 +19,16 @@ std::vector<Vec2> per_node(const Eigen::VectorXd& per_dof, std::size_t nodes) {
 void add_instability(const Model& model, const Motion& motion, exchange::MeshSnapshot& s) {
     for (std::size_t z = 0; z < motion.memory.size(); ++z) {
         const std::size_t begin = model.zones[z].first * model.points_per_element;
-        const auto add = [&]<class Law>(const Law& law, const auto& points) {
-            if constexpr (std::same_as<Law, materials::NorSand>) {
-                s.psi.resize(s.stress.size(), 0.0);
-                s.instability_ratio.resize(s.stress.size(), 0.0);
-                for (std::size_t i = 0; i < points.size() && begin + i < s.psi.size(); ++i) {
-                    const materials::Instability at = instability(law, points[i]);
-                    s.psi[begin + i] = at.psi;
-                    s.instability_ratio[begin + i] = at.ratio;
-                }
+        const auto add = [&](const auto& law, const auto& points) {
+            s.psi.resize(s.stress.size(), 0.0);
+            s.instability_ratio.resize(s.stress.size(), 0.0);
+            for (std::size_t i = 0; i < points.size() && begin + i < s.psi.size(); ++i) {
+                const materials::Instability at = instability(law, points[i]);
+                s.psi[begin + i] = at.psi;
+                s.instability_ratio[begin + i] = at.ratio;
             }
         };
-        materials::with_memory(model.zones[z].law, motion.memory[z], add);
+        materials::with_state(model.zones[z].law, motion.memory[z], add);
     }
 }
 

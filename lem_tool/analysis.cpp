@@ -151,11 +151,11 @@ process::Plan plan(const scene::Scene& whole) {
     const scene::Lem& lem = scene::lem_of(scene);
     const auto use = [](bool on) { return on ? Use::on : Use::left_out; };
     const auto profiles = std::ranges::count_if(whole.materials, scene::lem_takes_profile);
-    const auto says_norsand = [](const scene::UndrainedRegion& each) {
-        return each.strength.norsand.has_value();
+    const auto goes_by_state = [](const scene::UndrainedRegion& each) {
+        return each.strength.on_path.has_value();
     };
-    const auto by_state = std::ranges::count_if(whole.lem->undrained, says_norsand) +
-                          std::ranges::count_if(whole.lem->liquefaction, says_norsand);
+    const auto by_state = std::ranges::count_if(whole.lem->undrained, goes_by_state) +
+                          std::ranges::count_if(whole.lem->liquefaction, goes_by_state);
     const std::string strata = std::to_string(model.strata.strips.size()) + " strips with " +
                                std::to_string(model.strata.layers.size()) + " layer pieces";
     return {

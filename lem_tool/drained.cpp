@@ -23,10 +23,8 @@ bool liquefies(const scene::Lem& lem, std::size_t region, double y) {
     });
 }
 
-bool has_norsand(const scene::Scene& scene) {
-    return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
-        return std::holds_alternative<materials::NorSand>(scene.materials[region.material].law);
-    });
+const materials::Law& law_of(const scene::Scene& scene, std::size_t region) {
+    return scene.materials[scene.section.regions[region].material].law;
 }
 
 class WetAndLoose {
@@ -52,9 +50,8 @@ class WetAndLoose {
     void look(const Strip& strip, std::size_t k) {
         constexpr int steps = 20;  // down a vertical: psi_0 may go by depth
         const Layer& layer = model_.strata.layers[k];
-        const auto* law = std::get_if<materials::NorSand>(
-            &scene_.materials[scene_.section.regions[layer.region].material].law);
-        if (!law || model_.soils[layer.region].tan_phi == 0.0 ||
+        if (!materials::has_state_parameter(law_of(scene_, layer.region)) ||
+            model_.soils[layer.region].tan_phi == 0.0 ||
             std::ranges::count(scene_.lem->undrained, layer.region,
                                &scene::UndrainedRegion::region) > 0)
             return;
@@ -64,12 +61,11 @@ class WetAndLoose {
             if (k + 1 < strip.last)
                 bottom = std::max(bottom, model_.strata.layers[k + 1].top.at(x));
             for (int step = 0; step <= steps && bottom < top; ++step)
-                look_at(strip, layer, *law, x, top - (top - bottom) * step / steps);
+                look_at(strip, layer, x, top - (top - bottom) * step / steps);
         }
     }
 
-    void look_at(const Strip& strip, const Layer& layer, const materials::NorSand& law, double x,
-                 double y) {
+    void look_at(const Strip& strip, const Layer& layer, double x, double y) {
         constexpr double dry = 100.0;  // [Pa]: a centimetre of water is none
         const Strata& strata = model_.strata;
         const Soil& soil = model_.soils[layer.region];
@@ -80,7 +76,10 @@ class WetAndLoose {
         if (u <= dry || liquefies(*scene_.lem, layer.region, y)) return;
         const double free_water = strata.gamma_w * std::max(0.0, strip.water.at(x) - ground);
         const double sigma_v0 = weight + free_water - u - layer.unconsolidated.at(x);
-        const double psi = psi_at(law, {ground - y, y, std::max(sigma_v0, 0.0)});
+        const materials::Place place{ground - y, y, std::max(sigma_v0, 0.0)};
+        double psi = 0.0;
+        materials::if_state_parameter(law_of(scene_, layer.region),
+                                      [&](const auto& law) { psi = psi_at(law, place); });
         if (psi <= 0.0) return;
         const auto [spot, is_new] = found_.try_emplace(layer.region, Loose{x, y, psi});
         if (!is_new && psi > spot->second.psi) spot->second = {x, y, psi};
@@ -95,13 +94,17 @@ class WetAndLoose {
 
 std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene) {
     std::vector<fault::Flag> flags;
-    if (!has_norsand(scene)) return flags;
+    const auto has_psi = [&](const scene::Region& region) {
+        return materials::has_state_parameter(scene.materials[region.material].law);
+    };
+    if (std::ranges::none_of(scene.section.regions, has_psi)) return flags;
     for (const auto& [region, at] : WetAndLoose(scene).found()) {
         const std::string& name = scene.section.regions[region].name;
         std::ostringstream words;
         words.precision(3);
-        words << "region \"" << name << "\" is of NorSand looser than critical and wet (psi "
-              << at.psi << " at x = " << at.x << " m, y = " << at.y
+        words << "region \"" << name << "\" is of " << materials::traits(law_of(scene, region)).name
+              << " looser than critical and wet (psi " << at.psi << " at x = " << at.x
+              << " m, y = " << at.y
               << " m), and judged by its drained strength alone: it can fail undrained at a factor "
                  "of "
                  "safety far above 1; give {\"region\": \""

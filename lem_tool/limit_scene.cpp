@@ -95,11 +95,13 @@ void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
 /// Paths are walked once, however often a strength is varied.
 void walk_paths(const scene::Scene& scene, std::vector<scene::UndrainedRegion>& entries) {
     for (scene::UndrainedRegion& each : entries) {
-        if (!each.strength.norsand) continue;
+        if (!each.strength.on_path) continue;
         const scene::Material& material =
             scene.materials[scene.section.regions[each.region].material];
-        each.strength.by_state = std::make_shared<const materials::StrengthByState>(
-            std::get<materials::NorSand>(material.law), *each.strength.norsand);
+        materials::if_state_parameter(material.law, [&](const auto& law) {
+            each.strength.by_state = std::make_shared<const materials::UndrainedByPlace>(
+                undrained_by_place(law, *each.strength.on_path));
+        });
     }
 }
 

@@ -124,7 +124,7 @@ double SliceMaker::by_place(const Strip& strip, const Layer& layer, const Soil& 
     weight += strata_.gamma_w * std::max(0.0, strip.water.at(x) - ground.at(x));
     weight -= layer.unconsolidated.at(x);
     const materials::Place place{ground.at(x) - y, y, weight - u};
-    return soil.factor * (soil.by_state ? soil.by_state->at(place, u)
+    return soil.factor * (soil.by_state ? (*soil.by_state)(place, u)
                                         : materials::strength_at(*soil.profile, place).c);
 }
 

@@ -30,8 +30,8 @@ struct Soil {
     double coefficient = 0.0;           ///< undrained strength at sigma'_v0 = p_a [Pa]
     double exponent = 1.0;              ///< [-]
     std::optional<std::size_t> line{};  ///< whose water fills it, of Strata::lines; none: dry
-    std::shared_ptr<const materials::StrengthCurve> profile{};     ///< s_u by place, instead of c
-    std::shared_ptr<const materials::StrengthByState> by_state{};  ///< NorSand's s_u, instead of c
+    std::shared_ptr<const materials::StrengthCurve> profile{};      ///< s_u by place, instead of c
+    std::shared_ptr<const materials::UndrainedByPlace> by_state{};  ///< the law's s_u, instead of c
     double factor = 1.0;                        ///< on the profile's s_u, or on that by state [-]
     std::shared_ptr<const Soil> above_water{};  ///< liquefied soil: what it is above its line
 };

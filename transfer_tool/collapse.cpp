@@ -2,18 +2,15 @@
 
 #include <algorithm>
 
-#include "core/materials/norsand/law.hpp"
 #include "transfer_tool/shapes.hpp"
 
 namespace breach::transfer {
 namespace {
 
 using exchange::MeshSnapshot;
-namespace norsand = materials::norsand;
 
-const materials::NorSand* law_of(const scene::Scene& scene, std::size_t region) {
-    const std::size_t material = scene.section.regions[region].material;
-    return std::get_if<materials::NorSand>(&scene.materials[material].law);
+const materials::Law& law_of(const scene::Scene& scene, std::size_t region) {
+    return scene.materials[scene.section.regions[region].material].law;
 }
 
 /// Pore pressure at xi, of the present and of the beginning; 0 in a dry snapshot [Pa].
@@ -28,7 +25,7 @@ double pressure_at(const std::vector<double>& pressure, const MeshSnapshot& mesh
 bool collapses(const scene::Scene& scene, std::size_t region) {
     return scene.transfer && scene.transfer->liquefied &&
            std::ranges::count(scene.transfer->liquefied->regions, region) > 0 &&
-           law_of(scene, region) != nullptr;
+           materials::has_state_parameter(law_of(scene, region));
 }
 
 JudgedBy judged_by(const scene::Scene& scene) {
@@ -50,15 +47,12 @@ Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
         const std::size_t gauss = mesh.gauss_positions.size(), e = i / gauss;
         const std::size_t region = regions[mesh.region_of_element[e]];
         if (!collapses(scene, region)) continue;
-        const materials::NorSand& law = *law_of(scene, region);
         const mechanics::Voigt& sigma = mesh.stress[i];
-        const double mean = -(sigma[0] + sigma[1] + sigma[2]) / 3.0;
-        const double p = std::max(mean, law.ready.parameters.p_min);
-        const double e_now = mesh.psi[i] + norsand::critical_void_ratio(law.ready, p);
-        const auto begun = norsand::initialise(law.ready, sigma, e_now, 1.0);
-        // Suction is not counted on.
         const double u = pressure_at(mesh.pore_pressure, mesh, e, mesh.gauss_positions[i % gauss]);
-        auto strength = norsand::undrained_strength(law.ready, begun.state, p + std::max(u, 0.0));
+        materials::UndrainedStrength strength{};
+        materials::if_state_parameter(law_of(scene, region), [&](const auto& law) {
+            strength = undrained_strength(law, sigma, mesh.psi[i], u);
+        });
         // A stress past the line may have been cut down for the path: it is carried all the same.
         strength.peak = std::max(strength.peak, std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[3]));
         const bool past_line = mesh.instability_ratio[i] >= instability;

@@ -1,5 +1,5 @@
-// NorSand soil at the transfer: which of it has collapsed, and what strength it keeps without
-// drainage. Its criterion is not a pore pressure ratio.
+// Soil with a state parameter at the transfer: which of it has collapsed, and what strength it keeps
+// without drainage. Its criterion is not a pore pressure ratio.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/exchange/mesh_snapshot.hpp"
-#include "core/materials/norsand/undrained.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::transfer {
@@ -15,15 +14,16 @@ namespace breach::transfer {
 using mechanics::Vec2;
 
 /// Stress ratio over the limiting one from which soil is past its instability line: less than 1, for
-/// what has come to its critical state lies on it (NorSand's own beginning asks for 0.98).
+/// what has come to its critical state lies on it.
 inline constexpr double instability = 0.98;
 
-/// NorSand in this region, and /transfer/liquefied names it: its points get strengths by state.
+/// The region's law has a state parameter, and /transfer/liquefied names it: its points get strengths
+/// by state.
 bool collapses(const scene::Scene& scene, std::size_t region);
 
 /// By what /transfer/liquefied judges its regions.
 struct JudgedBy {
-    bool state = false;     ///< of NorSand: collapses()
+    bool state = false;     ///< by state parameter: collapses()
     bool pressure = false;  ///< the others: r_u
 };
 JudgedBy judged_by(const scene::Scene& scene);
@@ -38,7 +38,7 @@ struct CollapseReport {
     double mass = 0.0;          ///< collapsed [kg]
 };
 
-/// Strengths of the Gauss points of NorSand, from their stress and state parameter.
+/// Strengths of such Gauss points, from their stress and state parameter.
 class Collapse {
   public:
     Collapse() = default;
@@ -48,18 +48,18 @@ class Collapse {
              std::span<const std::size_t> regions);
 
     struct Soil {
-        materials::norsand::UndrainedStrength strength;
+        materials::UndrainedStrength strength;
         bool past_line, collapsed;
     };
-    /// Of the Gauss point nearest to xi; nothing where the soil is not NorSand's, or dry: above the
-    /// water when the motion began, and now.
+    /// Of the Gauss point nearest to xi; nothing where the soil has no strength by state, or is dry:
+    /// above the water when the motion began, and now.
     std::optional<Soil> at(std::size_t element, const Vec2& xi) const;
     double strain() const { return strain_; }
 
   private:
     const exchange::MeshSnapshot* mesh_ = nullptr;
     double strain_ = 0.0;
-    std::vector<std::optional<Soil>> soils_;  ///< [Gauss points]; empty: no NorSand
+    std::vector<std::optional<Soil>> soils_;  ///< [Gauss points]; empty: no such soil
 };
 
 }  // namespace breach::transfer

@@ -40,14 +40,14 @@ class SoilMap {
     /// are those of the undeformed mesh: soil takes its past along.
     std::int32_t at(std::size_t element, const Vec2& xi) const;
     /// Of such a point: by its soil's profile and where it lay in the undeformed section; zero
-    /// where the soil has none. A liquefied one has its residual strength. Wet NorSand has the
-    /// strengths of its state, and its residual one where it has collapsed.
+    /// where the soil has none. A liquefied one has its residual strength. Wet soil with a
+    /// state parameter has the strengths of its state, and its residual one where it has collapsed.
     materials::PointStrength strength_at(std::size_t element, const Vec2& xi) const;
-    /// NorSand's state at such a point, where its strengths come from that.
+    /// The soil's state at such a point, where its strengths come from that.
     std::optional<Collapse::Soil> state_at(std::size_t element, const Vec2& xi) const;
     /// Nothing when the scene names no soil that liquefies by its pore pressure.
     const std::optional<LiquefiedZone>& liquefied() const { return liquefied_; }
-    /// Of NorSand soil that /transfer/liquefied names.
+    /// Of soil with a state parameter that /transfer/liquefied names.
     const Collapse& collapse() const { return collapse_; }
     /// What became of that soil; nothing where there is none.
     std::optional<CollapseReport> collapse_report(const Points& points) const;
@@ -58,7 +58,7 @@ class SoilMap {
         std::optional<std::int32_t> saturated{};  ///< below the phreatic line
         std::vector<std::int32_t> layers{};       ///< of liquefied soil; empty: it keeps its own
         bool liquefies = false;                   ///< by its pore pressure
-        bool collapses = false;                   ///< NorSand: by its state
+        bool collapses = false;                   ///< by its state
         std::size_t region = 0;                   ///< of the section
     };
     void add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
@@ -81,7 +81,7 @@ exchange::StressMeasure measure_for(const materials::Law& law, scene::Transferre
 /// Gives every point its soil: state.region, and the lists of regions that it refers to.
 void assign_soils(const SoilMap& map, Points& points);
 
-/// A peak that comes from NorSand's present state is the strength of soil strained as far as it is:
+/// A peak that comes from the present state is the strength of soil strained as far as it is:
 /// until it has collapsed it softens by the strain from here on. After start_softening.
 void start_at_state(const SoilMap& map, Points& points);
 

@@ -17,9 +17,6 @@ bool some_soil(const scene::Scene& scene, bool (*is)(const materials::Law&)) {
 }
 
 bool softens(const materials::Law& law) { return materials::softening(law) != nullptr; }
-bool is_norsand(const materials::Law& law) {
-    return std::holds_alternative<materials::NorSand>(law);
-}
 
 }  // namespace
 
@@ -28,8 +25,10 @@ std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry
     if (needs == softening && !some_soil(scene, softens))
         return NotMeasured{"no soil of the FEM loses strength by softening",
                            "give a law with softening, or ask for another column"};
-    if ((needs == norsand || needs == looks_at_strength) && !some_soil(scene, is_norsand))
-        return NotMeasured{"no soil of the FEM is of the law norsand",
+    if ((needs == state_parameter || needs == looks_at_strength) &&
+        !some_soil(scene, materials::has_state_parameter))
+        return NotMeasured{"no soil of the FEM is of the law " +
+                               materials::types_of_laws_that(materials::has_state_parameter),
                            "give a region that law, or ask for another column"};
     if (needs == looks_at_strength && !scene.fem->strength_interval)
         return NotMeasured{"nobody looks at the strength",

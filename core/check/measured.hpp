@@ -13,7 +13,7 @@
 namespace breach::check {
 
 struct NotMeasured {
-    const char* cause;
+    std::string cause;
     const char* remedy;
 };
 

@@ -252,7 +252,7 @@ bool has_water(const scene::Lem& lem) {
     return lem.water || !lem.piezometric_lines.empty() || !lem.pore_pressure_ratios.empty();
 }
 
-/// Soil that fails undrained has a strength to do so with, and NorSand water that holds its volume.
+/// Soil that fails undrained has a strength to do so with; one by state needs water that holds its volume.
 void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     const auto refuse_dry = [&](const scene::UndrainedRegion& each, const std::string& pointer,
@@ -264,7 +264,7 @@ void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
                remedy);
     };
     const auto check_water = [&](const scene::UndrainedRegion& each, const std::string& pointer) {
-        if (each.strength.norsand)
+        if (each.strength.on_path)
             refuse_dry(each, pointer + "/norsand",
                        "give /lem/water, or leave the entry out: dry soil fails drained");
     };
@@ -280,7 +280,7 @@ void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
         const scene::UndrainedRegion& layer = lem.liquefaction[i];
         const std::string pointer = "/lem/liquefaction/" + std::to_string(i);
         check_water(layer, pointer);
-        if (!layer.strength.norsand && has_water(lem))
+        if (!layer.strength.on_path && has_water(lem))
             refuse_dry(layer, pointer,
                        "name the region in /lem/water/regions, or leave the layer out: dry soil "
                        "does not liquefy");

@@ -106,13 +106,13 @@ void check_undrained(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// Softening by region belongs to NorSand.
+/// Softening by region belongs to laws with a state parameter.
 void check_softening(const scene::Scene& scene, const scene::Stage& stage,
                      const std::string& pointer, Findings& findings) {
     for (std::size_t r = 0; r < stage.S_of_region.size(); ++r) {
         const scene::Material* material = material_of(scene, scene.section.regions[r]);
         if (!stage.S_of_region[r] || material == nullptr ||
-            std::holds_alternative<materials::NorSand>(material->law))
+            materials::has_state_parameter(material->law))
             continue;
         refuse(findings, pointer,
                "softens \"" + scene.section.regions[r].name + "\", which is of " +

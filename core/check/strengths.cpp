@@ -57,7 +57,7 @@ View view_of(std::string pointer, const scene::UndrainedRegion& entry) {
     return {"LEM", std::move(pointer), [&entry](const Place& place) -> std::optional<Shear> {
                 const bool beside = entry.levels && (place.elevation < (*entry.levels)[0] ||
                                                      place.elevation >= (*entry.levels)[1]);
-                if (beside || entry.strength.norsand) return std::nullopt;  // the law's own
+                if (beside || entry.strength.on_path) return std::nullopt;  // the law's own
                 const scene::UndrainedStrength& s = entry.strength;
                 const double s_u =
                     s.constant + s.coefficient * std::pow(std::max(place.sigma_v0, 0.0) /

@@ -54,8 +54,8 @@ struct MeshSnapshot {
     std::vector<mechanics::Voigt> strain;   ///< total, since the first dynamic stage began [-]
     std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]
     std::vector<double> epsilon_q_plastic;  ///< accumulated by the law [-]
-    /// NorSand's state parameter and stress ratio over the limiting one; 0 at other points. Both or
-    /// none.
+    /// State parameter and stress ratio over the limiting one; 0 at points whose law has none. Both
+    /// or none.
     std::vector<double> psi;
     std::vector<double> instability_ratio;
 

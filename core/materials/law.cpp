@@ -31,15 +31,6 @@ Law with_strength(Law law, const StrengthOfPoint<double>& strength) {
     return with_strength(std::get<MohrCoulomb>(law), strength);
 }
 
-Law with_S(Law law, double S) {
-    if (auto* norsand = std::get_if<NorSand>(&law)) {
-        norsand::Parameters parameters = norsand->ready.parameters;
-        parameters.S = S;
-        norsand->ready = norsand::ready(parameters);
-    }
-    return law;
-}
-
 Law with_plasticity(const Law& law, const Plastic& strength) {
     const auto& [c, phi, psi, tension_cutoff, strength_of] = strength;
     return MohrCoulomb{elasticity(law), c, phi, psi, tension_cutoff, {}, strength_of};

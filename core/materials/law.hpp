@@ -10,33 +10,34 @@
 
 #include "core/materials/drucker_prager/drucker_prager.hpp"
 #include "core/materials/linear_elastic.hpp"
-#include "core/materials/memory.hpp"
 #include "core/materials/mohr_coulomb/mohr_coulomb.hpp"
 #include "core/materials/norsand/law.hpp"
 #include "core/materials/pm4sand/law.hpp"
+#include "core/materials/state_parameter.hpp"
 #include "core/materials/traits.hpp"
 
 namespace breach::materials {
 
 using Law = std::variant<LinearElastic, MohrCoulomb, DruckerPrager, PM4Sand, NorSand>;
 
-template <class... Each>
-constexpr bool each_answers(const std::variant<Each...>*) {
-    return (Answers<Each> && ...);
+template <class Each>
+constexpr bool answers_all() {
+    const bool for_memory = !Remembers<Each> || AnswersForMemory<Each>;
+    const bool for_psi = !HasStateParameter<Each> || AnswersForStateParameter<Each>;
+    return Answers<Each> && for_memory && for_psi;
 }
-static_assert(each_answers(static_cast<const Law*>(nullptr)),
-              "a law does not answer everything that traits.hpp lists");
-template <class... Each>
-constexpr bool each_answers_for_memory(const std::variant<Each...>*) {
-    return ((!Remembers<Each> || AnswersForMemory<Each>)&&...);
-}
-static_assert(each_answers_for_memory(static_cast<const Law*>(nullptr)),
-              "a law with memory does not answer everything that memory.hpp lists");
-
-/// The same answers of whichever law it is. (`IsLaw`: never by conversion from one of them.)
 template <class T>
-concept IsLaw = std::same_as<T, Law>;
+inline constexpr bool is_law = false;
+template <class... Each>
+inline constexpr bool is_law<std::variant<Each...>> = (answers_all<Each>() && ...);
+/// A list of laws that all answer; never one of them by conversion.
+template <class T>
+concept IsLaw = is_law<T>;
+static_assert(IsLaw<Law>,
+              "a law does not answer all of traits.hpp, memory.hpp (if its points remember) and "
+              "state_parameter.hpp (if it has one)");
 
+/// The same answers of whichever law it is.
 template <IsLaw L>
 Traits traits(const L& law) {
     return std::visit([](const auto& each) { return traits(each); }, law);
@@ -91,24 +92,26 @@ std::variant<ZoneMemory<Each>...> memory_of(const std::variant<Each...>*);
 using LawMemory = decltype(memory_of(static_cast<const Law*>(nullptr)));
 
 /// Its points remember more than State.
-inline bool remembers(const Law& law) {
-    return std::visit([]<class L>(const L&) { return Remembers<L>; }, law);
+template <IsLaw L>
+bool remembers(const L& law) {
+    return std::visit([]<class Each>(const Each&) { return Remembers<Each>; }, law);
 }
 
 /// visit(law) with the law itself, if its points remember.
-template <class Visit>
-void if_remembers(const Law& law, const Visit& visit) {
-    const auto ask = [&]<class L>(const L& each) {
-        if constexpr (Remembers<L>) visit(each);
+template <IsLaw L, class Visit>
+void if_remembers(const L& law, const Visit& visit) {
+    const auto ask = [&]<class Each>(const Each& each) {
+        if constexpr (Remembers<Each>) visit(each);
     };
     std::visit(ask, law);
 }
 
 /// visit(law, points) with the law itself and what its zone's points remember, if they do.
-template <class Memory, class Visit>
-void with_memory(const Law& law, Memory& memory, const Visit& visit) {
-    if_remembers(
-        law, [&]<class L>(const L& each) { visit(each, std::get<ZoneMemory<L>>(memory).points); });
+template <IsLaw L, class Memory, class Visit>
+void with_memory(const L& law, Memory& memory, const Visit& visit) {
+    if_remembers(law, [&]<class Each>(const Each& each) {
+        visit(each, std::get<ZoneMemory<Each>>(memory).points);
+    });
 }
 
 /// visit(memory) of every point of a zone, where they remember.
@@ -122,10 +125,12 @@ void for_each_point(Memory& zone, const Visit& visit) {
 }
 
 /// Memory for so many points of this law, with nothing in it yet.
-inline LawMemory memory_for(const Law& law, std::size_t points) {
-    const auto made = [&]<class L>(const L&) -> LawMemory {
-        ZoneMemory<L> memory;
-        if constexpr (Remembers<L>) memory.points.resize(points);
+template <IsLaw L>
+auto memory_for(const L& law, std::size_t points) {
+    using AnyMemory = decltype(memory_of(static_cast<const L*>(nullptr)));
+    const auto made = [&]<class Each>(const Each&) -> AnyMemory {
+        ZoneMemory<Each> memory;
+        if constexpr (Remembers<Each>) memory.points.resize(points);
         return memory;
     };
     return std::visit(made, law);
@@ -139,8 +144,32 @@ inline bool has_strength_of_points(const Law& law) {
 /// Such a law with the strength of one of its points; any other as it is.
 Law with_strength(Law law, const StrengthOfPoint<double>& strength);
 
-/// NorSand with the additional softening S of a stage; other laws as they are.
-Law with_S(Law law, double S);
+/// visit(law) with the law itself, if its undrained strength follows from a state parameter.
+template <class L, class Visit>
+requires IsLaw<std::remove_const_t<L>>
+void if_state_parameter(L& law, const Visit& visit) {
+    const auto ask = [&]<class Each>(Each& each) {
+        if constexpr (HasStateParameter<Each>) visit(each);
+    };
+    std::visit(ask, law);
+}
+template <IsLaw L>
+bool has_state_parameter(const L& law) {
+    return std::visit([]<class Each>(const Each&) { return HasStateParameter<Each>; }, law);
+}
+/// visit(law, points) with the law itself and its zone's points, if it has a state parameter.
+template <IsLaw L, class Memory, class Visit>
+void with_state(const L& law, Memory& memory, const Visit& visit) {
+    if_state_parameter(law, [&]<class Each>(const Each& each) {
+        visit(each, std::get<ZoneMemory<Each>>(memory).points);
+    });
+}
+/// With the additional softening S of a stage, where the law has a state parameter.
+template <IsLaw L>
+L with_S(L law, double S) {
+    if_state_parameter(law, [&](auto& each) { set_S(each, S); });
+    return law;
+}
 
 /// Its elasticity alone.
 inline Law elastic_part(const Law& law) { return LinearElastic{elasticity(law)}; }

@@ -44,10 +44,18 @@ concept AnswersForMemory = requires(const Law& law, const typename Law::Memory& 
     /// Largest component of the first stress that lay outside the surfaces and stays beside them
     /// as a constant; 0 where it is round-off [Pa].
     { stress_outside(law, memory) } -> std::same_as<double>;
+    /// No strain of the point could be followed, and the law put it at the end of its path.
+    { has_fallen(law, memory) } -> std::same_as<bool>;
     /// Calls visit(x) for every number that a checkpoint keeps, in one fixed order.
     for_each_number(own, [](double&) {});
     for_each_number(memory, [](double) {});
 };
+
+/// The law of the points at place_of(), a Place: the same everywhere, unless the law has an overload.
+template <class Law, class PlaceOf>
+const Law& at_place(const Law& law, const PlaceOf&) {
+    return law;
+}
 
 /// The memory of a zone's points, in their order; of a law without memory nothing.
 template <class Law>

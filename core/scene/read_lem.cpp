@@ -142,12 +142,12 @@ std::optional<std::array<double, 2>> levels_from(Reader& reader, const json& ent
     return levels;
 }
 
-/// A strength by NorSand's state needs that law, and stands alone.
-void check_norsand(Reader& reader, const Scene& scene, std::size_t region,
-                   const UndrainedStrength& strength, const std::string& pointer) {
-    if (!strength.norsand) return;
+/// A strength by state needs a law with a state parameter, and stands alone.
+void check_by_state(Reader& reader, const Scene& scene, std::size_t region,
+                    const UndrainedStrength& strength, const std::string& pointer) {
+    if (!strength.on_path) return;
     const std::size_t material = scene.section.regions[region].material;
-    if (!std::holds_alternative<materials::NorSand>(scene.materials[material].law))
+    if (!materials::has_state_parameter(scene.materials[material].law))
         reader.add(pointer + "/norsand", "asks for NorSand's strength of a region without that law",
                    "set the material's law to norsand, or give a strength");
     if (strength.constant > 0.0 || strength.coefficient > 0.0)
@@ -172,8 +172,8 @@ std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, 
                                    each.at(keys.coefficient).get<double>() * kPa,
                                    each.at(keys.exponent)};
         if (each.contains("norsand"))
-            strength.norsand = word_at<materials::OnPath>(each, "norsand");
-        check_norsand(reader, scene, *region, strength, pointer);
+            strength.on_path = word_at<materials::OnPath>(each, "norsand");
+        check_by_state(reader, scene, *region, strength, pointer);
         result.push_back({*region, strength, levels});
     }
     return result;

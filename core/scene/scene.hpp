@@ -15,7 +15,6 @@
 #include "core/fault/flag.hpp"
 #include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
-#include "core/materials/norsand/by_state.hpp"
 #include "core/materials/strength/profile.hpp"
 #include "core/scene/polygon.hpp"
 
@@ -155,13 +154,13 @@ struct UndrainedStrength {
     double constant;      ///< [Pa]
     double coefficient;   ///< [Pa]
     double exponent;      ///< [-]
-    double factor = 1.0;  ///< on the profile's or NorSand's where the entry takes that [-]
-    std::optional<materials::OnPath> norsand{};  ///< instead, the material's law says it
-    std::shared_ptr<const materials::StrengthByState>
+    double factor = 1.0;  ///< on the profile's or the law's where the entry takes that [-]
+    std::optional<materials::OnPath> on_path{};  ///< instead, the material's law says it
+    std::shared_ptr<const materials::UndrainedByPlace>
         by_state{};  ///< the law's, where it is needed
 
     /// Gives nothing of its own: the residual strength of the material's profile, if it has one.
-    bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0 && !norsand; }
+    bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0 && !on_path; }
 };
 
 struct UndrainedRegion {
@@ -305,7 +304,7 @@ struct Stage {
     double duration = 0.0;         ///< dynamic [s]
     double time_step = 0.0;        ///< dynamic, largest [s]
     double least_time_step = 0.0;  ///< dynamic: below this the run ends [s]
-    std::optional<double> S{};     ///< NorSand's additional softening, where the stage says [-]
+    std::optional<double> S{};     ///< additional softening, where the stage says [-]
     /// [regions] the same of a region alone, drained or not; empty: of none
     std::vector<std::optional<double>> S_of_region{};
     std::vector<std::size_t> activates{};  ///< regions that are there from this stage on
@@ -422,7 +421,7 @@ struct Fem {
     std::vector<double> snapshot_times;  ///< ascending; steps are cut to meet them [s]
     double snapshot_interval;            ///< no step is cut for these; 0: none [s]
     double telemetry_interval;           ///< [s]
-    std::optional<double> strength_interval;  ///< of NorSand's undrained strength; none: never [s]
+    std::optional<double> strength_interval;  ///< of undrained strength by state; none: never [s]
 
     /// A stage does something to the body, its supports, its loads or its water.
     bool changes_the_body() const {

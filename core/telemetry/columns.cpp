@@ -36,13 +36,14 @@ constexpr std::array fem_table{
     Column{"softened_share", "1", "volume that has lost strength over volume that can",
            Needs::softening},
     Column{"psi_avg", "1", "state parameter of NorSand's points, averaged by volume",
-           Needs::norsand},
+           Needs::state_parameter},
     Column{"instability_ratio_max", "1",
-           "largest stress ratio of NorSand's points over the limiting one, eta_L", Needs::norsand},
+           "largest stress ratio of NorSand's points over the limiting one, eta_L",
+           Needs::state_parameter},
     Column{"past_peak_share", "1",
            "volume of NorSand that would lose strength if it were sheared undrained, over all of "
            "its volume",
-           Needs::norsand},
+           Needs::state_parameter},
     Column{"strength_ratio_avg", "1",
            "undrained peak strength of NorSand now over sigma'_v0, averaged by volume; of the last "
            "look (/fem/strength_interval)",

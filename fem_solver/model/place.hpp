@@ -16,18 +16,10 @@ class Overburden {
     std::vector<GroundEdge> edges_;
 };
 
-/// The law of one point: psi_0 is that of its place.
+/// The law of one point.
 template <class Law>
 Law at_point(const Law& law, const Overburden& overburden, const Model& model, std::size_t point) {
-    if constexpr (std::same_as<Law, materials::NorSand>)
-        if (law.psi_0_profile)
-            return {.elasticity = law.elasticity,
-                    .ready = law.ready,
-                    .options = law.options,
-                    .psi_0 = law.psi_0_profile->at(overburden.place(model, point)),
-                    .e_0 = {},
-                    .R = law.R};
-    return law;
+    return at_place(law, [&] { return overburden.place(model, point); });
 }
 
 }  // namespace breach::fem

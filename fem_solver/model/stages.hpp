@@ -19,8 +19,8 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
 /// `motion` has; points without a deviator do not creep.
 void set_creep_step(double share, const Motion& motion, Model& model);
 
-/// Where water drains NorSand softens no more than it hardens, unless a stage asks for it in this
-/// region, or drains everywhere and asks for it.
+/// Sets S of the laws with a state parameter. It is 0 where water drains, unless the stage asks for S in
+/// this region, or drains everywhere and asks for S.
 void set_softening(const scene::Stage& stage, const Model& model,
                    std::vector<materials::Law>& laws);
 

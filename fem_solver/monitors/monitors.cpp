@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "core/check/measured.hpp"
-#include "core/materials/norsand/instability.hpp"
 #include "core/phases/phases.hpp"
 
 namespace breach::fem {
@@ -141,26 +140,24 @@ Softened softened_volume(const Model& model, const Motion& motion) {
     return volume;
 }
 
-/// NorSand's points of the body that are there.
+/// Points of the body that are there, of laws with a state parameter.
 void read_instability(const Model& model, const Motion& motion, Reading& r) {
     double volume = 0.0, psi = 0.0, past = 0.0;
     for (std::size_t z = 0; z < motion.memory.size(); ++z) {
         const Zone& zone = model.zones[z];
-        const auto read = [&]<class Law>(const Law& law, const auto& points) {
-            if constexpr (std::same_as<Law, materials::NorSand>) {
-                for (std::size_t i = 0; i < points.size(); ++i) {
-                    const std::size_t e = zone.first + i / model.points_per_element;
-                    if (e >= model.body.elements || model.is_absent(e)) continue;
-                    const materials::Instability at = instability(law, points[i]);
-                    const double w = model.reference[e].weight[i % model.points_per_element];
-                    volume += w;
-                    psi += w * at.psi;
-                    past += at.past_peak ? w : 0.0;
-                    r.instability_ratio_max = std::max(r.instability_ratio_max, at.ratio);
-                }
+        const auto read = [&](const auto& law, const auto& points) {
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const std::size_t e = zone.first + i / model.points_per_element;
+                if (e >= model.body.elements || model.is_absent(e)) continue;
+                const materials::Instability at = instability(law, points[i]);
+                const double w = model.reference[e].weight[i % model.points_per_element];
+                volume += w;
+                psi += w * at.psi;
+                past += at.past_peak ? w : 0.0;
+                r.instability_ratio_max = std::max(r.instability_ratio_max, at.ratio);
             }
         };
-        materials::with_memory(zone.law, motion.memory[z], read);
+        materials::with_state(zone.law, motion.memory[z], read);
     }
     if (volume == 0.0) return;
     r.psi_avg = psi / volume;

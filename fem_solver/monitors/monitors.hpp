@@ -54,10 +54,10 @@ struct Reading {
     double failure_surfaces = 0.0;     ///< from ground to ground
     double slip_across_band = 0.0;     ///< of the largest body that they cut off [m]
     double inverted_elements = 0.0;
-    double psi_avg = 0.0;                ///< of NorSand, by volume [-]
-    double instability_ratio_max = 0.0;  ///< eta over eta_L of NorSand's points [-]
-    double past_peak_share = 0.0;        ///< of NorSand's volume: undrained, q would fall [-]
-    double strength_ratio_avg = 0.0;     ///< s_u over sigma'_v0 of NorSand, by volume [-]
+    double psi_avg = 0.0;                ///< state parameter, by volume [-]
+    double instability_ratio_max = 0.0;  ///< eta over eta_L [-]
+    double past_peak_share = 0.0;        ///< of the volume with psi: undrained, q would fall [-]
+    double strength_ratio_avg = 0.0;     ///< s_u over sigma'_v0, by volume [-]
     double strength_ratio_min = 0.0;     ///< its least [-]
     double softened_share = 0.0;         ///< volume that has lost strength over volume that can [-]
 };

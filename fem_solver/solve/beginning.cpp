@@ -57,10 +57,9 @@ double modulus_of(const Model& model, const Motion& motion, const PorousElement&
 Beginning beginning_of(const Model& model, const Motion& motion) {
     Beginning beginning;
     if (model.base.any()) beginning.base_reaction = base_reaction(model, motion);
-    const bool norsand = std::ranges::any_of(model.zones, [](const Zone& zone) {
-        return std::holds_alternative<materials::NorSand>(zone.law);
-    });
-    for (std::size_t p = 0; norsand && p < model.body.elements * model.points_per_element; ++p)
+    const bool has_psi = std::ranges::any_of(
+        model.zones, [](const Zone& zone) { return materials::has_state_parameter(zone.law); });
+    for (std::size_t p = 0; has_psi && p < model.body.elements * model.points_per_element; ++p)
         beginning.sigma_v0_points.push_back(-motion.points[p].sigma[1]);
     if (!model.water.any()) return beginning;
     beginning.p = motion.p;

@@ -15,7 +15,7 @@ struct Beginning {
     std::vector<double> sigma_v0;          ///< vertical effective stress, per node of the body,
                                            ///< compression positive; empty when dry [Pa]
     std::vector<double> sigma_v0_points;   ///< the same per Gauss point of the body, dry or not;
-                                           ///< empty without NorSand [Pa]
+                                           ///< empty where no law has a state parameter [Pa]
     std::vector<double> skeleton_modulus;  ///< of the saturated elements, K + 4G/3 [Pa]
     exchange::BaseMotion base_motion{};    ///< of the free-field columns alone (base_motion.hpp)
 };

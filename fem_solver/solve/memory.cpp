@@ -43,11 +43,12 @@ StressBias stress_bias(const Model& model, const Motion& motion) {
 std::size_t fallen_points(const Model& model, const Motion& motion) {
     std::size_t count = 0;
     for (std::size_t z = 0; z < motion.memory.size(); ++z) {
-        const auto* zone =
-            std::get_if<materials::ZoneMemory<materials::NorSand>>(&motion.memory[z]);
-        if (zone == nullptr || model.zones[z].first >= model.body.elements) continue;
-        count += static_cast<std::size_t>(std::ranges::count_if(
-            zone->points, [](const auto& point) { return point.has_fallen; }));
+        if (model.zones[z].first >= model.body.elements) continue;
+        materials::with_memory(model.zones[z].law, motion.memory[z],
+                               [&](const auto& law, const auto& points) {
+                                   for (const auto& point : points)
+                                       count += has_fallen(law, point) ? 1 : 0;
+                               });
     }
     return count;
 }

@@ -36,8 +36,8 @@ StressBias begin_memory(const Model& model, Motion& motion);
 /// The bias that `motion` carries now.
 StressBias stress_bias(const Model& model, const Motion& motion);
 
-/// How many points of NorSand have fallen to their critical state in one call, for no strain of
-/// theirs could be followed.
+/// How many points have fallen to the end of their path in one call, for no strain of theirs could
+/// be followed.
 std::size_t fallen_points(const Model& model, const Motion& motion);
 
 /// How many points remember something now.

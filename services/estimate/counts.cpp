@@ -69,12 +69,6 @@ double T_of(const scene::Scene& scene) {
     return std::sqrt(H / (scene.gravity > 0.0 ? scene.gravity : 9.81));
 }
 
-bool is_norsand(const scene::Scene& scene, std::size_t region) {
-    const std::size_t material = scene.section.regions[region].material;
-    return material < scene.materials.size() &&
-           std::holds_alternative<materials::NorSand>(scene.materials[material].law);
-}
-
 bool can_liquefy(const scene::LiquefiedZone& zone, const scene::Soil& soil) {
     const bool is_layer = std::ranges::any_of(zone.layers, [&](const scene::LiquefiedLayer& each) {
         return each.material == soil.material;
@@ -88,7 +82,10 @@ std::optional<double> liquefied_friction(const scene::Scene& scene, const scene:
     if (!can_liquefy(*scene.transfer->liquefied, soil)) return std::nullopt;
     const auto& profile = scene.materials[soil.material].strength;
     if (!profile || !profile->residual) return std::nullopt;
-    if (is_norsand(scene, soil.region)) return 0.0;  // wet points are undrained, by their state
+    const std::size_t before = scene.section.regions[soil.region].material;
+    if (before < scene.materials.size() &&
+        materials::has_state_parameter(scene.materials[before].law))
+        return 0.0;  // wet points are undrained, by their state
     const auto* effective = std::get_if<materials::Effective>(&profile->residual->kind);
     return effective != nullptr ? std::tan(effective->phi) : 0.0;
 }

@@ -1,10 +1,11 @@
-#include "core/materials/norsand/by_state.hpp"
+// The undrained strength of level ground as a function of place: of the law's own path in simple
+// shear from sigma'_v0, K_0 and psi_0 there, tabulated once.
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "core/materials/norsand/undrained.hpp"
+#include "core/materials/norsand/law.hpp"
 
 namespace breach::materials {
 
@@ -27,7 +28,25 @@ Spot spot_in(const std::vector<double>& table, double x) {
     return {i, (x - table[i]) / (table[i + 1] - table[i])};
 }
 
-}  // namespace
+class StrengthByState {
+  public:
+    /// S, K_0 and the state parameter are the law's.
+    StrengthByState(const NorSand& law, OnPath part);
+
+    /// tau on a plane along level ground [Pa]. Never above tau of the critical state at p' + u.
+    double operator()(const Place& place, double u) const;
+
+  private:
+    /// tau / sigma'_v0 of the path from this vertical effective stress [Pa].
+    double ratio_from(double psi, double sigma_v0) const;
+
+    NorSand law_;
+    OnPath part_;
+    double tau_over_p_;              ///< at the critical state
+    std::vector<double> psi_;        ///< ascending; one: the same everywhere, or of e_0
+    std::vector<double> ln_stress_;  ///< ascending
+    std::vector<double> ln_ratio_;   ///< [psi][stress] of tau / sigma'_v0
+};
 
 StrengthByState::StrengthByState(const NorSand& law, OnPath part) : law_(law), part_(part) {
     const double theta = norsand::plane_critical_angle(law.ready);
@@ -59,7 +78,7 @@ double StrengthByState::ratio_from(double psi, double sigma_v0) const {
     return (part_ == OnPath::peak ? found.peak : found.critical) / sigma_v0;
 }
 
-double StrengthByState::at(const Place& place, double u) const {
+double StrengthByState::operator()(const Place& place, double u) const {
     const double sigma_v0 = std::max(place.sigma_v0, 0.0);
     // Below the table soil is as strong as at its least stress: that is the floor p_min's.
     const Spot row = spot_in(psi_, psi_at(law_, place));
@@ -73,6 +92,12 @@ double StrengthByState::at(const Place& place, double u) const {
     const double p = level_ground_p(law_, sigma_v0);
     const double most = tau_over_p_ * std::max(p + std::max(u, 0.0), law_.ready.parameters.p_min);
     return std::min(std::exp(ln_ratio) * std::max(sigma_v0, least_stress), most);
+}
+
+}  // namespace
+
+UndrainedByPlace undrained_by_place(const NorSand& law, OnPath part) {
+    return StrengthByState(law, part);
 }
 
 }  // namespace breach::materials

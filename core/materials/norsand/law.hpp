@@ -1,13 +1,13 @@
-// NorSand (norsand.hpp) as one of the laws. Its points remember a norsand::State (memory.hpp).
+// NorSand (norsand.hpp) as one of the laws. Its points remember a norsand::State (memory.hpp), and
+// its undrained strength follows from that (state_parameter.hpp).
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/materials/memory.hpp"
 #include "core/materials/norsand/fields.hpp"
-#include "core/materials/strength/profile.hpp"
+#include "core/materials/norsand/undrained.hpp"
 #include "core/materials/traits.hpp"
 
 namespace breach::materials {
@@ -15,6 +15,7 @@ namespace breach::materials {
 struct NorSand {
     using Memory = norsand::State;
     using Update = norsand::Update;
+    static constexpr bool has_state_parameter = true;
 
     mechanics::Elasticity elasticity;  ///< of the stages before norsand::initialise: G = G_ref
     norsand::Ready ready;              ///< S is the material's; stages may set another (with_S)
@@ -68,9 +69,24 @@ inline double yield_excess(const NorSand&, const State&) {
 inline Voigt return_to_surface(const NorSand&, const State& state) { return state.sigma; }
 inline std::optional<LawLanes> for_particles(const NorSand&) { return std::nullopt; }
 
+inline double least_mean_stress(const NorSand& law) { return law.ready.parameters.p_min; }
+inline double mean_stress(const NorSand& law, const Voigt& sigma) {
+    return std::max(-(sigma[0] + sigma[1] + sigma[2]) / 3.0, least_mean_stress(law));
+}
+/// psi_0 is that of its place.
+template <class PlaceOf>
+NorSand at_place(const NorSand& law, const PlaceOf& place_of) {
+    if (!law.psi_0_profile) return law;
+    return {.elasticity = law.elasticity,
+            .ready = law.ready,
+            .options = law.options,
+            .psi_0 = law.psi_0_profile->at(place_of()),
+            .e_0 = {},
+            .R = law.R};
+}
 /// What a stress was like that a point begins with.
 inline norsand::Beginning beginning(const NorSand& law, const Voigt& sigma) {
-    const double p = std::max(-(sigma[0] + sigma[1] + sigma[2]) / 3.0, law.ready.parameters.p_min);
+    const double p = mean_stress(law, sigma);
     const double e_0 =
         law.e_0 ? *law.e_0 : law.psi_0.value_or(0.0) + critical_void_ratio(law.ready, p);
     return norsand::initialise(law.ready, sigma, e_0, law.R);
@@ -124,5 +140,39 @@ inline double friction(const NorSand& law, const norsand::State& memory) {
 }
 /// Nothing stays beside it: a stress that did not fit was cut down to one that does.
 inline double stress_outside(const NorSand&, const norsand::State&) { return 0.0; }
+inline bool has_fallen(const NorSand&, const norsand::State& memory) { return memory.has_fallen; }
+
+inline Instability instability(const NorSand& law, const norsand::State& state) {
+    const norsand::Reading at = norsand::read(law.ready, state);
+    const double ratio = at.eta_L > 0.0 ? at.q / (at.p * at.eta_L) : 0.0;
+    Instability out{at.psi, ratio, false};
+    const double half = 0.5 * (state.yy - state.xx);  // tension positive, like the strain
+    if (std::hypot(half, state.xy) <= 1e-7 * at.p) return out;
+    // A strain in the plane along the deviator at constant volume, and what the tangent answers.
+    const Voigt along(half, -half, 0.0, -2.0 * state.xy);
+    const Voigt s(at.p - state.xx, at.p - state.yy, at.p - state.zz, -state.xy);
+    const Voigt rate = plastic_tangent(law.ready, state, along) * along;
+    out.past_peak = s[0] * rate[0] + s[1] * rate[1] + s[2] * rate[2] + 2.0 * s[3] * rate[3] < 0.0;
+    return out;
+}
+inline std::vector<UndrainedStrength> undrained_strengths(const NorSand& law,
+                                                          std::span<const norsand::State> memories,
+                                                          std::span<const double> bounds) {
+    return norsand::undrained_strengths(law.ready, memories, bounds);
+}
+inline UndrainedStrength undrained_strength(const NorSand& law, const Voigt& sigma, double psi,
+                                            double u) {
+    const double p = mean_stress(law, sigma);
+    const double e = psi + norsand::critical_void_ratio(law.ready, p);
+    const auto begun = norsand::initialise(law.ready, sigma, e, 1.0);
+    return norsand::undrained_strength(law.ready, begun.state, p + std::max(u, 0.0));
+}
+/// From a table that is made once.
+UndrainedByPlace undrained_by_place(const NorSand& law, OnPath part);
+inline void set_S(NorSand& law, double S) {
+    norsand::Parameters parameters = law.ready.parameters;
+    parameters.S = S;
+    law.ready = norsand::ready(parameters);
+}
 
 }  // namespace breach::materials

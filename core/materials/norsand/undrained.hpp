@@ -2,25 +2,16 @@
 // is left of that at the critical state of its void ratio.
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "core/materials/norsand/norsand.hpp"
+#include "core/materials/state_parameter.hpp"
 
 namespace breach::materials::norsand {
 
 /// Shear stress in the plane, (sigma_1 - sigma_3) / 2 [Pa].
 double plane_shear(const State& state);
 
-/// Of undrained shear in the plane [Pa]: a Mohr-Coulomb soil with phi = 0 and this c carries as much.
-struct UndrainedStrength {
-    double peak;  ///< the largest on the way, the present one included
-    double
-        critical;  ///< tau = M cos(theta) / sqrt(3) p_c(e), design section 6; never above the peak
-};
-
 /// The law's own path from `state` at constant volume along its deviator in the plane, with the
-/// law's S. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
+/// law's S. Critical: tau = M cos(theta) / sqrt(3) p_c(e), design section 6. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
 /// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.
 UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
 /// The same of many states, side by side: to the last bit what each alone gives.

@@ -62,6 +62,7 @@ inline Matrix4 elastic_tangent(const PM4Sand& law, const pm4sand::State& memory)
 inline double shear_modulus(const PM4Sand&, const pm4sand::State& memory) { return memory.G; }
 /// The bounding surface, q/p = M_b in the plane.
 inline double friction(const PM4Sand&, const pm4sand::State& memory) { return 0.5 * memory.M_b; }
+inline bool has_fallen(const PM4Sand&, const pm4sand::State&) { return false; }
 inline double stress_outside(const PM4Sand&, const pm4sand::State& memory) {
     const auto& b = memory.sigma_b;
     const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});

@@ -50,9 +50,9 @@ TEST(NorSandByState, PeakInSimpleShearIsTheReferencesTables) {
 TEST(NorSandByState, TheTableIsThePathBetweenItsRowsToo) {
     for (const OnPath part : {OnPath::peak, OnPath::residual}) {
         const NorSand law = tailings(with());
-        const materials::StrengthByState table(law, part);
+        const auto table = undrained_by_place(law, part);
         for (const double sigma_v0 : {7.3e3, 41e3, 133e3, 420e3}) {
-            const double s_u = table.at({5.0, 0.0, sigma_v0}, 20.0 * sigma_v0);
+            const double s_u = table({5.0, 0.0, sigma_v0}, 20.0 * sigma_v0);
             // At a few kPa the floor p_min puts a kink between two rows.
             const double allowed = sigma_v0 < 10e3 ? 3e-2 : 1e-2;
             EXPECT_NEAR(s_u / sigma_v0 / ratio_by_path(law, sigma_v0, part), 1.0, allowed)
@@ -69,8 +69,8 @@ TEST(NorSandByState, ResidualIsTheCriticalStatesShearAtTheVoidRatioThatStays) {
     const double expected = materials::norsand::critical_ratio(law.ready, theta) * std::cos(theta) /
                             std::numbers::sqrt3 *
                             materials::norsand::critical_pressure(law.ready, begun.state.e);
-    const materials::StrengthByState table(law, OnPath::residual);
-    EXPECT_NEAR(table.at({5.0, 0.0, sigma_v0}, sigma_v0) / expected, 1.0, 5e-3);
+    const auto table = undrained_by_place(law, OnPath::residual);
+    EXPECT_NEAR(table({5.0, 0.0, sigma_v0}, sigma_v0) / expected, 1.0, 5e-3);
 }
 
 /// Level-bedded wet NorSand cut to a 45-degree face; a circle about a point above the toe.

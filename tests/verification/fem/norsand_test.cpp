@@ -2,7 +2,6 @@
 // scene says what it cannot be.
 #include <cmath>
 
-#include "core/materials/norsand/instability.hpp"
 #include "core/materials/norsand/undrained.hpp"
 #include "element_bench/specimen.hpp"
 #include "fem_solver/checkpoint.hpp"
