@@ -31,7 +31,7 @@ State at_rest(const Ready& law, double psi_0) {
 // docs/design/norsand.md: tau/sigma'_v0 = 0.039360 at psi_0 = 0.05, K_0 = 0.7.
 TEST(NorSandUndrained, TheResidualIsThatOfTheCriticalState) {
     const Ready law = cj1();
-    const UndrainedStrength loose = undrained_strength(law, at_rest(law, 0.05), far);
+    const materials::UndrainedStrength loose = undrained_strength(law, at_rest(law, 0.05), far);
     EXPECT_NEAR(loose.critical / sigma_v0, 0.039360, 5e-6);
     const double looser = undrained_strength(law, at_rest(law, 0.07), far).critical;
     EXPECT_NEAR(looser / loose.critical, std::exp(-1.0), 1e-9) << "e^(-d psi / lambda)";
@@ -40,7 +40,7 @@ TEST(NorSandUndrained, TheResidualIsThatOfTheCriticalState) {
 TEST(NorSandUndrained, ThePeakIsThatOfThePathAndThePresentPastIt) {
     const Ready law = cj1();
     State state = at_rest(law, 0.05);
-    const UndrainedStrength found = undrained_strength(law, state, far);
+    const materials::UndrainedStrength found = undrained_strength(law, state, far);
     double peak = plane_shear(state);
     for (int step = 0; step < 4000; ++step) {
         state = integrate(law, state, Voigt(1e-5, -1e-5, 0.0, 0.0), {}).state;
@@ -64,7 +64,7 @@ TEST(NorSandUndrained, ManySideBySideAreWhatEachAloneIs) {
     const auto together = undrained_strengths(law, states, bounds);
     ASSERT_EQ(together.size(), states.size());
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const UndrainedStrength alone = undrained_strength(law, states[i], bounds[i]);
+        const materials::UndrainedStrength alone = undrained_strength(law, states[i], bounds[i]);
         EXPECT_EQ(together[i].peak, alone.peak) << i;
         EXPECT_EQ(together[i].critical, alone.critical) << i;
     }
@@ -73,7 +73,7 @@ TEST(NorSandUndrained, ManySideBySideAreWhatEachAloneIs) {
 TEST(NorSandUndrained, DenseSoilIsBelievedUpToTheBoundOnly) {
     const Ready law = cj1();
     const State dense = at_rest(law, -0.05);
-    const UndrainedStrength bounded = undrained_strength(law, dense, 2.0 * p_0);
+    const materials::UndrainedStrength bounded = undrained_strength(law, dense, 2.0 * p_0);
     const double theta = plane_critical_angle(law);
     const double tau = critical_ratio(law, theta) * std::cos(theta) / std::numbers::sqrt3;
     EXPECT_NEAR(bounded.peak, tau * 2.0 * p_0, 1e-6);
