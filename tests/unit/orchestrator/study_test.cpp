@@ -1,5 +1,3 @@
-#include "services/orchestrator/study/read_study.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +13,7 @@
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/trigger.hpp"
 #include "services/orchestrator/study/graph.hpp"
+#include "services/orchestrator/study/read_study.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 #include "tests/folder.hpp"
 
