@@ -46,7 +46,7 @@ std::vector<Point> points_of(std::span<const InverseStep> steps, const Scale& sc
     return points;
 }
 
-/// Over all steps with several lattices on which something was let go.
+/// Over all steps with results on several lattices.
 std::optional<Noise> noise_of_steps(std::span<const InverseStep> steps) {
     std::vector<Repeats> repeats;
     for (const InverseStep& each : steps)

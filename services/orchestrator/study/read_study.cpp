@@ -142,11 +142,11 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
                           "the rung changes nothing that " + readers + " read" +
                               (readers.find(',') == std::string::npos ? "s" : "") +
                               ": it is the rung before it once more",
-                          "change an entry that the quantity hangs on"});
+                          "change an entry that affects the quantity"});
     }
 }
 
-/// Of the phases that a sample runs; empty where a probe's scene has faults, which are told.
+/// Recipes of the phases that a sample runs; empty where the probe's scene has faults, which are added to `found`.
 std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<std::string>& probe,
                                           const std::vector<phases::Phase>& phases,
                                           std::vector<Fault>& found) {

@@ -60,12 +60,12 @@ std::vector<double> wanted_times(const json& entry, std::vector<Fault>& faults) 
     if (equal != times.end()) {
         faults.push_back({"/transfer_times",
                           "the time " + words::text_of(*equal, 9) + " s is given twice",
-                          "give each transfer time once (they are told apart to 1e-6 s)"});
+                          "give each transfer time once (two times differ by 1e-6 s or more)"});
     }
     return times;
 }
 
-/// Fields that a condition asks for; none where it cannot be read, which is told elsewhere.
+/// Fields that a condition names; none where it cannot be read: check_triggers adds that fault.
 std::vector<std::string> fields_of(const std::string& condition) {
     try {
         return criteria::parse(condition, criteria::Kind::condition, "").fields;

@@ -73,7 +73,7 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
     return variant;
 }
 
-/// All of them, on several threads where they are many: no variant's check hangs on another's.
+/// Checks all variants, on several threads where there are many: the checks are independent.
 std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries, const Base& base,
                                          const std::vector<double>& times) {
     constexpr std::size_t worth_a_thread = 50;
