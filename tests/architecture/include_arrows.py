@@ -45,7 +45,7 @@ arrows = {
     "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
-    "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/telemetry"},
+    "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.

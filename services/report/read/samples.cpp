@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/phases/phases.hpp"
+#include "core/statistics/percentiles.hpp"
 #include "services/findings/flags.hpp"
 #include "services/report/chart/axis.hpp"
 #include "services/report/read/verdict.hpp"
@@ -62,13 +63,8 @@ bool is_lower_bound(const Run& run, const std::string& quantity, double value) {
     });
 }
 
-std::size_t samples_needed(double p) {
-    const double tail = std::min(p, 100.0 - p) / 100.0;
-    return static_cast<std::size_t>(std::ceil(std::log(0.05) / std::log1p(-tail) - 1e-9));
-}
-
 std::optional<double> Spread::percentile(double p) const {
-    if (of < samples_needed(p)) return {};
+    if (of < statistics::samples_needed(p)) return {};
     const double place = static_cast<double>(of - 1) * p / 100.0;
     const auto below = static_cast<std::size_t>(place);
     const double rest = place - static_cast<double>(below);

@@ -26,10 +26,6 @@ std::vector<const PhaseFolder*> moving_samples(const Run& run);
 /// value is a lower bound then.
 bool is_lower_bound(const Run& run, const std::string& quantity, double value);
 
-/// The fewest samples of which a percentile p [%] is told: it then lies within the sample with
-/// probability 0.95 (Wilks 1941).
-std::size_t samples_needed(double p);
-
 /// A fact over the samples that have a result. Where it is not there (a gauge that the flow never
 /// came to) it counts as `absent`: infinity for a time, 0 for a depth.
 struct Spread {

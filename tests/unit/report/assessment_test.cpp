@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "core/statistics/percentiles.hpp"
 #include "services/findings/uncertainty.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/chart/draw.hpp"
@@ -339,10 +340,10 @@ TEST_F(Sampled, WithoutItsAnswerIsLeftOutAndSaid) {
 }
 
 TEST(Spread, IsToldOfEnoughSamplesAlone) {
-    EXPECT_EQ(samples_needed(50), 5u);
-    EXPECT_EQ(samples_needed(90), 29u);
-    EXPECT_EQ(samples_needed(10), 29u);
-    EXPECT_EQ(samples_needed(95), 59u);
+    EXPECT_EQ(statistics::samples_needed(50), 5u);
+    EXPECT_EQ(statistics::samples_needed(90), 29u);
+    EXPECT_EQ(statistics::samples_needed(10), 29u);
+    EXPECT_EQ(statistics::samples_needed(95), 59u);
     Spread spread{3,
                   5,
                   {1, 2, 3, std::numeric_limits<double>::infinity(),
