@@ -119,6 +119,7 @@ std::vector<std::vector<std::size_t>> undrained_parts(const scene::Scene& scene)
 
 scene::Scene limit_scene(const scene::Scene& scene) {
     scene::Scene result = scene;
+    result.lem = scene::lem_of(scene);  // the first to need it: throws where it is missing
     walk_paths(scene, result.lem->undrained);
     walk_paths(scene, result.lem->liquefaction);
     for (scene::Material& material : result.materials) use_limit_strength(material);

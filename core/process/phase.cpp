@@ -11,6 +11,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
+#include "core/phases/reads.hpp"
 #include "core/process/flags.hpp"
 #include "core/process/signals.hpp"
 #include "core/version/version.hpp"
@@ -266,8 +267,40 @@ Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene
     return phase.measure(session);
 }
 
+/// What the transfer reads of /mpm.
+scene::Mpm grid_alone(const scene::Mpm& mpm) {
+    scene::Mpm grid{};
+    grid.cell_size = mpm.cell_size;
+    grid.domain_x = mpm.domain_x;
+    grid.domain_y = mpm.domain_y;
+    grid.left = mpm.left;
+    grid.right = mpm.right;
+    grid.floor = mpm.floor;
+    grid.terrain = mpm.terrain;
+    grid.kernel = mpm.kernel;
+    grid.gimp_half_size = mpm.gimp_half_size;
+    return grid;
+}
+
+/// The scene without what a phase does not read, so that no result can depend on it. Provenance
+/// keeps the text of the whole.
+scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
+                           const std::filesystem::path& file) {
+    const phases::Phase* named = phases::named(phase.name);
+    if (named == nullptr) return scene;
+    check::Checked checked =
+        check::checked_document(phases::scene_known_to(*named, json::parse(scene.completed)),
+                                file.string(), file.parent_path(), {});
+    if (!checked.faults.empty()) throw fault::BadInput(file.string(), std::move(checked.faults));
+    checked.scene.completed = scene.completed;
+    if (phase.name == phases::transfer.program && checked.scene.mpm)
+        checked.scene.mpm = grid_alone(*checked.scene.mpm);
+    return std::move(checked.scene);
+}
+
 ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
-    scene::Scene scene = phase.read(arguments.scene, arguments.settings.overrides);
+    const scene::Scene whole = phase.read(arguments.scene, arguments.settings.overrides);
+    scene::Scene scene = what_it_reads(phase, whole, arguments.scene);
     if (arguments.question == Question::none)
         return simulate(phase, arguments, std::move(scene), known);
     const Plan plan = phase.plan(scene);
@@ -277,7 +310,7 @@ ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     } else {
         std::cout << arguments.scene.string() << ": no faults\n";
     }
-    for (const fault::Flag& each : scene.warnings)
+    for (const fault::Flag& each : whole.warnings)
         std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     return ExitCode::done;
 }

@@ -1,14 +1,7 @@
 // What a phase's result depends on: the phase, the version of its numerics, and the part of the
-// completed scene that it reads. Together with the SHA-256 of its input file this is the key of the
-// cache. Never in it: threads, paths, names, titles, program versions.
-//
-//     lem_tool       /gravity /materials /section /lem
-//     fem_solver     /gravity /thickness /materials /section /fem    (with all snapshot times: the
-//                    FEM's steps end on them); and the bytes of /fem/msh_file and
-//                    /fem/motion/file
-//     transfer_tool  /gravity /materials /transfer, names and materials of /section/regions
-//     mpm_solver     /gravity /thickness /materials /mpm, names and materials of /section/regions
-//                    (the shapes come with the particles)
+// completed scene that it reads (core/phases/reads.hpp), files by their bytes. Together with the
+// SHA-256 of its input file this is the key of the cache. Never in it: threads, paths, names, titles,
+// program versions.
 #pragma once
 
 #include "services/orchestrator/records/records.hpp"

@@ -158,6 +158,11 @@ TEST_F(LemTool, PlanSaysWhatIsLeftOut) {
     EXPECT_NE(printed().find("left out"), std::string::npos);
 }
 
+TEST_F(LemTool, RefusesASceneWithoutItsPart) {
+    EXPECT_EQ(run("--plan", "column"), 65);
+    EXPECT_NE(printed().find("/lem: is missing"), std::string::npos) << printed();
+}
+
 TEST_F(LemTool, RefusesACircleThatLeavesTheModel) {
     const std::string set = " --set '/lem={\"circle\":{\"center\":[30,20],\"radius\":40}}'";
     EXPECT_EQ(run("--progress none --output " + folder_.string() + set), 65);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/fault/fault.hpp"
+#include "core/phases/reads.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/telemetry/columns.hpp"
 #include "services/orchestrator/dispatch/verdict.hpp"
@@ -432,6 +433,34 @@ TEST(Recipe, KnowsTheGroundThatTheMpmFillsTheProfileThatAnotherNamesAndTheWaterO
     like["materials"]["profile"] = {{"strength", {{"peak", {{"ratio", 0.3}}}}}};
     for (const char* phase : {"lem_tool", "fem_solver"})
         EXPECT_TRUE(differs(phase, like, "/materials/profile/strength/peak/ratio", 0.15)) << phase;
+}
+
+/// Else a result could depend on an entry that the key of its cache lacks.
+TEST(Recipe, HasEveryEntryThatAPhaseOrOneBeforeItCanSee) {
+    const json scene = read_study(slope_study().dump()).scene;
+    const auto keys = [](std::size_t phase, const json& of) {
+        std::string text;
+        for (std::size_t i = phase < 2 ? phase : 1; i <= phase; ++i)
+            text += phases::part_read_by(phases::all[i], of).dump();
+        return text;
+    };
+    const json flat = scene.flatten();
+    for (std::size_t i = 0; i < phases::all.size(); ++i) {
+        int unseen = 0;
+        for (const auto& [pointer, value] : flat.items()) {
+            if (pointer == "/name" || pointer == "/title" || pointer == "/format") continue;
+            if (pointer.ends_with("/material")) continue;          // names another entry
+            if (i == 2 && pointer.starts_with("/mpm/")) continue;  // the phase keeps the grid alone
+            json other = scene;
+            other[json::json_pointer(pointer)] = "another";
+            if (keys(i, scene) != keys(i, other)) continue;
+            ++unseen;
+            EXPECT_EQ(phases::scene_known_to(phases::all[i], scene),
+                      phases::scene_known_to(phases::all[i], other))
+                << phases::all[i].program << " sees " << pointer;
+        }
+        EXPECT_GT(unseen, 0) << phases::all[i].program;
+    }
 }
 
 /// A folder with four programs that answer --version so.
