@@ -167,7 +167,7 @@ void with_state(const L& law, Memory& memory, const Visit& visit) {
 /// With the additional softening S of a stage, where the law has a state parameter.
 template <IsLaw L>
 L with_S(L law, double S) {
-    if_state_parameter(law, [&](auto& each) { set_S(each, S); });
+    if_state_parameter(law, [&](auto& each) { set_s(each, S); });
     return law;
 }
 

@@ -55,7 +55,7 @@ concept AnswersForStateParameter = Remembers<Law> &&
     /// In simple shear, of level ground.
     { undrained_by_place(law, part) } -> std::same_as<UndrainedByPlace>;
     /// Changes S, the additional softening of undrained soil [-].
-    set_S(own, number);
+    set_s(own, number);
 };
 
 }  // namespace breach::materials

@@ -169,7 +169,7 @@ inline UndrainedStrength undrained_strength(const NorSand& law, const Voigt& sig
 }
 /// From a table that is made once.
 UndrainedByPlace undrained_by_place(const NorSand& law, OnPath part);
-inline void set_S(NorSand& law, double S) {
+inline void set_s(NorSand& law, double S) {
     norsand::Parameters parameters = law.ready.parameters;
     parameters.S = S;
     law.ready = norsand::ready(parameters);

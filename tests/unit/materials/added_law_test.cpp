@@ -95,7 +95,7 @@ inline UndrainedByPlace undrained_by_place(const Peat& law, OnPath part) {
         return part == OnPath::peak ? found.peak : found.critical;
     };
 }
-inline void set_S(Peat& law, double S) { law.S = S; }
+inline void set_s(Peat& law, double S) { law.S = S; }
 
 /// Leave an answer out: all of them, those of memory.hpp, those of state_parameter.hpp.
 struct Silent {
