@@ -97,6 +97,19 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
                  text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
 }
 
+/// Damping that is given at a frequency which the motion does not have damps the others by another
+/// ratio.
+void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
+    if (!fem.damping_frequency) return;
+    const motion::Band band = motion::band(acceleration);
+    const double low = 0.5 * band.low, high = 2.0 * band.high;
+    if (*fem.damping_frequency >= low && *fem.damping_frequency <= high) return;
+    refuse(findings, "/fem/damping/frequency_Hz",
+           "is " + text(*fem.damping_frequency) + " Hz, and the motion has its power from " +
+               text(band.low) + " to " + text(band.high) + " Hz",
+           "give a frequency within the motion's, as a rule that of the dam's first mode");
+}
+
 motion::Series acceleration_of(const Recording& shaking) {
     motion::Series series = shaking.series;
     if (shaking.quantity == Quantity::acceleration) return series;
@@ -125,7 +138,9 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
     for (fault::Flag& each : doubts.flags) findings.warnings.push_back(std::move(each));
     if (!doubts.faults.empty()) return;
     check_steps(fem, shaking.series, findings);
-    check_length(fem, acceleration_of(shaking), findings);
+    const motion::Series acceleration = acceleration_of(shaking);
+    check_length(fem, acceleration, findings);
+    check_damping(fem, acceleration, findings);
 }
 
 motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace breach::motion {
@@ -85,6 +86,23 @@ StrongPart strong_part(const Series& acceleration) {
     if (sum.values.empty() || sum.values.back() == 0.0) return {0.0, 0.0};
     const double all = sum.values.back();
     return {time_of(sum, 0.05 * all), time_of(sum, 0.95 * all)};
+}
+
+Band band(const Series& motion) {
+    const double spacing = std::max(0.05, 0.5 / std::max(motion.duration(), motion.dt));
+    const double last = std::min(50.0, 0.5 / motion.dt);
+    Series power{spacing, {0.0}};
+    for (double f = spacing; f <= last; f += spacing) {
+        const std::complex<double> turn = std::polar(1.0, -2.0 * std::numbers::pi * f * motion.dt);
+        std::complex<double> phase = 1.0, sum = 0.0;
+        for (const double value : motion.values) {
+            sum += value * phase;
+            phase *= turn;
+        }
+        power.values.push_back(power.values.back() + std::norm(sum));
+    }
+    const double all = power.values.back();
+    return {time_of(power, 0.02 * all), time_of(power, 0.98 * all)};
 }
 
 Baseline baseline(const Series& acceleration) {

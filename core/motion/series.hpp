@@ -47,6 +47,13 @@ struct StrongPart {
 };
 StrongPart strong_part(const Series& acceleration);
 
+/// Frequencies below which 2 % and 98 % of the motion's power lie, up to 50 Hz [Hz].
+struct Band {
+    double low;
+    double high;
+};
+Band band(const Series& motion);
+
 /// What is left when the ground should be at rest again: zero for a base-corrected motion.
 struct Baseline {
     double last_velocity;      ///< [m/s]

@@ -1,6 +1,7 @@
 // What fem_solver does with the scene: /fem.
 #include <algorithm>
 #include <functional>
+#include <numbers>
 
 #include "core/scene/checks.hpp"
 #include "core/scene/file_paths.hpp"
@@ -287,6 +288,16 @@ std::optional<LiquefactionWatch> liquefaction_from(Reader& reader, const Scene& 
     return result;
 }
 
+/// Rayleigh's ratio at a frequency is beta pi f.
+void read_damping(Reader& reader, const json& damping, Fem& fem) {
+    if (fem.rayleigh_stiffness > 0.0)
+        reader.add("/fem/damping", "and /fem/rayleigh_stiffness are the same damping twice",
+                   "give one of them");
+    fem.damping_frequency = damping.at("frequency_Hz").get<double>();
+    fem.rayleigh_stiffness =
+        damping.at("ratio").get<double>() / (std::numbers::pi * *fem.damping_frequency);
+}
+
 }  // namespace
 
 void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene) {
@@ -311,6 +322,7 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.newmark_gamma = fem.at("newmark_gamma");
     result.rayleigh_mass = fem.at("rayleigh_mass");
     result.rayleigh_stiffness = fem.at("rayleigh_stiffness");
+    if (fem.contains("damping")) read_damping(reader, fem.at("damping"), result);
     result.force_tolerance = fem.at("force_tolerance");
     result.largest_iterations = fem.at("largest_iterations");
     result.least_jacobian_ratio = fem.at("least_jacobian_ratio");

@@ -407,9 +407,10 @@ struct Fem {
     double largest_step_error;  ///< 0: steps follow the iterations alone [m]
     double newmark_beta;
     double newmark_gamma;
-    double rayleigh_mass;       ///< alpha [1/s]
-    double rayleigh_stiffness;  ///< beta [s]
-    double force_tolerance;     ///< residual norm over reference force norm [-]
+    double rayleigh_mass;                       ///< alpha [1/s]
+    double rayleigh_stiffness;                  ///< beta [s]
+    std::optional<double> damping_frequency{};  ///< at which the ratio was given [Hz]
+    double force_tolerance;                     ///< residual norm over reference force norm [-]
     int largest_iterations;
     double least_jacobian_ratio;  ///< entangled below this [-]
     AtEntanglement at_entanglement;

@@ -47,6 +47,24 @@ TEST_F(Motion, ASoundOneIsTaken) {
     EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
 }
 
+/// rows() swings at 20 / 12 Hz.
+TEST_F(Motion, DampingIsGivenAtAFrequencyThatTheMotionHas) {
+    const auto damped = [&](const std::string& damping, std::vector<std::string> more = {}) {
+        more.push_back("/fem/damping=" + damping);
+        return with("sound.csv", header + rows(0.01, 0.3), more);
+    };
+    const Checked checked = damped(R"({"ratio":0.005,"frequency_Hz":3})");
+    ASSERT_TRUE(checked.faults.empty()) << told(checked.faults);
+    EXPECT_NEAR(checked.scene.fem->rayleigh_stiffness, 0.005 / (M_PI * 3.0), 1e-15);
+    for (const char* frequency : {"0.01", "30"})
+        expect_only(damped(R"({"ratio":0.005,"frequency_Hz":)" + std::string(frequency) + "}"),
+                    "/fem/damping/frequency_Hz", "the motion has its power from 1.");
+    expect_only(damped(R"({"ratio":-0.005,"frequency_Hz":3})"), "/fem/damping/ratio", "");
+    expect_only(damped(R"({"ratio":0.5,"frequency_Hz":3})"), "/fem/damping/ratio", "0.5");
+    expect_only(damped(R"({"ratio":0.005,"frequency_Hz":3})", {"/fem/rayleigh_stiffness=1e-3"}),
+                "/fem/damping", "twice");
+}
+
 TEST_F(Motion, AFileThatIsNotThereIsNamed) {
     expect_only(changed("mochikoshi", {"/fem/motion/file=/nowhere/motion.csv"}), "/fem/motion/file",
                 "does not exist: /nowhere/motion.csv");

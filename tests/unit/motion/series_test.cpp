@@ -85,6 +85,18 @@ TEST(Record88, IntegratesToItsOwnVelocity) {
     EXPECT_NEAR(strong_part(a).duration(), 23.61, 0.02);
 }
 
+/// The power of two sines is that of their amplitudes squared; of a wide noise it is flat.
+TEST(Series, BandIsWhereThePowerLies) {
+    Series motion{0.01, {}};
+    for (int i = 0; i < 4000; ++i) {
+        const double t = 0.01 * i;
+        motion.values.push_back(std::sin(2.0 * M_PI * t) + 0.5 * std::sin(2.0 * M_PI * 8.0 * t));
+    }
+    const Band two = band(motion);
+    EXPECT_NEAR(two.low, 1.0, 0.06);
+    EXPECT_NEAR(two.high, 8.0, 0.06);
+}
+
 TEST(AllRecords, CanBeRead) {
     const std::filesystem::path folder = std::filesystem::path(BREACH_SHARED) / "motions";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no records at " << folder;
