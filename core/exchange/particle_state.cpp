@@ -217,6 +217,12 @@ void ParticleState::resize(std::size_t n) {
     });
 }
 
+double ParticleState::pressure_beside(std::size_t p) const {
+    const bool is_total =
+        !stress_of_regions.empty() && stress_of_regions[region[p]] == StressMeasure::total;
+    return is_total || pore_pressure.empty() ? 0.0 : pore_pressure[p];
+}
+
 void write_particle_state(const std::filesystem::path& path, const ParticleState& state,
                           const Provenance& provenance, const Ledger& ledger) {
     check_sizes(state);

@@ -105,6 +105,8 @@ struct ParticleState : PointFields {
     std::size_t size() const { return position.size(); }
     /// New points have zeros in all that every point has.
     void resize(std::size_t n);
+    /// u beside the point's stress; 0 where that is the total one [Pa]
+    double pressure_beside(std::size_t p) const;
 };
 
 /// `ledger`: what the transfer kept and lost; only the transfer gives one.

@@ -117,12 +117,8 @@ std::vector<std::int32_t> match_soils(const scene::Scene& scene,
 
 /// The pore pressure beside an effective stress would be lost here, and with it the balance.
 void refuse_water(const exchange::ParticleState& state, const std::string& file) {
-    if (state.pore_pressure.empty()) return;
     for (std::size_t p = 0; p < state.size(); ++p) {
-        const auto measure = state.stress_of_regions.empty()
-                                 ? exchange::StressMeasure::effective
-                                 : state.stress_of_regions[state.region[p]];
-        if (measure == exchange::StressMeasure::total || state.pore_pressure[p] == 0.0) continue;
+        if (state.pressure_beside(p) == 0.0) continue;
         throw fault::BadInput(file, {{"/VTKHDF/PointData/pore_pressure",
                                       "points with effective stress and pore pressure",
                                       "transfer total stress (/transfer/stress \"total\")"}});
