@@ -142,10 +142,9 @@ NonlocalSoftening::Pace load_pace(const Archive& archive, const std::string& fil
 
 Points load_points(const Archive& archive, const std::string& file) {
     Points points;
-    if (archive.reals.contains("eta")) points.eta.resize(1);
-    if (archive.reals.contains("excess")) points.excess.resize(1);
-    if (archive.reals.contains("epsilon_q_shared")) points.epsilon_q_shared.resize(1);
-    if (archive.reals.contains("c")) points.c.resize(1);
+    for (const auto& real : reals_of_points<Reals>)
+        if (real.only_with == real.array && archive.reals.contains(real.name))
+            (points.*real.array).resize(1);
     for_each_real(points, [&](const char* name, std::vector<double>& values) {
         values = archive.reals.at(name);
     });

@@ -9,11 +9,8 @@ namespace {
 /// Calls visit(array) for what changes from step to step and is written.
 template <class AnyPoints, class Visit>
 void for_each_changing(AnyPoints& points, Visit&& visit) {
-    visit(points.x), visit(points.y), visit(points.vx), visit(points.vy);
-    visit(points.Lxx), visit(points.Lxy), visit(points.Lyx), visit(points.Lyy);
-    visit(points.volume);
-    visit(points.sxx), visit(points.syy), visit(points.szz), visit(points.sxy);
-    visit(points.epsilon_q), visit(points.epsilon_q_plastic), visit(points.gap);
+    for (const auto& real : reals_of_points<Reals>)
+        if (real.life == Life::output) visit(points.*real.array);
 }
 
 }  // namespace

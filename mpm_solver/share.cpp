@@ -1,41 +1,20 @@
 #include "mpm_solver/share.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace breach::mpm {
 
 namespace {
 
-PointArrays arrays_of(Body& body) {
-    Points& p = body.points;
-    return {.x = p.x.data(),
-            .y = p.y.data(),
-            .vx = p.vx.data(),
-            .vy = p.vy.data(),
-            .Lxx = p.Lxx.data(),
-            .Lxy = p.Lxy.data(),
-            .Lyx = p.Lyx.data(),
-            .Lyy = p.Lyy.data(),
-            .m = p.m.data(),
-            .V_0 = p.V_0.data(),
-            .V = p.V.data(),
-            .volume = p.volume.data(),
-            .sxx = p.sxx.data(),
-            .syy = p.syy.data(),
-            .szz = p.szz.data(),
-            .sxy = p.sxy.data(),
-            .epsilon_q = p.epsilon_q.data(),
-            .epsilon_q_plastic = p.epsilon_q_plastic.data(),
-            .gap = p.gap.data(),
-            .eta = p.eta.empty() ? nullptr : p.eta.data(),
-            .excess = p.excess.empty() ? nullptr : p.excess.data(),
-            .drift_x = body.drift_x.empty() ? nullptr : body.drift_x.data(),
-            .drift_y = body.drift_y.empty() ? nullptr : body.drift_y.data(),
-            .c = p.c.empty() ? nullptr : p.c.data(),
-            .tan_phi = p.c.empty() ? nullptr : p.tan_phi.data(),
-            .c_residual = p.c.empty() ? nullptr : p.c_residual.data(),
-            .tan_phi_residual = p.c.empty() ? nullptr : p.tan_phi_residual.data(),
-            .cell = p.cell.data()};
+PointArrays arrays_of(Points& points) {
+    PointArrays arrays{};
+    for (std::size_t k = 0; k < std::size(reals_of_points<Reals>); ++k) {
+        Reals& values = points.*reals_of_points<Reals>[k].array;
+        if (!values.empty()) arrays.*reals_of_points<double*>[k].array = values.data();
+    }
+    arrays.cell = points.cell.data();
+    return arrays;
 }
 
 GridArrays arrays_of(Grid& grid, const WallRows& walls_y) {
@@ -60,9 +39,9 @@ double damping_return(const Zone& zone, double dt) {
     return std::min(dt * zone.elasticity.shear_modulus() / (20.0 * zone.damping), 1.0);
 }
 
-ZoneWork work_of(Body& body, std::size_t z, double dt) {
+ZoneWork work_of(Body& body, const PointArrays& points, std::size_t z, double dt) {
     const Zone& zone = body.zones[z];
-    return {.points = arrays_of(body),
+    return {.points = points,
             .grid = arrays_of(body.grid, zone.walls_y),
             .cells = body.averages[z].empty() ? nullptr : body.averages[z].data(),
             .law = std::visit([](const auto& law) -> const void* { return &law; }, zone.lanes),
@@ -92,6 +71,7 @@ void add(Totals& whole, const Totals& part) {
 Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
     const auto has_it = [&](const Loops& loops) { return loops.*loop != nullptr; };
     if (std::ranges::none_of(body.loops, has_it)) return {};
+    const PointArrays points = arrays_of(body.points);
     const Strips& strips = body.strips;
     const std::size_t zones = body.zones.size();
     body.sums.resize(strips.count() * zones);
@@ -102,7 +82,8 @@ Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
                 const Span span = strips.span(strip, z);
                 const Loop chosen = body.loops[z].*loop;
                 Totals& sums = body.sums[strip * zones + z] = {};
-                if (chosen && span.begin < span.end) chosen(work_of(body, z, dt), span, sums);
+                if (chosen && span.begin < span.end)
+                    chosen(work_of(body, points, z, dt), span, sums);
             }
         });
     };

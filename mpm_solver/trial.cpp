@@ -69,7 +69,7 @@ double bytes(const std::vector<T>& values) {
 
 double bytes_of(const Points& points) {
     double sum = bytes(points.cell);
-    for_each_real(points, [&](const char*, const auto& values) { sum += bytes(values); });
+    for (const auto& real : reals_of_points<Reals>) sum += bytes(points.*real.array);
     for_each_integer(points, [&](const char*, const auto& values) { sum += bytes(values); });
     return sum;
 }
@@ -97,7 +97,7 @@ process::Cost measure(process::Session& session) {
                    {"nodes in use", static_cast<std::int64_t>(body.grid.active.size())}};
     double averages = 0.0;
     for (const std::vector<CellSum>& sums : body.averages) averages += bytes(sums);
-    cost.memory = {{"points", bytes_of(body.points) + bytes(body.drift_x) + bytes(body.drift_y)},
+    cost.memory = {{"points", bytes_of(body.points)},
                    {"grid", bytes_of(body.grid)},
                    {"anti-locking's cells", averages}};
     const double dt = mpm.time_step ? *mpm.time_step : courant_step(body, mpm.cfl);

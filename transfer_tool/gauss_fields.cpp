@@ -130,9 +130,9 @@ std::optional<GaussFieldReport> carry_gauss_fields(const MeshSnapshot& mesh,
     auto carried = interpolate(mesh, at_gauss, settings, work, points);
     if (!carried) return std::nullopt;
     exchange::ParticleState& s = points.state;
-    s.stress.resize(s.size());
+    points.effective_stress.resize(s.size());
     for (Eigen::Index p = 0; p < carried->value.rows(); ++p)
-        s.stress[p] = carried->value.row(p).head<4>();
+        points.effective_stress[p] = carried->value.row(p).head<4>();
     s.epsilon_q = not_negative(carried->value, 4, carried->report.raised_strains);
     s.epsilon_q_plastic = not_negative(carried->value, 5, carried->report.raised_strains);
     return carried->report;
@@ -143,7 +143,7 @@ std::optional<RoundTrip> round_trip(const MeshSnapshot& mesh, const scene::Trans
     const exchange::ParticleState& s = points.state;
     Values at_points(static_cast<Eigen::Index>(s.size()), 5);
     for (Eigen::Index p = 0; p < at_points.rows(); ++p)
-        at_points.row(p) << s.stress[p].transpose(), s.epsilon_q[p];
+        at_points.row(p) << points.effective_stress[p].transpose(), s.epsilon_q[p];
     const auto back = interpolate(points_as_sources(mesh, points), at_points,
                                   gauss_as_targets(mesh, points), settings, work);
     if (!back) return std::nullopt;

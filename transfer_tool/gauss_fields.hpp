@@ -15,7 +15,7 @@ std::optional<Interpolated> interpolate(const exchange::MeshSnapshot& mesh, cons
                                         const scene::Transfer& settings, const Work& work,
                                         const Points& points);
 
-/// Fills stress (effective), epsilon_q and epsilon_q_plastic.
+/// Fills effective_stress, epsilon_q and epsilon_q_plastic.
 std::optional<GaussFieldReport> carry_gauss_fields(const exchange::MeshSnapshot& mesh,
                                                    const scene::Transfer& settings,
                                                    const Work& work, Points& points);
@@ -30,8 +30,7 @@ struct RoundTrip {
     double velocity_rms = 0.0;    ///< at the nodes, sum m N v / sum m N against the mesh [m/s]
     double velocity_scale = 0.0;  ///< rms of the mesh's [m/s]
 };
-/// To be called while the points' stress is the interpolated effective one. Where points lie at the
-/// Gauss points these come back exactly.
+/// Where points lie at the Gauss points these come back exactly.
 std::optional<RoundTrip> round_trip(const exchange::MeshSnapshot& mesh,
                                     const scene::Transfer& settings, const Work& work,
                                     const Points& points);

@@ -65,10 +65,7 @@ class GridOnce {
         const auto y =
             kernel((s.position[p].y() - mpm_.floor.level) / h, walls_of_soil_[s.region[p]]);
         const mechanics::Voigt& sigma = s.stress[p];
-        const bool effective =
-            !s.stress_of_regions.empty() &&
-            s.stress_of_regions[s.region[p]] == exchange::StressMeasure::effective;
-        const double u = effective ? s.pore_pressure[p] : 0.0;
+        const double u = s.pressure_beside(p);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) {
                 const double m = s.mass[p] * x.N[i] * y.N[j];

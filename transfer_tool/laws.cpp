@@ -89,7 +89,6 @@ YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
 }
 
 void find_reference_volumes(std::span<const materials::Law> laws, exchange::ParticleState& state) {
-    state.volume_0.resize(state.size());
     for (std::size_t p = 0; p < state.size(); ++p) {
         const double K = materials::elasticity(laws[state.region[p]]).bulk_modulus();
         const double ratio = 1.0 + mechanics::mean_stress(state.stress[p]) / K;

@@ -17,13 +17,14 @@ void place_in_element(const MeshSnapshot& mesh, std::size_t e, const GaussRule& 
         for (std::size_t i = 0; i < along.position.size(); ++i) {
             const Vec2 xi(along.position[i], across.position[j]);
             const double w_t = along.weight[i] * across.weight[j] * mesh.thickness;
+            const std::size_t p = points.xi.size();
             points.xi.push_back(xi);
-            s.position.emplace_back(x * shape_functions(xi));
-            s.mass.push_back(mesh.density[e] * jacobian(x_0, xi).determinant() * w_t);
-            s.volume.push_back(jacobian(x, xi).determinant() * w_t);
-            s.region.push_back(mesh.region_of_element[e]);
+            s.position[p] = x * shape_functions(xi);
+            s.mass[p] = mesh.density[e] * jacobian(x_0, xi).determinant() * w_t;
+            s.volume[p] = jacobian(x, xi).determinant() * w_t;
+            s.region[p] = mesh.region_of_element[e];
         }
-    points.first.push_back(s.position.size());
+    points.first.push_back(points.xi.size());
 }
 
 void carry_motion(const MeshSnapshot& mesh, std::size_t e, Points& points) {
@@ -72,21 +73,17 @@ Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
     s.materials_of_regions = mesh.materials_of_regions;
     std::size_t count = 0;
     for (const Panels& each : panels) count += static_cast<std::size_t>(n * each[0] * n * each[1]);
-    for (auto* field : {&s.mass, &s.volume}) field->reserve(count);
-    s.position.reserve(count);
+    s.resize(count);
     points.xi.reserve(count);
     points.first.push_back(0);
     for (std::size_t e = 0; e < mesh.quads.size(); ++e)
         place_in_element(mesh, e, geometry::shifted_rule(n, panels[e][0], shift[0]),
                          geometry::shifted_rule(n, panels[e][1], shift[1]), points);
-    s.gap.assign(count, 0.0);
     return points;
 }
 
 void carry_nodal_fields(const MeshSnapshot& mesh, Points& points) {
     exchange::ParticleState& s = points.state;
-    s.velocity.resize(s.size());
-    s.velocity_gradient.resize(s.size());
     points.acceleration.resize(s.size());
     if (!mesh.pore_pressure.empty()) s.pore_pressure.resize(s.size());
     if (!mesh.sigma_v0.empty()) s.r_u.resize(s.size());

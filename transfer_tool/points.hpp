@@ -12,7 +12,8 @@ namespace breach::transfer {
 
 /// The new material points, element after element, and where in its element each one lies.
 struct Points {
-    exchange::ParticleState state;
+    exchange::ParticleState state;                   ///< its stress: as settle_stress left it
+    std::vector<mechanics::Voigt> effective_stress;  ///< [n_points] interpolated [Pa]
     std::vector<Corners> shape;      ///< [n_elements] corners that the points lie between [m]
     std::vector<std::size_t> first;  ///< [n_elements + 1] first point of each element
     std::vector<Vec2> xi;            ///< [n_points] natural coordinates

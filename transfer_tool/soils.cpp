@@ -241,11 +241,11 @@ mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sig
     return sigma_effective - u * mechanics::Voigt(1.0, 1.0, 1.0, 0.0);
 }
 
-void settle_stress(const SoilMap& map, exchange::ParticleState& state) {
-    if (state.pore_pressure.empty()) return;
-    for (std::size_t p = 0; p < state.size(); ++p)
-        state.stress[p] =
-            stress_of(map.soils()[state.region[p]], state.stress[p], state.pore_pressure[p]);
+void settle_stress(const SoilMap& map, Points& points) {
+    exchange::ParticleState& s = points.state;
+    for (std::size_t p = 0; p < s.size(); ++p)
+        s.stress[p] = stress_of(map.soils()[s.region[p]], points.effective_stress[p],
+                                s.pore_pressure.empty() ? 0.0 : s.pore_pressure[p]);
 }
 
 std::vector<SoilShare> shares_of_soils(const SoilMap& map, const exchange::ParticleState& state) {

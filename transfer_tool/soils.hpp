@@ -88,8 +88,8 @@ void start_at_state(const SoilMap& map, Points& points);
 /// Effective to total stress, sigma' - u I, where the soil's points carry the total one.
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,
                            double u);
-/// The same for all points that have a pore pressure.
-void settle_stress(const SoilMap& map, exchange::ParticleState& state);
+/// The same for all points.
+void settle_stress(const SoilMap& map, Points& points);
 
 /// What one soil got, for result.json and people.
 struct SoilShare {

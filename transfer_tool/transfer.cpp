@@ -52,7 +52,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     }
 
     assign_soils(map, points);
-    settle_stress(map, points.state);
+    settle_stress(map, points);
     start_softening(settings.softening_start, laws, points.state);
     start_at_state(map, points);
     t.yield = return_to_yield_surface(laws, points.state);

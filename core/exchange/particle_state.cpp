@@ -19,57 +19,49 @@ const std::string stress_of_regions = "/breachline/stress_of_regions";
 
 void check_sizes(const ParticleState& s) {
     const std::size_t n = s.size();
-    const bool agree =
-        s.velocity.size() == n && s.velocity_gradient.size() == n && s.mass.size() == n &&
-        s.volume_0.size() == n && s.volume.size() == n && s.stress.size() == n &&
-        s.epsilon_q.size() == n && s.epsilon_q_plastic.size() == n && s.gap.size() == n &&
-        s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
-        (s.stress_of_regions.empty() || s.stress_of_regions.size() == s.regions.size()) &&
-        (s.pore_pressure.empty() || s.pore_pressure.size() == n) &&
-        (s.r_u.empty() || s.r_u.size() == n) &&
-        (s.strength.c.empty() || s.strength.c.size() == n) &&
-        s.strength.tan_phi.size() == s.strength.c.size() &&
-        s.strength.c_residual.size() == s.strength.c.size() &&
-        s.strength.tan_phi_residual.size() == s.strength.c.size();
+    bool agree = s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
+                 (s.stress_of_regions.empty() || s.stress_of_regions.size() == s.regions.size());
+    for_each_field(s, [&](auto, auto, Given given, const auto& values) {
+        const std::size_t due = given == Given::with_cohesion ? s.strength.c.size() : n;
+        agree &= values.size() == due || (given == Given::maybe && values.empty());
+    });
     if (!agree) throw std::logic_error("particle state: arrays of different lengths");
 }
 
-/// Row by row: xx, xy, yx, yy.
-std::vector<double> by_rows(const std::vector<mechanics::Matrix2>& gradients) {
-    std::vector<double> values;
+template <class Real>
+std::vector<Real> in_rows(const std::vector<double>& numbers) {
+    return {numbers.begin(), numbers.end()};
+}
+/// xx, xy, yx, yy.
+template <class Real>
+std::vector<Real> in_rows(const std::vector<mechanics::Matrix2>& gradients) {
+    std::vector<Real> values;
     values.reserve(4 * gradients.size());
     for (const mechanics::Matrix2& l : gradients)
-        values.insert(values.end(), {l(0, 0), l(0, 1), l(1, 0), l(1, 1)});
+        for (const double each : {l(0, 0), l(0, 1), l(1, 0), l(1, 1)})
+            values.push_back(static_cast<Real>(each));
     return values;
 }
+template <class Real, int n>
+std::vector<Real> in_rows(const std::vector<Eigen::Matrix<double, n, 1>>& rows) {
+    return as_3d<Real>(rows);
+}
 
-struct Field {
-    std::string_view name;
-    std::size_t width;
-    const char* unit;
-    std::vector<double> (*values)(const ParticleState&);  ///< empty where the points have none
-};
-
-/// PointData beside `region`, in the order in which it is written.
-const Field fields_of_points[] = {
-    {"velocity", 3, "m/s", [](const ParticleState& s) { return as_3d(s.velocity); }},
-    {"velocity_gradient", 4, "1/s",
-     [](const ParticleState& s) { return by_rows(s.velocity_gradient); }},
-    {"mass", 0, "kg", [](const ParticleState& s) { return s.mass; }},
-    {"volume_0", 0, "m3", [](const ParticleState& s) { return s.volume_0; }},
-    {"volume", 0, "m3", [](const ParticleState& s) { return s.volume; }},
-    {"stress", 6, "Pa", [](const ParticleState& s) { return as_3d(s.stress); }},
-    {"epsilon_q", 0, "1", [](const ParticleState& s) { return s.epsilon_q; }},
-    {"epsilon_q_plastic", 0, "1", [](const ParticleState& s) { return s.epsilon_q_plastic; }},
-    {"gap", 0, "1", [](const ParticleState& s) { return s.gap; }},
-    {"pore_pressure", 0, "Pa", [](const ParticleState& s) { return s.pore_pressure; }},
-    {"r_u", 0, "1", [](const ParticleState& s) { return s.r_u; }},
-    {"cohesion", 0, "Pa", [](const ParticleState& s) { return s.strength.c; }},
-    {"tan_phi", 0, "1", [](const ParticleState& s) { return s.strength.tan_phi; }},
-    {"cohesion_residual", 0, "Pa", [](const ParticleState& s) { return s.strength.c_residual; }},
-    {"tan_phi_residual", 0, "1",
-     [](const ParticleState& s) { return s.strength.tan_phi_residual; }},
-};
+void read_rows(Hdf5Reader& reader, const std::string& path, std::vector<double>& values) {
+    reader.array(path, values, 0);
+}
+void read_rows(Hdf5Reader& reader, const std::string& path,
+               std::vector<mechanics::Matrix2>& values) {
+    std::vector<double> entries(4 * values.size());
+    reader.array(path, entries, 4);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] << entries[4 * i], entries[4 * i + 1], entries[4 * i + 2], entries[4 * i + 3];
+}
+template <int n>
+void read_rows(Hdf5Reader& reader, const std::string& path,
+               std::vector<Eigen::Matrix<double, n, 1>>& values) {
+    read_3d(reader, path, values);
+}
 
 /// Real: double, or float for what is only looked at.
 template <class Real>
@@ -79,14 +71,13 @@ void write_points(Hdf5Image& image, const ParticleState& s,
     std::iota(corners.begin(), corners.end(), 0);
     write_grid<Real>(image, s.position, Cell::vertex, corners, s.time);
     image.array(at_points + "region", std::span<const std::int32_t>(s.region));
-    for (const Field& field : fields_of_points) {
-        if (!is_wanted(field.name)) continue;
-        const std::vector<double> values = field.values(s);
-        if (values.empty()) continue;
-        const std::vector<Real> kept(values.begin(), values.end());
-        image.array(at_points + std::string(field.name), std::span<const Real>(kept), field.width,
-                    field.unit);
-    }
+    for_each_field(s, [&](std::string_view name, const char* unit, Given, const auto& values) {
+        if (values.empty() || !is_wanted(name)) return;
+        const std::vector<Real> kept = in_rows<Real>(values);
+        const std::size_t width = kept.size() / values.size();
+        image.array(at_points + std::string(name), std::span<const Real>(kept),
+                    width == 1 ? 0 : width, unit);
+    });
 }
 
 void write_state(Hdf5Image& image, const ParticleState& state) {
@@ -168,43 +159,19 @@ enum class Wanted { state, what_is_there };
 
 /// Reads into each field that is there, or must be.
 void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n, Wanted wanted) {
-    const auto field = [&](const char* name, bool must_be, auto& values, const auto& read) {
-        const std::string path = at_points + name;
-        if (!must_be && !reader.exists(path)) return;
-        values.resize(n);
-        read(path, values);
-    };
-    const auto number = [&](const std::string& path, std::vector<double>& values) {
-        reader.array(path, values, 0);
-    };
-    const auto rows = [&](const std::string& path, auto& values) { read_3d(reader, path, values); };
-    const auto matrices = [&](const std::string& path, std::vector<mechanics::Matrix2>& values) {
-        std::vector<double> entries(4 * n);
-        reader.array(path, entries, 4);
-        for (std::size_t i = 0; i < n; ++i)
-            values[i] << entries[4 * i], entries[4 * i + 1], entries[4 * i + 2], entries[4 * i + 3];
-    };
-    const bool all = wanted == Wanted::state;
     s.position.resize(n);
-    rows("/VTKHDF/Points", s.position);
+    read_3d(reader, "/VTKHDF/Points", s.position);
     s.region.resize(n);
     reader.array(at_points + "region", s.region);
-    field("velocity", all, s.velocity, rows);
-    field("velocity_gradient", all, s.velocity_gradient, matrices);
-    field("mass", all, s.mass, number);
-    field("volume_0", all, s.volume_0, number);
-    field("volume", all, s.volume, number);
-    field("stress", all, s.stress, rows);
-    field("epsilon_q", all, s.epsilon_q, number);
-    field("epsilon_q_plastic", all, s.epsilon_q_plastic, number);
-    field("gap", all, s.gap, number);
-    field("pore_pressure", false, s.pore_pressure, number);
-    field("r_u", false, s.r_u, number);
-    const bool has_strength = reader.exists(at_points + "cohesion");
-    field("cohesion", false, s.strength.c, number);
-    field("tan_phi", has_strength, s.strength.tan_phi, number);
-    field("cohesion_residual", has_strength, s.strength.c_residual, number);
-    field("tan_phi_residual", has_strength, s.strength.tan_phi_residual, number);
+    const bool has_cohesion = reader.exists(at_points + "cohesion");
+    for_each_field(s, [&](const char* name, auto, Given given, auto& values) {
+        const std::string path = at_points + name;
+        const bool must_be = (given == Given::always && wanted == Wanted::state) ||
+                             (given == Given::with_cohesion && has_cohesion);
+        if (!must_be && !reader.exists(path)) return;
+        values.resize(n);
+        read_rows(reader, path, values);
+    });
 }
 
 ParticleState read_state(Hdf5Reader& reader, Wanted wanted) {
@@ -236,6 +203,25 @@ void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
 }
 
 }  // namespace
+
+void ParticleState::resize(std::size_t n) {
+    position.resize(n, mechanics::Vec2::Zero());
+    region.resize(n);
+    for_each_field(*this, [&](auto, auto, Given given, auto& values) {
+        using Value = typename std::decay_t<decltype(values)>::value_type;
+        if (given != Given::always) return;
+        if constexpr (std::is_same_v<Value, double>)
+            values.resize(n);
+        else
+            values.resize(n, Value::Zero());
+    });
+}
+
+double ParticleState::pressure_beside(std::size_t p) const {
+    const bool is_total =
+        !stress_of_regions.empty() && stress_of_regions[region[p]] == StressMeasure::total;
+    return is_total || pore_pressure.empty() ? 0.0 : pore_pressure[p];
+}
 
 void write_particle_state(const std::filesystem::path& path, const ParticleState& state,
                           const Provenance& provenance, const Ledger& ledger) {
@@ -271,9 +257,12 @@ ParticleStateFile read_particle_state(const std::filesystem::path& path) {
 void write_particle_frame(const std::filesystem::path& path, const ParticleState& state,
                           std::span<const std::string_view> fields, const Provenance& provenance) {
     check_sizes(state);
-    for (const std::string_view name : fields)
-        if (std::ranges::find(fields_of_points, name, &Field::name) == std::end(fields_of_points))
-            throw std::logic_error("points have no field " + std::string(name));
+    for (const std::string_view name : fields) {
+        bool known = false;
+        for_each_field(state,
+                       [&](std::string_view each, auto, auto, auto&) { known |= each == name; });
+        if (!known) throw std::logic_error("points have no field " + std::string(name));
+    }
     Hdf5Image image(frame_kind, Storage::compressed);
     write_points<float>(image, state, [&](std::string_view name) {
         return std::ranges::find(fields, name) != fields.end();

@@ -34,7 +34,56 @@ struct StrengthOfPoints {
     std::vector<double> tan_phi_residual;  ///< [-]
 };
 
-struct ParticleState {
+/// What every point has beside its place and region. [n_particles]
+struct PointFields {
+    std::vector<mechanics::Vec2> velocity;  ///< [m/s]
+    /// Rows: component, columns: direction [1/s]
+    std::vector<mechanics::Matrix2> velocity_gradient;
+    std::vector<double> mass;               ///< [kg] for `thickness`
+    std::vector<double> volume_0;           ///< at zero mean stress, the law's reference [m3]
+    std::vector<double> volume;             ///< [m3]
+    std::vector<mechanics::Voigt> stress;   ///< [Pa], tension positive; see stress_of_regions
+    std::vector<double> epsilon_q;          ///< total, sqrt(2/3 e:e) accumulated [-]
+    std::vector<double> epsilon_q_plastic;  ///< what drives softening [-]
+    std::vector<double> gap;                ///< volume strain still to be closed after tension [-]
+    std::vector<double> pore_pressure;      ///< u [Pa]; empty when there is no water
+    std::vector<double> r_u;    ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
+    StrengthOfPoints strength;  ///< empty where no soil's material has a strength profile
+};
+
+enum class Given { always, maybe, with_cohesion };
+
+/// Calls visit(name, unit, given, array) in the order in which files have the fields.
+template <class Fields, class Visit>
+constexpr void for_each_field(Fields& of, Visit&& visit) {
+    using enum Given;
+    visit("velocity", "m/s", always, of.velocity);
+    visit("velocity_gradient", "1/s", always, of.velocity_gradient);
+    visit("mass", "kg", always, of.mass);
+    visit("volume_0", "m3", always, of.volume_0);
+    visit("volume", "m3", always, of.volume);
+    visit("stress", "Pa", always, of.stress);
+    visit("epsilon_q", "1", always, of.epsilon_q);
+    visit("epsilon_q_plastic", "1", always, of.epsilon_q_plastic);
+    visit("gap", "1", always, of.gap);
+    visit("pore_pressure", "Pa", maybe, of.pore_pressure);
+    visit("r_u", "1", maybe, of.r_u);
+    visit("cohesion", "Pa", maybe, of.strength.c);
+    visit("tan_phi", "1", with_cohesion, of.strength.tan_phi);
+    visit("cohesion_residual", "Pa", with_cohesion, of.strength.c_residual);
+    visit("tan_phi_residual", "1", with_cohesion, of.strength.tan_phi_residual);
+}
+
+static_assert(
+    [] {
+        const PointFields none;
+        std::size_t size = 0;
+        for_each_field(none, [&](auto, auto, auto, const auto& array) { size += sizeof array; });
+        return size == sizeof none;
+    }(),
+    "every field is visited");
+
+struct ParticleState : PointFields {
     double time = 0.0;           ///< [s] on the MPM's clock; 0 at the transfer
     double transfer_time = 0.0;  ///< t_T [s] on the FEM's clock
     std::int64_t step = 0;
@@ -46,28 +95,18 @@ struct ParticleState {
     std::vector<std::string> materials_of_regions;
     std::vector<StressMeasure> stress_of_regions;  ///< empty: all effective
 
-    // [n_particles]
-    std::vector<mechanics::Vec2> position;  ///< [m]
-    std::vector<mechanics::Vec2> velocity;  ///< [m/s]
-    /// Rows: component, columns: direction [1/s]
-    std::vector<mechanics::Matrix2> velocity_gradient;
-    std::vector<double> mass;               ///< [kg] for `thickness`
-    std::vector<double> volume_0;           ///< at zero mean stress, the law's reference [m3]
-    std::vector<double> volume;             ///< [m3]
-    std::vector<mechanics::Voigt> stress;   ///< [Pa], tension positive; see stress_of_regions
-    std::vector<double> epsilon_q;          ///< total, sqrt(2/3 e:e) accumulated [-]
-    std::vector<double> epsilon_q_plastic;  ///< what drives softening [-]
-    std::vector<double> gap;                ///< volume strain still to be closed after tension [-]
-    std::vector<std::int32_t> region;
-    std::vector<double> pore_pressure;  ///< u [Pa]; empty when there is no water
-    StrengthOfPoints strength;          ///< empty where no soil's material has a strength profile
-    std::vector<double> r_u;  ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
+    std::vector<mechanics::Vec2> position;  ///< [n_particles] [m]
+    std::vector<std::int32_t> region;       ///< [n_particles]
 
     /// On the FEM's clock; only what the transfer wrote has it, as velocities there are still those
     /// against far rock.
     BaseMotion base_motion{};
 
     std::size_t size() const { return position.size(); }
+    /// New points have zeros in all that every point has.
+    void resize(std::size_t n);
+    /// u beside the point's stress; 0 where that is the total one [Pa]
+    double pressure_beside(std::size_t p) const;
 };
 
 /// `ledger`: what the transfer kept and lost; only the transfer gives one.

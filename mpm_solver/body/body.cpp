@@ -58,8 +58,6 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .kernel = mpm.kernel,
               .order = mpm.order,
               .averages = {},
-              .drift_x = {},
-              .drift_y = {},
               .loops = {},
               .softening = {},
               .strips = {},
@@ -83,7 +81,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
     body.team = std::make_shared<numerics::Team>(useful_threads(computing.threads, n));
-    if (body.order == UpdateOrder::musl) body.drift_x.resize(n), body.drift_y.resize(n);
+    if (body.order == UpdateOrder::musl)
+        body.points.drift_x.resize(n), body.points.drift_y.resize(n);
     for (std::size_t p = 0; p < n; ++p) {
         const Vec2 v{body.points.vx[p], body.points.vy[p]};
         body.tally.kinetic += 0.5 * body.points.m[p] * v.squaredNorm();

@@ -54,8 +54,6 @@ struct Body {
     /// Anti-locking (A3 of docs/design/mpm.md): the points of a zone in a cell share their
     /// volumetric strain rate and mean stress. Per zone, then per cell; empty: no averages.
     std::vector<std::vector<CellSum>> averages;
-    /// MUSL: velocity that moves the points [m/s]; empty otherwise
-    std::vector<double> drift_x, drift_y;
     std::vector<Loops> loops;  ///< per zone
     NonlocalSoftening softening;
     Strips strips;

@@ -124,17 +124,13 @@ void add_point(const scene::Scene& scene, std::size_t region, const scene::Mater
     const mechanics::Voigt sigma = stress_at(scene, patch.centroid, soil);
     const double sigma_m = (sigma[0] + sigma[1] + sigma[2]) / 3.0;
     const double volume = patch.area * state.thickness;
-    state.position.push_back(patch.centroid);
-    state.velocity.emplace_back(0.0, 0.0);
-    state.velocity_gradient.emplace_back(mechanics::Matrix2::Zero());
-    state.mass.push_back(material.density * volume);
-    state.volume_0.push_back(volume / (1.0 + sigma_m / soil.bulk_modulus()));
-    state.volume.push_back(volume);
-    state.stress.push_back(sigma);
-    state.epsilon_q.push_back(0.0);
-    state.epsilon_q_plastic.push_back(0.0);
-    state.gap.push_back(0.0);
-    state.region.push_back(static_cast<std::int32_t>(region));
+    state.resize(state.size() + 1);
+    state.position.back() = patch.centroid;
+    state.mass.back() = material.density * volume;
+    state.volume_0.back() = volume / (1.0 + sigma_m / soil.bulk_modulus());
+    state.volume.back() = volume;
+    state.stress.back() = sigma;
+    state.region.back() = static_cast<std::int32_t>(region);
 }
 
 /// Of the point that was added last.

@@ -117,12 +117,8 @@ std::vector<std::int32_t> match_soils(const scene::Scene& scene,
 
 /// The pore pressure beside an effective stress would be lost here, and with it the balance.
 void refuse_water(const exchange::ParticleState& state, const std::string& file) {
-    if (state.pore_pressure.empty()) return;
     for (std::size_t p = 0; p < state.size(); ++p) {
-        const auto measure = state.stress_of_regions.empty()
-                                 ? exchange::StressMeasure::effective
-                                 : state.stress_of_regions[state.region[p]];
-        if (measure == exchange::StressMeasure::total || state.pore_pressure[p] == 0.0) continue;
+        if (state.pressure_beside(p) == 0.0) continue;
         throw fault::BadInput(file, {{"/VTKHDF/PointData/pore_pressure",
                                       "points with effective stress and pore pressure",
                                       "transfer total stress (/transfer/stress \"total\")"}});
@@ -137,41 +133,28 @@ std::vector<bool> strengths_of_points(const scene::Scene& scene) {
     return have;
 }
 
-void copy_strengths(Points& points, const exchange::ParticleState& state,
-                    const std::vector<std::size_t>& order) {
-    const exchange::StrengthOfPoints& from = state.strength;
-    if (from.c.empty()) return;
-    for (const auto& [to, values] : {std::pair{&points.c, &from.c},
-                                     {&points.tan_phi, &from.tan_phi},
-                                     {&points.c_residual, &from.c_residual},
-                                     {&points.tan_phi_residual, &from.tan_phi_residual}})
-        for (const std::size_t p : order) to->push_back((*values)[p]);
-}
-
-void copy_point(Points& points, std::size_t p, const exchange::ParticleState& state,
-                std::size_t from) {
-    points.x[p] = state.position[from].x();
-    points.y[p] = state.position[from].y();
-    points.vx[p] = state.velocity[from].x();
-    points.vy[p] = state.velocity[from].y();
-    const mechanics::Matrix2& L = state.velocity_gradient[from];
-    points.Lxx[p] = L(0, 0);
-    points.Lxy[p] = L(0, 1);
-    points.Lyx[p] = L(1, 0);
-    points.Lyy[p] = L(1, 1);
-    points.m[p] = state.mass[from];
-    points.V_0[p] = state.volume_0[from];
-    points.V[p] = state.volume[from];
-    points.volume[p] = state.volume[from];
-    const mechanics::Voigt& sigma = state.stress[from];
-    points.sxx[p] = sigma[0];
-    points.syy[p] = sigma[1];
-    points.szz[p] = sigma[2];
-    points.sxy[p] = sigma[3];
-    points.epsilon_q[p] = state.epsilon_q[from];
-    points.epsilon_q_plastic[p] = state.epsilon_q_plastic[from];
-    points.gap[p] = state.gap[from];
-    points.number[p] = static_cast<std::int32_t>(from);
+/// Calls visit(number of the points, the same in the state) for what goes over as it stands.
+template <class AnyPoints, class AnyState, class Visit>
+void for_each_shared(AnyPoints& points, std::size_t p, AnyState& state, std::size_t s,
+                     Visit&& visit) {
+    visit(points.x[p], state.position[s].x()), visit(points.y[p], state.position[s].y());
+    visit(points.vx[p], state.velocity[s].x()), visit(points.vy[p], state.velocity[s].y());
+    auto& L = state.velocity_gradient[s];
+    visit(points.Lxx[p], L(0, 0)), visit(points.Lxy[p], L(0, 1));
+    visit(points.Lyx[p], L(1, 0)), visit(points.Lyy[p], L(1, 1));
+    visit(points.m[p], state.mass[s]), visit(points.V_0[p], state.volume_0[s]);
+    visit(points.volume[p], state.volume[s]);
+    auto& sigma = state.stress[s];
+    visit(points.sxx[p], sigma[0]), visit(points.syy[p], sigma[1]);
+    visit(points.szz[p], sigma[2]), visit(points.sxy[p], sigma[3]);
+    visit(points.epsilon_q[p], state.epsilon_q[s]);
+    visit(points.epsilon_q_plastic[p], state.epsilon_q_plastic[s]);
+    visit(points.gap[p], state.gap[s]);
+    if (points.c.empty()) return;
+    auto& strength = state.strength;
+    visit(points.c[p], strength.c[s]), visit(points.tan_phi[p], strength.tan_phi[s]);
+    visit(points.c_residual[p], strength.c_residual[s]);
+    visit(points.tan_phi_residual[p], strength.tan_phi_residual[s]);
 }
 
 /// V_0 and V that belong to the stress under the zone's own (scaled) K.
@@ -277,12 +260,14 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
 
     ZonedPoints result;
     Points& points = result.points;
+    points.c.resize(state.strength.c.size());
     points.resize(state.size());
     for (std::size_t p = 0; p < order.size(); ++p) {
-        copy_point(points, p, state, order[p]);
+        for_each_shared(points, p, state, order[p], [](double& to, double from) { to = from; });
+        points.V[p] = points.volume[p];
+        points.number[p] = static_cast<std::int32_t>(order[p]);
         points.region[p] = match[state.region[order[p]]];
     }
-    copy_strengths(points, state, order);
     refuse_without_strength(scene, points, file);
     points.carried.r_u = state.r_u;
     if (!state.stress_of_regions.empty()) {
@@ -309,39 +294,20 @@ exchange::ParticleState particle_state(const scene::Scene& scene, const Points& 
         state.regions.push_back(scene.section.regions[soil.region].name);
         state.materials_of_regions.push_back(scene.materials[soil.material].name);
     }
-    state.position.resize(n), state.velocity.resize(n), state.velocity_gradient.resize(n);
-    state.mass.resize(n), state.volume_0.resize(n), state.volume.resize(n), state.stress.resize(n);
-    state.epsilon_q.resize(n), state.epsilon_q_plastic.resize(n), state.gap.resize(n);
-    state.region.resize(n);
+    state.resize(n);
+    for (auto* values : {&state.strength.c, &state.strength.tan_phi, &state.strength.c_residual,
+                         &state.strength.tan_phi_residual})
+        values->resize(points.c.size());
     const std::vector<Measures> measures = measures_of(scene);
     for (std::size_t p = 0; p < n; ++p) {
         const auto to = static_cast<std::size_t>(points.number[p]);
         const Measures& of = measures[points.region[p]];
-        state.position[to] = {points.x[p], points.y[p]};
-        state.velocity[to] = {points.vx[p], points.vy[p]};
-        state.velocity_gradient[to] << points.Lxx[p], points.Lxy[p], points.Lyx[p], points.Lyy[p];
-        state.mass[to] = points.m[p];
+        for_each_shared(points, p, state, to, [](double from, double& there) { there = from; });
         const double sigma_m = (points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0;
-        const bool same_K = of.K == of.K_drawn;
-        state.volume_0[to] =
-            points.V_0[p] * (same_K ? 1.0 : (1.0 + sigma_m / of.K) / (1.0 + sigma_m / of.K_drawn));
-        state.volume[to] = points.volume[p];
-        state.stress[to] = {points.sxx[p], points.syy[p], points.szz[p], points.sxy[p]};
-        state.epsilon_q[to] = points.epsilon_q[p];
-        state.epsilon_q_plastic[to] = points.epsilon_q_plastic[p] / of.softening;
-        state.gap[to] = points.gap[p];
+        if (of.K != of.K_drawn)
+            state.volume_0[to] *= (1.0 + sigma_m / of.K) / (1.0 + sigma_m / of.K_drawn);
+        state.epsilon_q_plastic[to] /= of.softening;
         state.region[to] = points.region[p];
-    }
-    if (points.c.empty()) return state;
-    for (auto* values : {&state.strength.c, &state.strength.tan_phi, &state.strength.c_residual,
-                         &state.strength.tan_phi_residual})
-        values->resize(n);
-    for (std::size_t p = 0; p < n; ++p) {
-        const auto to = static_cast<std::size_t>(points.number[p]);
-        state.strength.c[to] = points.c[p];
-        state.strength.tan_phi[to] = points.tan_phi[p];
-        state.strength.c_residual[to] = points.c_residual[p];
-        state.strength.tan_phi_residual[to] = points.tan_phi_residual[p];
     }
     return state;
 }

@@ -19,29 +19,9 @@ struct Carried {
     std::vector<double> r_u;  ///< at the transfer, in the order of the input; empty without water
 };
 
-struct Points {
-    std::vector<double> x, y;                ///< [m]
-    std::vector<double> vx, vy;              ///< [m/s]
-    std::vector<double> Lxx, Lxy, Lyx, Lyy;  ///< velocity gradient, row = component [1/s]
-    std::vector<double> m;                   ///< [kg]
-    std::vector<double> V_0;                 ///< volume at zero mean stress [m3]
-    std::vector<double> V;                   ///< volume that the force uses [m3]
-    std::vector<double> volume;  ///< volume followed through every strain increment [m3]
-    std::vector<double> sxx, syy, szz, sxy;  ///< effective stress [Pa], tension positive
-    std::vector<double> epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
-    std::vector<double> epsilon_q_plastic;   ///< what drives softening [-]
-    /// The same when neighbourhoods last shared what it had grown by; empty unless some softening is
-    /// nonlocal
-    std::vector<double> epsilon_q_shared;
-    std::vector<double> gap;  ///< volume strain to be closed after tension [-]
-    std::vector<double>
-        eta;  ///< viscosity in force: the material's and, of soil that did not yield
-              ///< in the last step, its damping's [Pa s]; empty without either
-    std::vector<double> excess;  ///< overlap beyond what is tolerated; see OverlapMeter [-];
-                                 ///< empty unless the body corrects it
-    /// Strengths before and after softening [Pa, -], of soils whose material has a profile, 0 of
-    /// others; empty where there is none
-    std::vector<double> c, tan_phi, c_residual, tan_phi_residual;
+using Reals = std::vector<double>;
+
+struct Points : PointReals<Reals> {
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
     std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
     std::vector<std::int32_t> home;    ///< nearest node when they were last sorted
@@ -55,26 +35,14 @@ struct Points {
     void resize(std::size_t n);
 };
 
-/// Calls visit(name, array) for every array of reals: what checkpoints store and sorting permutes.
+/// Calls visit(name, array) for every array of reals that lives longer than a step: what checkpoints
+/// store and sorting permutes.
 template <class AnyPoints, class Visit>
 void for_each_real(AnyPoints& points, Visit&& visit) {
-    visit("x", points.x), visit("y", points.y);
-    visit("vx", points.vx), visit("vy", points.vy);
-    visit("Lxx", points.Lxx), visit("Lxy", points.Lxy);
-    visit("Lyx", points.Lyx), visit("Lyy", points.Lyy);
-    visit("m", points.m), visit("V_0", points.V_0), visit("V", points.V);
-    visit("volume", points.volume);
-    visit("sxx", points.sxx), visit("syy", points.syy);
-    visit("szz", points.szz), visit("sxy", points.sxy);
-    visit("epsilon_q", points.epsilon_q), visit("epsilon_q_plastic", points.epsilon_q_plastic);
-    visit("gap", points.gap);
-    if (!points.epsilon_q_shared.empty()) visit("epsilon_q_shared", points.epsilon_q_shared);
-    if (!points.eta.empty()) visit("eta", points.eta);
-    if (!points.excess.empty()) visit("excess", points.excess);
-    if (points.c.empty()) return;
-    visit("c", points.c), visit("tan_phi", points.tan_phi);
-    visit("c_residual", points.c_residual);
-    visit("tan_phi_residual", points.tan_phi_residual);
+    for (const auto& real : reals_of_points<Reals>) {
+        const bool there = !real.only_with || !(points.*real.only_with).empty();
+        if (there && real.life != Life::step) visit(real.name, points.*real.array);
+    }
 }
 
 template <class AnyPoints, class Visit>

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <initializer_list>
+#include <iterator>
 
 #include "mpm_solver/loops/lane_memory.hpp"
 #include "mpm_solver/loops/loops.hpp"
@@ -26,46 +27,31 @@ class Tail {
   public:
     [[gnu::noinline]] void read(const PointArrays& points, std::size_t first, int count) {
         double* to = values_[0];
-        for_each(
-            points, [&](double* from, double*& place) __attribute__((always_inline)) {
-                if (!from) return;
-                for (int k = 0; k < N; ++k) to[k] = from[first + (k < count ? k : count - 1)];
-                place = to;
-                to += N;
-            });
+        for (const auto& real : reals_of_points<double*>) {
+            const double* from = points.*real.array;
+            if (!from) continue;
+            for (int k = 0; k < N; ++k) to[k] = from[first + (k < count ? k : count - 1)];
+            arrays_.*real.array = to;
+            to += N;
+        }
         for (int k = 0; k < N; ++k) {
             cells_[k] = points.cell[first + (k < count ? k : count - 1)];
         }
         arrays_.cell = cells_;
     }
     [[gnu::noinline]] void write_back(const PointArrays& points, std::size_t first, int count) {
-        for_each(
-            points, [&](double* to, double*& place) __attribute__((always_inline)) {
-                if (!to) return;
-                for (int k = 0; k < count; ++k) to[first + k] = place[k];
-            });
+        for (const auto& real : reals_of_points<double*>) {
+            double* to = points.*real.array;
+            if (!to) continue;
+            for (int k = 0; k < count; ++k) to[first + k] = (arrays_.*real.array)[k];
+        }
         for (int k = 0; k < count; ++k) points.cell[first + k] = cells_[k];
     }
     [[gnu::always_inline]] const PointArrays& arrays() const { return arrays_; }
 
   private:
-    template <class Visit>
-    [[gnu::always_inline]] void for_each(const PointArrays& p, Visit&& visit) {
-        PointArrays& t = arrays_;
-        visit(p.x, t.x), visit(p.y, t.y), visit(p.vx, t.vx), visit(p.vy, t.vy);
-        visit(p.Lxx, t.Lxx), visit(p.Lxy, t.Lxy), visit(p.Lyx, t.Lyx), visit(p.Lyy, t.Lyy);
-        visit(p.m, t.m), visit(p.V_0, t.V_0), visit(p.V, t.V), visit(p.volume, t.volume);
-        visit(p.sxx, t.sxx), visit(p.syy, t.syy), visit(p.szz, t.szz), visit(p.sxy, t.sxy);
-        visit(p.epsilon_q, t.epsilon_q), visit(p.epsilon_q_plastic, t.epsilon_q_plastic);
-        visit(p.gap, t.gap), visit(p.eta, t.eta), visit(p.excess, t.excess);
-        visit(p.drift_x, t.drift_x), visit(p.drift_y, t.drift_y);
-        visit(p.c, t.c), visit(p.tan_phi, t.tan_phi);
-        visit(p.c_residual, t.c_residual), visit(p.tan_phi_residual, t.tan_phi_residual);
-    }
-
     static constexpr int N = Isa::lanes;
-    static constexpr int arrays_of_reals = 27;
-    double values_[arrays_of_reals][N];
+    double values_[std::size(reals_of_points<double*>)][N];
     std::int32_t cells_[N];
     PointArrays arrays_{};
 };

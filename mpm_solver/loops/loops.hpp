@@ -9,6 +9,7 @@
 
 #include "core/grid/kernel.hpp"
 #include "core/materials/lane_law.hpp"
+#include "mpm_solver/loops/point_reals.hpp"
 
 namespace breach::mpm {
 
@@ -26,12 +27,8 @@ struct Span {
     std::size_t end;
 };
 
-/// The arrays of Points; see there.
-struct PointArrays {
-    double *x, *y, *vx, *vy, *Lxx, *Lxy, *Lyx, *Lyy, *m, *V_0, *V, *volume, *sxx, *syy, *szz, *sxy,
-        *epsilon_q, *epsilon_q_plastic, *gap, *eta, *excess;
-    double *drift_x, *drift_y;                            ///< null unless MUSL
-    double *c, *tan_phi, *c_residual, *tan_phi_residual;  ///< null unless points have strengths
+/// The arrays of Points; null where it has none.
+struct PointArrays : PointReals<double*> {
     std::int32_t* cell;
 };
 

@@ -37,11 +37,8 @@ std::vector<double> sigma_v(const MeshSnapshot& mesh) {
 std::vector<double> sigma_v(const ParticleState& points) {
     std::vector<double> values;
     for (std::size_t p = 0; p < points.size(); ++p) {
-        const bool total = !points.stress_of_regions.empty() && !points.pore_pressure.empty() &&
-                           points.stress_of_regions[static_cast<std::size_t>(points.region[p])] ==
-                               exchange::StressMeasure::total;
-        const double u = total ? points.pore_pressure[p] : 0.0;
-        values.push_back(-1e-3 * (points.stress[p][1] + u));
+        const double u = points.pore_pressure.empty() ? 0.0 : points.pore_pressure[p];
+        values.push_back(-1e-3 * (points.stress[p][1] + (u - points.pressure_beside(p))));
     }
     return values;
 }

@@ -110,5 +110,33 @@ TEST(Zones, OutputsCarryWhatTheTransferKnewOfTheWater) {
     EXPECT_TRUE(particle_state(scene, dry.points).stress_of_regions.empty());
 }
 
+/// Every number of every field of the points, one after the other.
+template <class AnyState>
+auto numbers_of(AnyState& state) {
+    std::vector<decltype(state.mass.data())> numbers;
+    for_each_field(state, [&](auto, auto, auto, auto& values) {
+        auto* first = reinterpret_cast<decltype(state.mass.data())>(values.data());
+        for (std::size_t k = 0; k < values.size() * sizeof values[0] / sizeof *first; ++k)
+            numbers.push_back(first + k);
+    });
+    return numbers;
+}
+
+TEST(Zones, EveryFieldOfAFileGoesInAndComesOutAgain) {
+    const scene::Scene scene = softening_soil();
+    exchange::ParticleState state = fill_section(scene).state;
+    for_each_field(state, [&](std::string_view name, auto, auto, auto& values) {
+        if (name != "pore_pressure") values.resize(state.size());
+    });
+    double next = 1.0;
+    for (double* number : numbers_of(state)) *number = next++;
+    const exchange::ParticleState out =
+        particle_state(scene, zoned_points(scene, state, "test").points);
+    const auto before = numbers_of(state);
+    const auto after = numbers_of(out);
+    ASSERT_EQ(after.size(), before.size());
+    for (std::size_t k = 0; k < after.size(); ++k) ASSERT_EQ(*after[k], *before[k]) << k;
+}
+
 }  // namespace
 }  // namespace breach::mpm::test

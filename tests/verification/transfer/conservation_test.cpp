@@ -112,7 +112,6 @@ TEST(Conservation, ManyPointsDoNotWearOutTheSums) {
     for (auto& v : mesh.velocity) v = {0.1, -0.7};
     Points points = meshes::points_on(mesh, 2);
     carry_nodal_fields(mesh, points);
-    points.state.stress.assign(points.state.size(), mechanics::Voigt::Zero());
     const auto scene = meshes::scene_for(mesh, meshes::elastic, meshes::settings(2));
     const auto ledger = ledger_of(mesh, points, SoilMap(mesh, scene, "mesh"), scene, "mesh");
     for (const std::string quantity : {"mass", "volume", "momentum x", "momentum y"})
