@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/scene/beds.hpp"
+#include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/measure/overlap.hpp"
@@ -86,13 +87,27 @@ void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
                     "/mpm/damping_ratio"});
     plan.push_back(decided.overlap.line);
     plan.push_back(decided.shaking.line);
-    plan.push_back({"stiffness scaling", mpm.stiffness_scale != 1.0 ? Use::on : Use::left_out,
-                    "factor " + text_of(mpm.stiffness_scale) + " on every E",
-                    "/mpm/stiffness_scale"});
     plan.push_back({"adaptive time step", mpm.time_step ? Use::left_out : Use::on,
                     mpm.time_step ? "fixed at " + text_of(*mpm.time_step) + " s"
                                   : "Courant number " + text_of(mpm.cfl),
                     mpm.time_step ? "/mpm/time_step" : "/mpm/cfl"});
+}
+
+process::PlanLine stiffness_line(const scene::Scene& scene) {
+    const scene::Mpm& mpm = *scene.mpm;
+    const auto line = [](Use use, std::string reason) {
+        return process::PlanLine{"stiffness scaling", use, std::move(reason),
+                                 "/mpm/stiffness_scale"};
+    };
+    if (mpm.stiffness_scale != 1.0)
+        return line(Use::on, "factor " + text_of(mpm.stiffness_scale) + " on every E");
+    if (!mpm.wave_speed_limit) return line(Use::left_out, "soil has the scene's stiffness");
+    const double fastest = scene::fastest_wave(scene, mpm);
+    const std::string limit = text_of(*mpm.wave_speed_limit) + " m/s, 15 times a free fall of " +
+                              text_of(scene::fall_speed(scene, mpm)) + " m/s";
+    if (fastest < 0.999 * *mpm.wave_speed_limit)
+        return line(Use::left_out, "no wave is faster than " + limit);
+    return line(Use::on, "lower bulk moduli hold compression waves to " + limit);
 }
 
 void plan_beds(const scene::Scene& scene, Plan& plan) {
@@ -180,6 +195,7 @@ Plan plan(const scene::Scene& scene) {
     Plan plan;
     plan_laws(scene, plan);
     plan_scheme(mpm, plan);
+    plan.push_back(stiffness_line(scene));
     plan_beds(scene, plan);
     plan_gap_closure(scene, plan);
     plan_boundaries(mpm, plan);

@@ -127,6 +127,21 @@ json shaking_json(const GroundMotion& ground, double time) {
             {"ground_displacement", ground.displacement(time)}};
 }
 
+double fastest_of(const History& history) {
+    return std::ranges::max(history, {}, &Row::fastest).fastest;
+}
+
+/// Elastic, of any point: how much of its volume soil has lost to its pressure [-].
+double largest_compression(const Body& body) {
+    double largest = 0.0;
+    const Points& points = body.points;
+    for (const Zone& zone : body.zones)
+        for (std::size_t p = zone.begin; p < zone.end; ++p)
+            largest = std::max(largest, -(points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0 /
+                                            zone.elasticity.bulk_modulus());
+    return largest;
+}
+
 /// A scale above the energy released is that of a fall of centimetres (energy_scale).
 bool stood(const scene::Mpm& mpm, const Simulation& simulation) {
     const Row& first = simulation.records().history.front();
@@ -154,7 +169,11 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             .cell_size = mpm.cell_size,
             .until_rest = mpm.until_rest,
             .tension_share = mpm.tension_share,
-            .damping_ratio = mpm.damping_ratio};
+            .damping_ratio = mpm.damping_ratio,
+            .mach = fastest_of(simulation.records().history) / wave_speed(simulation.body()),
+            .softer = std::ranges::any_of(simulation.body().zones, [](const Zone& each) {
+                return each.elasticity.bulk_modulus() < (1.0 - 1e-9) * each.K_drawn;
+            })};
 }
 
 void conclude(Session& session, const Simulation& simulation, const Ending& ending, double speed) {
@@ -190,6 +209,9 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["fill_shift"] = mpm.fill_shift;
     result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
+    result["wave_speed"] = wave_speed(simulation.body());
+    result["mach"] = ending.mach;
+    result["largest_compression"] = largest_compression(simulation.body());
 }
 
 void write_history(const Session& session, const Simulation& simulation) {

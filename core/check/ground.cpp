@@ -4,6 +4,8 @@
 
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
+#include "core/scene/stiffness.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::check {
 
@@ -81,6 +83,23 @@ void check_support(const scene::Scene& scene, Findings& findings) {
              ", or draw the soil that fills the gap");
 }
 
+/// Soil that is too soft for its own flow is compressed by it.
+void check_stiffness(const scene::Scene& scene, Findings& findings) {
+    const scene::Mpm& mpm = *scene.mpm;
+    if (mpm.stiffness_scale == 1.0) return;
+    const double flow = scene::fall_speed(scene, mpm);
+    const double wave = scene::fastest_wave(scene, mpm);
+    if (!(flow > scene::refused_mach * wave)) return;
+    const double enough = mpm.stiffness_scale * std::pow(flow / (scene::refused_mach * wave), 2);
+    const double unit = std::pow(10.0, std::floor(std::log10(enough)) - 1.0);
+    const auto shown = [](double value) { return words::text_of(value, 3); };
+    refuse(
+        findings, "/mpm/stiffness_scale",
+        "leaves the fastest wave " + shown(wave) + " m/s, and soil can fall at " + shown(flow) +
+            " m/s: Mach " + shown(flow / wave) + ", more than " + shown(scene::refused_mach),
+        "give at least " + shown(std::min(std::ceil(enough / unit) * unit, 1.0)) + ", or \"auto\"");
+}
+
 void check_toe(const scene::Scene& scene, Findings& findings) {
     const scene::Mpm& mpm = *scene.mpm;
     const Vec2& toe = mpm.runout.toe;
@@ -127,6 +146,7 @@ void check_ground(const scene::Scene& scene, Findings& findings) {
     check_terrain(scene, findings);
     check_support(scene, findings);
     check_toe(scene, findings);
+    check_stiffness(scene, findings);
     check_upstream_end(scene, findings);
 }
 

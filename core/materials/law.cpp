@@ -36,8 +36,8 @@ Law with_plasticity(const Law& law, const Plastic& strength) {
     return MohrCoulomb{elasticity(law), c, phi, psi, tension_cutoff, {}, strength_of};
 }
 
-Law scaled(Law law, double stiffness, double softening_strains) {
-    std::visit([&](auto& each) { each.elasticity.E *= stiffness; }, law);
+Law adapted(Law law, const mechanics::Elasticity& elasticity, double softening_strains) {
+    std::visit([&](auto& each) { each.elasticity = elasticity; }, law);
     if (Softening* softens = softening(law)) {
         softens->epsilon_q_start *= softening_strains;
         softens->epsilon_q_end *= softening_strains;

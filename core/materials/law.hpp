@@ -181,8 +181,8 @@ struct Plastic {
 /// Its elasticity with that strength instead of its own.
 Law with_plasticity(const Law& law, const Plastic& strength);
 
-/// E and, where given, the strains of softening multiplied.
-Law scaled(Law law, double stiffness, double softening_strains);
+/// With another elasticity and, where it softens, the strains of softening multiplied.
+Law adapted(Law law, const mechanics::Elasticity& elasticity, double softening_strains);
 /// Carries at least this share of its unconfined compressive strength in tension, where it has one.
 Law with_tension_share(Law law, double share);
 

@@ -1,10 +1,24 @@
 #include "core/mechanics/elasticity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace breach::mechanics {
 
 double Elasticity::wave_speed(double rho) const { return std::sqrt(constrained_modulus() / rho); }
+
+Elasticity slowed(const Elasticity& elasticity, double rho, double limit) {
+    if (elasticity.wave_speed(rho) <= limit) return elasticity;
+    double G = elasticity.shear_modulus();
+    const double most = rho * limit * limit;  // of the constrained modulus
+    constexpr double least_nu = 0.2;
+    constexpr double least_K = 2.0 * (1.0 + least_nu) / (3.0 * (1.0 - 2.0 * least_nu));  // in G
+    double K = std::min(elasticity.bulk_modulus(), std::max(most - 4.0 / 3.0 * G, least_K * G));
+    const double factor = std::min(1.0, most / (K + 4.0 / 3.0 * G));
+    K *= factor;
+    G *= factor;
+    return {9.0 * K * G / (3.0 * K + G), (3.0 * K - 2.0 * G) / (2.0 * (3.0 * K + G))};
+}
 
 Matrix4 elastic_stiffness(const Elasticity& elasticity) {
     const double G = elasticity.shear_modulus();

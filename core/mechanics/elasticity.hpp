@@ -18,6 +18,10 @@ struct Elasticity {
     double wave_speed(double rho) const;
 };
 
+/// The same soil with no compression wave faster than `limit` [m/s] at density rho: a lower bulk
+/// modulus, down to nu = 0.2; where that is not enough, both moduli.
+Elasticity slowed(const Elasticity& elasticity, double rho, double limit);
+
 /// Stiffness D with sigma = D epsilon, engineering shear strain [Pa].
 Matrix4 elastic_stiffness(const Elasticity& elasticity);
 /// D epsilon without forming D.

@@ -5,6 +5,7 @@
 #include "core/geometry/polyline.hpp"
 #include "core/scene/checks.hpp"
 #include "core/scene/resolution.hpp"
+#include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::scene {
@@ -225,7 +226,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     if (mpm.contains("softening_length")) {
         result.softening_length = mpm.at("softening_length").get<double>();
     }
-    result.stiffness_scale = mpm.at("stiffness_scale");
+    result.stiffness_scale = number_or(mpm.at("stiffness_scale"), 1.0);
     if (mpm.contains("time_step")) result.time_step = mpm.at("time_step").get<double>();
     result.cfl = mpm.at("cfl");
     result.runout.toe = point_from(mpm.at("runout").at("toe"));
@@ -248,6 +249,8 @@ void read_mpm(Reader& reader, Scene& scene) {
     result.fill_shift = range_from(mpm.at("fill_shift"));
     result.fill_stress = word_at<FillStress>(mpm, "fill_stress");
     result.shaking = word_at<Shaking>(mpm, "shaking");
+    if (mpm.at("stiffness_scale").is_string())
+        result.wave_speed_limit = wave_speed_limit(scene, result);
     check_mpm(reader, scene, result);
     scene.mpm = std::move(result);
 }

@@ -458,16 +458,19 @@ double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached
     return known_thicknesses.of(parts, [&] { return measured_thickness(polygon, parts); });
 }
 
-double mobile_height(const Scene& scene, const Mpm& mpm) {
-    double low = std::numeric_limits<double>::max();
-    double high = std::numeric_limits<double>::lowest();
+Levels mobile_levels(const Scene& scene, const Mpm& mpm) {
+    Levels levels{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
     for (const Region& region : scene.section.regions) {
         if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
         const Box box = bounding_box(region.polygon);
-        low = std::min(low, box.low.y());
-        high = std::max(high, box.high.y());
+        levels = {std::min(levels.low, box.low.y()), std::max(levels.high, box.high.y())};
     }
-    return std::max(high - low, 0.0);
+    return levels;
+}
+
+double mobile_height(const Scene& scene, const Mpm& mpm) {
+    const Levels levels = mobile_levels(scene, mpm);
+    return std::max(levels.high - levels.low, 0.0);
 }
 
 std::vector<Across> cells_across(const Scene& scene) {

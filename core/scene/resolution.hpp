@@ -33,7 +33,14 @@ constexpr double elements_wanted = 2.0;
 /// few per cent.
 double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached = {});
 
-/// From the lowest to the highest vertex of the regions that count for the runout [m]; 0: none.
+/// Of the lowest and the highest vertex of the regions that count for the runout [m]; low > high:
+/// there is none.
+struct Levels {
+    double low;
+    double high;
+};
+Levels mobile_levels(const Scene& scene, const Mpm& mpm);
+/// Between the two [m]; 0: none.
 double mobile_height(const Scene& scene, const Mpm& mpm);
 
 /// Something that has to be resolved, and by how much it is.

@@ -75,6 +75,8 @@ Reading read_document(json document, const std::string& name, const std::filesys
     Scene scene{};
     scene.warnings = std::move(doubts);
     Reader reader(document, std::move(faults));
+    if (reader.sound("/gravity")) scene.gravity = document.at("gravity");
+    if (reader.sound("/thickness")) scene.thickness = document.at("thickness");
     read_materials(reader, scene);
     read_section(reader, scene);
     read_lem(reader, scene);
@@ -88,8 +90,6 @@ Reading read_document(json document, const std::string& name, const std::filesys
         reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
     }
     std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
-    if (reader.sound("/gravity")) scene.gravity = document.at("gravity");
-    if (reader.sound("/thickness")) scene.thickness = document.at("thickness");
     if (!reader.faults().empty()) return {std::move(scene), reader.faults(), nullptr};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));

@@ -645,11 +645,12 @@ struct Mpm {
     OverlapCorrection overlap_correction{};
     /// Softening strains are those of cells this long [m]
     std::optional<double> softening_length{};
-    double stiffness_scale;           ///< factor on E, reported [-]
-    std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
-    double cfl;                       ///< [-]
-    double duration;                  ///< longest [s]
-    bool until_rest = false;          ///< asked for: `duration` is the bound on it
+    double stiffness_scale;                    ///< factor on E, reported [-]
+    std::optional<double> wave_speed_limit{};  ///< of compression, soil is softer for it [m/s]
+    std::optional<double> time_step;           ///< fixed [s]; otherwise by CFL
+    double cfl;                                ///< [-]
+    double duration;                           ///< longest [s]
+    bool until_rest = false;                   ///< asked for: `duration` is the bound on it
     Rest rest;
     Runout runout;
     std::vector<Gauge> gauges{};

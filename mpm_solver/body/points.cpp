@@ -7,6 +7,7 @@
 
 #include "core/scene/beds.hpp"
 #include "core/scene/resolution.hpp"
+#include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
@@ -68,12 +69,14 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
     const scene::Mpm& mpm = scene::mpm_of(scene);
     const scene::Material& soil = scene.materials[material];
     const materials::Law law = materials::with_tension_share(
-        materials::scaled(soil.law, mpm.stiffness_scale, softening_scale(mpm, soil)),
+        materials::adapted(soil.law, scene::elasticity_in_runout(soil, mpm),
+                           softening_scale(mpm, soil)),
         mpm.tension_share);
     Zone zone{.material = soil.name,
               .law = law,
               .lanes = lanes_of(law, soil),
               .elasticity = materials::elasticity(law),
+              .K_drawn = materials::elasticity(soil.law).bulk_modulus(),
               .volume_rule = decide(mpm, {soil.name, law, soil.viscosity}).volume_rule.value,
               .softening_scale = softening_scale(mpm, soil),
               .viscosity = soil.viscosity,
@@ -158,14 +161,12 @@ void for_each_shared(AnyPoints& points, std::size_t p, AnyState& state, std::siz
 }
 
 /// V_0 and V that belong to the stress under the zone's own (scaled) K.
-void settle_volumes(Points& points, Zone& zone, double stiffness_scale) {
+void settle_volumes(Points& points, Zone& zone) {
     const double K = zone.elasticity.bulk_modulus();
     for (std::size_t p = zone.begin; p < zone.end; ++p) {
         const double sigma_m = (points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0;
         const double elastic = 1.0 + sigma_m / K;
-        if (stiffness_scale != 1.0) {
-            points.V_0[p] *= (1.0 + sigma_m * stiffness_scale / K) / elastic;
-        }
+        if (K != zone.K_drawn) points.V_0[p] *= (1.0 + sigma_m / zone.K_drawn) / elastic;
         if (zone.volume_rule == VolumeRule::from_stress) points.V[p] = points.V_0[p] * elastic;
     }
     zone.largest_specific_volume = largest_specific_volume(points, zone);
@@ -200,8 +201,9 @@ std::vector<Measures> measures_of(const scene::Scene& scene) {
     std::vector<Measures> measures;
     for (const scene::Soil& soil : scene::soils_of(scene)) {
         const scene::Material& material = scene.materials[soil.material];
-        const double K = materials::elasticity(material.law).bulk_modulus();
-        measures.push_back({softening_scale(mpm, material), mpm.stiffness_scale * K, K});
+        measures.push_back({softening_scale(mpm, material),
+                            scene::elasticity_in_runout(material, mpm).bulk_modulus(),
+                            materials::elasticity(material.law).bulk_modulus()});
     }
     return measures;
 }
@@ -278,7 +280,7 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
     }
     result.zones = zones_of(scene, points);
     for (Zone& zone : result.zones) {
-        settle_volumes(points, zone, scene::mpm_of(scene).stiffness_scale);
+        settle_volumes(points, zone);
         scale_softening(points, zone);
     }
     return result;

@@ -56,6 +56,7 @@ struct Zone {
     materials::Law law;         ///< E and the strains of softening already scaled
     materials::LawLanes lanes;  ///< the same for the loops
     mechanics::Elasticity elasticity;
+    double K_drawn;  ///< bulk modulus of the scene [Pa]
     VolumeRule volume_rule;
     double softening_scale;  ///< of the law's strains of softening, and of the points' own [-]
     double viscosity;        ///< eta [Pa s]

@@ -86,6 +86,13 @@ Flag share_of_settling(const Ending& ending) {
 
 std::vector<Flag> doubts_of(const Ending& ending) {
     std::vector<Flag> doubts;
+    if (ending.softer && ending.mach > largest_mach)
+        doubts.push_back({"high_mach", Severity::warning,
+                          "the flow reached Mach " + words::text_of(ending.mach, 2) +
+                              " in soil that is softer than the scene's (at most 0.1 can be "
+                              "trusted): the flow compresses it; give a larger "
+                              "/mpm/stiffness_scale",
+                          "/mpm/stiffness_scale"});
     if (ending.moving) doubts.push_back(still_moving(ending));
     const bool much = !(std::abs(ending.numerical_share) <= largest_numerical_share);
     const bool stands = ending.stood && !ending.moving && std::isfinite(ending.numerical_share);

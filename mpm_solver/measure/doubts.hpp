@@ -40,6 +40,10 @@ constexpr double deposit_cells_wanted = 5.0;
 constexpr double usual_tension_share = 0.03;
 constexpr double usual_damping_ratio = 0.1;
 
+/// Of soil that is softer than in the scene: beyond it the flow compresses it by 1 % and more, as in
+/// every weakly compressible method.
+constexpr double largest_mach = 0.1;
+
 /// How a run ended, as far as doubts go.
 struct Ending {
     double time;                        ///< [s]
@@ -55,6 +59,8 @@ struct Ending {
     bool until_rest;       ///< the run was to go on until rest, and met its bound
     double tension_share;  ///< /mpm/tension_share
     double damping_ratio;  ///< /mpm/damping_ratio
+    double mach;           ///< largest speed over that of the fastest wave [-]
+    bool softer;           ///< soil is softer than in the scene, for longer steps
 };
 
 std::vector<fault::Flag> doubts_of(const Ending& ending);

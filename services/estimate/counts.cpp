@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/scene/resolution.hpp"
+#include "core/scene/stiffness.hpp"
 
 namespace breach::estimate {
 
@@ -278,13 +279,11 @@ double runout_duration(const scene::Scene& scene) {
 double runout_step(const scene::Scene& scene) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.time_step) return *mpm.time_step;
-    double fastest = 1.0, damping = 0.0;
+    const double fastest = std::max(scene::fastest_wave(scene, mpm), 1.0);
+    double damping = 0.0;
     for (const scene::Soil& soil : scene::soils_of(scene)) {
         if (soil.material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soil.material];
-        mechanics::Elasticity elastic = materials::elasticity(material.law);
-        elastic.E *= mpm.stiffness_scale;
-        fastest = std::max(fastest, elastic.wave_speed(material.density));
         damping =
             std::max(damping, 16.0 / 3.0 * material.viscosity / material.density / mpm.cell_size);
     }

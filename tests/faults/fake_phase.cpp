@@ -320,7 +320,8 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
     if (linear || wish(wanted, "ishigami", 0) > 0)
         result["runout_beyond_toe"] = drawn_result(own, linear, shift);
     if (wish(wanted, "by_stiffness", 0) > 0) {
-        const double s = own.at("mpm").at("stiffness_scale");
+        const json& scale = own.at("mpm").at("stiffness_scale");
+        const double s = scale.is_number() ? scale.get<double>() : 1.0;
         result["runout"] = result["runout"].get<double>() + s * s;
     }
     end_well(order, result);

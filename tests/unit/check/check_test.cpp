@@ -9,6 +9,14 @@
 namespace breach::check {
 namespace {
 
+TEST(Check, RefusesSoilSofterThanItsFallAllowsAndSaysWhatWouldDo) {
+    const Checked checked = changed("mochikoshi", {"/mpm/stiffness_scale=1e-3"});
+    expect_only(checked, "/mpm/stiffness_scale", "Mach 0.42");
+    EXPECT_NE(checked.faults[0].remedy.find("at least 0.002, or"), std::string::npos)
+        << checked.faults[0].remedy;
+    EXPECT_TRUE(changed("mochikoshi", {"/mpm/stiffness_scale=0.002"}).faults.empty());
+}
+
 TEST(Check, SandWithoutAMappingCannotBecomePoints) {
     const Checked checked = changed(
         "mochikoshi", {R"(/transfer/mapping=[{"region":"foundation","to":"foundation_elastic"},)"

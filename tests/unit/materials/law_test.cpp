@@ -50,9 +50,9 @@ TEST(Laws, WithCohesionAndFrictionShowBothAsEntriesAndAsStrength) {
     }
 }
 
-TEST(Laws, ScaleTheirStiffnessAndTheStrainsOfTheirSoftening) {
+TEST(Laws, TakeAnotherElasticityAndScaleTheStrainsOfTheirSoftening) {
     const MohrCoulomb soil{{2e7, 0.3}, 1e4, 0.5, 0.0, 0.0, Softening{0.02, 0.1, 1e3, 0.1}};
-    const Law half = scaled(Law(soil), 0.5, 3.0);
+    const Law half = adapted(Law(soil), {1e7, 0.3}, 3.0);
     EXPECT_EQ(elasticity(half).E, 1e7);
     EXPECT_EQ(softening(half)->epsilon_q_start, 3.0 * 0.02);
     EXPECT_EQ(softening(half)->epsilon_q_end, 3.0 * 0.1);

@@ -35,6 +35,21 @@ TEST(Elasticity, ConstrainedCompressionHasTheConstrainedModulus) {
     EXPECT_NEAR(soil.wave_speed(1800.0), std::sqrt(soil.constrained_modulus() / 1800.0), 1e-12);
 }
 
+/// Shear stays as it is down to nu = 0.2; below that both moduli fall together.
+TEST(Elasticity, IsSlowedByItsBulkModulusFirst) {
+    const Elasticity undrained{72e6, 0.495};
+    for (const double limit : {1000.0, 400.0}) {
+        const Elasticity slow = slowed(undrained, 1865.0, limit);
+        EXPECT_NEAR(slow.wave_speed(1865.0), limit, 1e-9 * limit);
+        EXPECT_NEAR(slow.shear_modulus(), undrained.shear_modulus(), 1.0);
+        EXPECT_GT(slow.nu, 0.2);
+    }
+    const Elasticity slowest = slowed(undrained, 1865.0, 50.0);
+    EXPECT_NEAR(slowest.wave_speed(1865.0), 50.0, 1e-9);
+    EXPECT_NEAR(slowest.nu, 0.2, 1e-12);
+    EXPECT_EQ(slowed(undrained, 1865.0, 2000.0).E, undrained.E);
+}
+
 TEST(Elasticity, EnergyIsHalfTheWork) {
     const Voigt sigma = elastic_stress(soil, some_strain);
     EXPECT_NEAR(elastic_energy_density(soil, sigma), 0.5 * double_dot(sigma, some_strain), 1e-12);

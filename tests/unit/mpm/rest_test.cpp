@@ -168,7 +168,9 @@ Ending sound() {
             .cell_size = 1.0,
             .until_rest = false,
             .tension_share = usual_tension_share,
-            .damping_ratio = usual_damping_ratio};
+            .damping_ratio = usual_damping_ratio,
+            .mach = 0.5,
+            .softer = false};
 }
 
 std::vector<std::string> codes(const Ending& ending) {

@@ -1,6 +1,7 @@
 // What a scene may say about terrain, gauges and the stress of filled points.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -32,6 +33,20 @@ std::set<std::string> faults_of_mpm(const char* key, const char* value) {
         for (const fault::Fault& each : error.faults()) pointers.insert(each.pointer);
     }
     return pointers;
+}
+
+/// From 20 m to the floor at -2 m.
+TEST(MpmScene, SoilThatYieldsIsAsStiffAsItsFallNeeds) {
+    const auto limit = [](const std::vector<std::string>& overrides) {
+        return scene::parse_scene(column().dump(), "test", ".", overrides).mpm->wave_speed_limit;
+    };
+    EXPECT_NEAR(limit({}).value(), 15.0 * std::sqrt(2.0 * 9.81 * 22.0), 1e-9);
+    EXPECT_NEAR(limit({"/mpm/terrain=[[-1,0],[61,0]]"}).value(),
+                15.0 * std::sqrt(2.0 * 9.81 * 20.0), 1e-9);
+    EXPECT_FALSE(limit({"/mpm/stiffness_scale=1"}));
+    EXPECT_FALSE(limit({"/mpm/time_step=1e-4"}));
+    EXPECT_FALSE(limit({"/gravity=0"}));
+    EXPECT_FALSE(limit({R"(/materials/sand/law={"type":"linear_elastic","E_MPa":20,"nu":0.3})"}));
 }
 
 TEST(MpmScene, TerrainGaugesAndFillStressAreRead) {

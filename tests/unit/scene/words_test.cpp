@@ -30,6 +30,7 @@ const std::set<std::string> without_enum{
     "/properties/mpm/properties/rest_window/oneOf/1",
     "/properties/mpm/properties/rest_earliest/oneOf/1",
     "/properties/mpm/properties/rest_speed/oneOf/1",
+    "/properties/mpm/properties/stiffness_scale/oneOf/1",
 };
 
 class WordsOfTheSchema {

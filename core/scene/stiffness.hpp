@@ -1,0 +1,30 @@
+// How stiff soil is in the runout. Its compression waves set the time step; a flow needs no faster
+// ones than 15 times its own speed, and undrained soil has some of 2 km/s.
+#pragma once
+
+#include <optional>
+
+#include "core/mechanics/elasticity.hpp"
+#include "core/scene/scene.hpp"
+
+namespace breach::scene {
+
+/// Speed of soil that has lost no energy after the deepest fall, from the highest mobile soil to the
+/// lowest ground [m/s].
+double fall_speed(const Scene& scene, const Mpm& mpm);
+
+/// What `"stiffness_scale": "auto"` holds compression waves to [m/s]: 15 times fall_speed. Nothing
+/// where soil keeps its stiffness: no material yields, the time step is given, the shaking goes on,
+/// there is no gravity.
+std::optional<double> wave_speed_limit(const Scene& scene, const Mpm& mpm);
+
+/// A material's elasticity as the runout has it.
+mechanics::Elasticity elasticity_in_runout(const Material& material, const Mpm& mpm);
+
+/// Of the soils that points can be [m/s].
+double fastest_wave(const Scene& scene, const Mpm& mpm);
+
+/// A given stiffness with fall_speed over fastest_wave above this is refused.
+constexpr double refused_mach = 0.3;
+
+}  // namespace breach::scene
