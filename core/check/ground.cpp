@@ -4,6 +4,7 @@
 
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 
@@ -124,8 +125,7 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
                                             : straight_level_at(mpm.terrain, end - mpm.cell_size);
     double face = 0.0;
     for (const scene::Region& region : scene.section.regions) {
-        const auto& named = mpm.runout.regions;
-        if (!named.empty() && std::ranges::find(named, region.name) == named.end()) continue;
+        if (!scene::is_mobile(region, mpm)) continue;
         for (const auto& [a, b] : sides_of(region.polygon)) {
             if (std::max(a.x(), b.x()) > end + 1e-6 * mpm.cell_size) continue;
             face += std::max(std::max(a.y(), b.y()) - std::max(held, std::min(a.y(), b.y())), 0.0);

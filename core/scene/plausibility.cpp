@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/geometry/polyline.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/slips.hpp"
 
 namespace breach::scene {
@@ -305,9 +306,7 @@ void doubt_toe(Doubter& d) {
     const Runout& runout = d.scene.mpm->runout;
     double all = 0.0, beyond = 0.0, end = -infinity;
     for (const Region& region : d.scene.section.regions) {
-        const auto& named = runout.regions;
-        const bool counts = named.empty() || std::ranges::find(named, region.name) != named.end();
-        if (!counts || region.polygon.empty()) continue;
+        if (!is_mobile(region, *d.scene.mpm) || region.polygon.empty()) continue;
         end = std::max(end, bounding_box(region.polygon).high.x());
         all += area(region.polygon);
         beyond += area_beyond(region.polygon, runout.toe.x());

@@ -192,11 +192,6 @@ Disc largest_disc_near(const Shape& shape, const Vec2& place) {
 
 // ---------------------------------------------------------------- what has to be resolved
 
-bool is_mobile(const Region& region, const Mpm& mpm) {
-    const auto& names = mpm.runout.regions;
-    return names.empty() || std::ranges::find(names, region.name) != names.end();
-}
-
 bool as_strong(const Material& a, const Material& b) {
     if (&a == &b) return true;
     const std::string_view type = materials::traits(a.law).type;
@@ -451,6 +446,11 @@ class KnownThicknesses {
 KnownThicknesses known_thicknesses;
 
 }  // namespace
+
+bool is_mobile(const Region& region, const Mpm& mpm) {
+    const auto& names = mpm.runout.regions;
+    return names.empty() || std::ranges::find(names, region.name) != names.end();
+}
 
 double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached) {
     std::vector<Polygon> parts = attached;

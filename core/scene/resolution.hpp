@@ -33,6 +33,9 @@ constexpr double elements_wanted = 2.0;
 /// few per cent.
 double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached = {});
 
+/// Whether the region counts for the runout.
+bool is_mobile(const Region& region, const Mpm& mpm);
+
 /// Of the lowest and the highest vertex of the regions that count for the runout [m]; low > high:
 /// there is none.
 struct Levels {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/scene/ground.hpp"
 #include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/terrain.hpp"
@@ -66,10 +65,9 @@ struct GroundEnd {
 };
 
 std::optional<GroundEnd> ground_end(const scene::Scene& scene) {
-    const auto& named = scene::mpm_of(scene).runout.regions;
     GroundEnd end;
     for (const scene::Region& region : scene.section.regions) {
-        if (named.empty() || std::ranges::find(named, region.name) != named.end()) continue;
+        if (scene::is_mobile(region, scene::mpm_of(scene))) continue;
         for (const scene::Vec2& vertex : region.polygon) {
             if (vertex.x() < end.x) continue;
             if (vertex.x() > end.x) end = {.x = vertex.x()};

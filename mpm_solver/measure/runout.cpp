@@ -2,17 +2,15 @@
 
 #include <algorithm>
 
+#include "core/scene/resolution.hpp"
+
 namespace breach::mpm {
 
 std::vector<std::uint8_t> mobile_regions(const scene::Scene& scene) {
-    const auto& names = scene::mpm_of(scene).runout.regions;
     std::vector<std::uint8_t> mobile;
-    for (const scene::Soil& soil : scene::soils_of(scene)) {
-        const std::string& region = scene.section.regions[soil.region].name;
-        const bool counts =
-            names.empty() || std::find(names.begin(), names.end(), region) != names.end();
-        mobile.push_back(counts ? 1 : 0);
-    }
+    for (const scene::Soil& soil : scene::soils_of(scene))
+        mobile.push_back(
+            scene::is_mobile(scene.section.regions[soil.region], scene::mpm_of(scene)) ? 1 : 0);
     return mobile;
 }
 

@@ -71,16 +71,13 @@ exchange::ParticleState four_points(double moved) {
     points.transfer_time = 14;
     points.regions = {"sand", "sand"};
     points.materials_of_regions = {"sand", "liquefied_1"};
+    points.resize(4);
     points.position = {{0.5, 0.25}, {0.5, 0.75}, {1.5 + moved, 0.25}, {1.5 + moved, 0.75}};
-    points.velocity.assign(4, {0, 0});
-    points.velocity_gradient.assign(4, mechanics::Matrix2::Zero());
     points.mass.assign(4, 900);
     points.volume_0.assign(4, 0.5);
     points.volume.assign(4, 0.5);
     points.stress.assign(4, mechanics::Voigt(-4e3, -8e3, -4e3, 0));
     points.epsilon_q = {0.01, 0.01, 0.5, 0.75};
-    points.epsilon_q_plastic.assign(4, 0.0);
-    points.gap.assign(4, 0.0);
     points.region = {0, 0, 1, 1};
     points.pore_pressure.assign(4, 5e3);
     points.r_u = {0.5, 0.5, 0.75, 0.75};

@@ -124,10 +124,8 @@ Body ring_body(const scene::Scene& scene, const Vortex& vortex) {
     for (std::size_t p = 0; p < state.size(); ++p) {
         if (in_ring(state.position[p].x(), state.position[p].y())) kept.push_back(p);
     }
-    keep(state.position, kept), keep(state.velocity, kept), keep(state.velocity_gradient, kept);
-    keep(state.mass, kept), keep(state.volume_0, kept), keep(state.volume, kept);
-    keep(state.stress, kept), keep(state.epsilon_q, kept), keep(state.epsilon_q_plastic, kept);
-    keep(state.gap, kept), keep(state.region, kept);
+    keep(state.position, kept), keep(state.region, kept);
+    for_each_field(state, [&](auto, auto, auto, auto& values) { keep(values, kept); });
     const double d = 1e-6;
     for (std::size_t p = 0; p < state.size(); ++p) {
         const mechanics::Vec2 x = state.position[p];
