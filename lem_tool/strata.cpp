@@ -128,7 +128,7 @@ Line line_through(const scene::Vec2& a, const scene::Vec2& b) {
     return {a.y() - slope * a.x(), slope};
 }
 
-void add_pieces(const scene::Polygon& polygon, std::size_t region, double from, double to,
+void add_pieces(const geometry::Polygon& polygon, std::size_t region, double from, double to,
                 double tolerance, std::vector<Piece>& pieces) {
     const double middle = 0.5 * (from + to);
     std::vector<Line> lines;

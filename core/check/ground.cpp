@@ -36,7 +36,7 @@ struct Clearance {
 
 Clearance clearance_below_section(const scene::Scene& scene, double told) {
     const scene::Mpm& mpm = *scene.mpm;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double near = 1e-6 * (box.high.x() - box.low.x());
     std::vector<double> places = abscissae(scene);
     for (const Vec2& kink : mpm.terrain) places.push_back(kink.x());

@@ -46,11 +46,11 @@ bool has_soil(const scene::Scene& scene) {
                                [](const scene::Region& each) { return !each.polygon.empty(); });
 }
 
-scene::Box extent(const scene::Scene& scene) {
-    scene::Box all{Vec2::Constant(infinity), Vec2::Constant(-infinity)};
+geometry::Box extent(const scene::Scene& scene) {
+    geometry::Box all{Vec2::Constant(infinity), Vec2::Constant(-infinity)};
     for (const scene::Region& each : scene.section.regions) {
         if (each.polygon.empty()) continue;
-        const scene::Box box = scene::bounding_box(each.polygon);
+        const geometry::Box box = geometry::bounding_box(each.polygon);
         all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
     }
     return all;
@@ -59,9 +59,9 @@ scene::Box extent(const scene::Scene& scene) {
 double element_size(const scene::Region& region) {
     const int elements = region.divisions[0] * region.divisions[1];
     if (region.mesh == scene::RegionMesh::block && elements > 0)
-        return std::sqrt(scene::area(region.polygon) / elements);
+        return std::sqrt(geometry::area(region.polygon) / elements);
     if (region.element_size > 0.0) return region.element_size;
-    const scene::Box box = scene::bounding_box(region.polygon);
+    const geometry::Box box = geometry::bounding_box(region.polygon);
     return 0.1 * (box.high - box.low).minCoeff();
 }
 
@@ -79,7 +79,7 @@ double largest_element_size(const scene::Scene& scene) {
     return largest;
 }
 
-std::vector<Side> sides_of(const scene::Polygon& polygon) {
+std::vector<Side> sides_of(const geometry::Polygon& polygon) {
     std::vector<Side> sides;
     for (std::size_t i = 0; i < polygon.size(); ++i)
         sides.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
@@ -91,17 +91,17 @@ double distance_to_soil(const scene::Scene& scene, const Vec2& place) {
     double least = infinity;
     for (const scene::Region& each : scene.section.regions)
         for (const Side& side : sides_of(each.polygon))
-            least = std::min(least, scene::distance_to_segment(place, side.a, side.b));
+            least = std::min(least, geometry::distance_to_segment(place, side.a, side.b));
     return least;
 }
 
 bool in_soil(const scene::Scene& scene, const Vec2& place, double tolerance) {
     return std::ranges::any_of(scene.section.regions, [&](const scene::Region& each) {
-        return !each.polygon.empty() && scene::contains(each.polygon, place, tolerance);
+        return !each.polygon.empty() && geometry::contains(each.polygon, place, tolerance);
     });
 }
 
-Depth deepest_below(const scene::Polygon& polygon, const std::vector<Vec2>& line, Level level) {
+Depth deepest_below(const geometry::Polygon& polygon, const std::vector<Vec2>& line, Level level) {
     Depth deepest{-infinity, Vec2::Zero()};
     const auto look = [&](const Vec2& place) {
         const double below = level(line, place.x()) - place.y();
@@ -156,7 +156,7 @@ std::vector<double> abscissae(const scene::Scene& scene) {
 }
 
 Levels ground_over(const scene::Scene& scene, double from, double to) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double near = 1e-6 * (box.high.x() - box.low.x());
     std::vector<double> xs = abscissae(scene);
     xs.push_back(from);

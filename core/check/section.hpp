@@ -27,7 +27,7 @@ std::string region_pointer(std::size_t region, const std::string& below = "");
 const scene::Material* material_of(const scene::Scene& scene, const scene::Region& region);
 
 /// Box around all polygons. The scene has soil.
-scene::Box extent(const scene::Scene& scene);
+geometry::Box extent(const scene::Scene& scene);
 
 /// Length of the region's elements as far as the scene says it, over its area for a block [m].
 double element_size(const scene::Region& region);
@@ -38,7 +38,7 @@ double largest_element_size(const scene::Scene& scene);
 struct Side {
     Vec2 a, b;
 };
-std::vector<Side> sides_of(const scene::Polygon& polygon);
+std::vector<Side> sides_of(const geometry::Polygon& polygon);
 
 /// From a place to the nearest soil; 0 inside [m].
 double distance_to_soil(const scene::Scene& scene, const Vec2& place);
@@ -51,7 +51,7 @@ struct Depth {
     Vec2 place;
 };
 using Level = double (*)(const std::vector<Vec2>&, double);
-Depth deepest_below(const scene::Polygon& polygon, const std::vector<Vec2>& line, Level level);
+Depth deepest_below(const geometry::Polygon& polygon, const std::vector<Vec2>& line, Level level);
 /// The same over all regions.
 Depth deepest_below(const scene::Scene& scene, const std::vector<Vec2>& line, Level level);
 

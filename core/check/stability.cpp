@@ -14,7 +14,7 @@ constexpr double gap_share = 1e-3;  // of the section's height: thinner is a dra
 
 /// Vertical slices need ground without holes below it.
 bool check_slices(const scene::Scene& scene, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double allowed = gap_share * (box.high.y() - box.low.y());
     const std::vector<double> xs = abscissae(scene);
     const std::string remedy =
@@ -47,7 +47,7 @@ bool check_slices(const scene::Scene& scene, Findings& findings) {
 /// A range of x of which some lies over the section.
 bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                  const std::string& pointer, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const std::string ground = "the section's ground reaches from x = " + text(box.low.x()) +
                                " to " + metres(box.high.x());
     if (range[1] < box.low.x() || range[0] > box.high.x()) {
@@ -75,7 +75,7 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
                "lies at most at " + metres(upper.highest) + ", and exit nowhere below " +
                    metres(lower.lowest),
                "put entry on the upper and exit on the lower side of the slope");
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const Levels ground = ground_over(scene, box.low.x(), box.high.x());
     if (search.lowest_level && *search.lowest_level >= ground.highest)
         refuse(findings, "/lem/search/lowest_level",
@@ -89,7 +89,7 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
 
 /// A crack cannot be deeper than the section, and begins in its ground.
 void check_crack(const scene::Scene& scene, const scene::TensionCrack& crack, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const std::string remedy =
         "give the depth to which the soil stands open, about 2 c / gamma tan(45 + phi / 2), or "
         "delete /lem/tension_crack";
@@ -111,7 +111,7 @@ void check_crack(const scene::Scene& scene, const scene::TensionCrack& crack, Fi
 }
 
 void check_circle(const scene::Scene& scene, const scene::Circle& circle, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     constexpr int samples = 256;
     const double left = std::max(box.low.x(), circle.center.x() - circle.radius);
     const double right = std::min(box.high.x(), circle.center.x() + circle.radius);
@@ -147,7 +147,7 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
         if (!layers[i].levels) continue;
         const scene::Region& region = scene.section.regions[layers[i].region];
         if (region.polygon.empty()) continue;
-        const scene::Box box = scene::bounding_box(region.polygon);
+        const geometry::Box box = geometry::bounding_box(region.polygon);
         const auto& [low, high] = *layers[i].levels;
         const std::string pointer = "/lem/liquefaction/" + std::to_string(i) + "/levels";
         if (low >= box.high.y() || high <= box.low.y()) {
@@ -171,7 +171,7 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
 
 /// Levels of a layer, as far as its region reaches.
 std::array<double, 2> levels_of(const scene::Scene& scene, const scene::UndrainedRegion& layer) {
-    const scene::Box box = scene::bounding_box(scene.section.regions[layer.region].polygon);
+    const geometry::Box box = geometry::bounding_box(scene.section.regions[layer.region].polygon);
     if (!layer.levels) return {box.low.y(), box.high.y()};
     return {std::max(box.low.y(), (*layer.levels)[0]), std::min(box.high.y(), (*layer.levels)[1])};
 }
@@ -212,7 +212,7 @@ void check_order(const scene::Scene& scene, Findings& findings) {
     const auto& regions = scene.section.regions;
     for (const scene::UndrainedRegion& each : layers)
         if (regions[each.region].polygon.empty()) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double height = box.high.y() - box.low.y();
     for (std::size_t i = 1; i < layers.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {

@@ -96,7 +96,7 @@ void doubt_friction_under_water(const scene::Scene& scene, const std::vector<sce
     if (scene.fem) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     std::vector<std::size_t> told;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
@@ -118,7 +118,7 @@ void doubt_friction_under_water(const scene::Scene& scene, const std::vector<sce
 
 /// Deepest water that stands on the ground [m].
 double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double near = 1e-6 * (box.high.x() - box.low.x());
     std::vector<double> xs = abscissae(scene);
     for (const Vec2& each : line) xs.push_back(each.x());
@@ -159,7 +159,7 @@ void doubt_loads_that_end(const scene::Scene& scene, Findings& findings) {
     if (pressed) tell(of_pressures, "the pressure on the edges");
     if (pushed) tell(of_forces, "the force on the nodes");
     if (!fem.water || fem.stages.empty()) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     const double pond = deepest_pond(scene, fem.water_in(fem.stages.size() - 1)->line);
     if (pond > shallow) tell("/fem/water/line", "free water up to " + metres(pond) + " deep");

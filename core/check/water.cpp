@@ -53,7 +53,7 @@ void check_boundaries(const scene::Scene& scene, const GroundWater& water, Findi
 /// Does some soil of the region lie between these abscissae?
 bool lies_between(const scene::Region& region, const std::array<double, 2>& x) {
     if (region.polygon.empty()) return false;
-    const scene::Box box = scene::bounding_box(region.polygon);
+    const geometry::Box box = geometry::bounding_box(region.polygon);
     return box.high.x() >= x[0] && box.low.x() <= x[1];
 }
 
@@ -81,7 +81,7 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
 
 /// No stretch of the line lies over the section: it would be level there, at the height of an end.
 bool is_beside(const scene::Scene& scene, const std::vector<Vec2>& line) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     return line.size() > 1 && (line.back().x() <= box.low.x() || line.front().x() >= box.high.x());
 }
 
@@ -113,7 +113,7 @@ void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Find
 
 bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
                  const std::string& pointer, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     if (is_beside(scene, line)) {
         refuse(findings, pointer,
                "runs from x = " + metres(line.front().x()) + " to " + metres(line.back().x()) +
@@ -134,7 +134,7 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
 void doubt_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
                 const std::string& pointer, Findings& findings) {
     if (line.empty()) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     const auto look = [&](const Vec2& end, double from, double to) {
         if (from >= to) return;

@@ -40,7 +40,7 @@ Box extent_of(const std::vector<Region>& regions) {
     Box all{{infinity, infinity}, {-infinity, -infinity}};
     for (const Region& region : regions) {
         if (region.polygon.empty()) continue;
-        const Box box = bounding_box(region.polygon);
+        const Box box = geometry::bounding_box(region.polygon);
         all.low = all.low.cwiseMin(box.low);
         all.high = all.high.cwiseMax(box.high);
     }
@@ -253,7 +253,7 @@ void doubt_sizes(Doubter& d) {
             if (region.polygon.empty() || region.element_size <= 0.0) continue;
             const std::string own = "/section/regions/" + std::to_string(i) + "/mesh/element_size";
             const bool has_own = d.reader.document().contains(nlohmann::json::json_pointer(own));
-            doubt_size(d, region.element_size, area(region.polygon),
+            doubt_size(d, region.element_size, geometry::area(region.polygon),
                        has_own ? own : "/section/element_size", "elements");
         }
     }
@@ -272,13 +272,13 @@ void doubt_sizes(Doubter& d) {
 
 /// Area of the polygon with x above the given one [m2].
 double area_beyond(const Polygon& polygon, double x) {
-    const Box box = bounding_box(polygon);
-    if (x <= box.low.x()) return area(polygon);
+    const Box box = geometry::bounding_box(polygon);
+    if (x <= box.low.x()) return geometry::area(polygon);
     if (x >= box.high.x()) return 0.0;
     const double below = box.low.y() - 1.0, above = box.high.y() + 1.0;
     const Polygon beyond{
         {x, below}, {box.high.x() + 1.0, below}, {box.high.x() + 1.0, above}, {x, above}};
-    return overlap_area(polygon, beyond);
+    return geometry::overlap_area(polygon, beyond);
 }
 
 /// Farthest x of soil above a level; -infinity: there is none [m].
@@ -308,8 +308,8 @@ void doubt_toe(Doubter& d) {
         const auto& named = runout.regions;
         const bool counts = named.empty() || std::ranges::find(named, region.name) != named.end();
         if (!counts || region.polygon.empty()) continue;
-        end = std::max(end, bounding_box(region.polygon).high.x());
-        all += area(region.polygon);
+        end = std::max(end, geometry::bounding_box(region.polygon).high.x());
+        all += geometry::area(region.polygon);
         beyond += area_beyond(region.polygon, runout.toe.x());
     }
     if (!(all > 0.0)) return;

@@ -46,7 +46,8 @@ struct Shape {
 
 bool lies_on(const Vec2& point, const Polygon& polygon, double tolerance) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        if (distance_to_segment(point, polygon[i], polygon[(i + 1) % polygon.size()]) < tolerance)
+        if (geometry::distance_to_segment(point, polygon[i], polygon[(i + 1) % polygon.size()]) <
+            tolerance)
             return true;
     }
     return false;
@@ -58,7 +59,8 @@ std::vector<Segment> pieces_of(const Segment& edge, const std::vector<Polygon>& 
     std::vector<Vec2> cuts{edge.from, edge.to};
     for (const Polygon& other : others) {
         for (const Vec2& vertex : other) {
-            if (distance_to_segment(vertex, edge.from, edge.to) < tolerance) cuts.push_back(vertex);
+            if (geometry::distance_to_segment(vertex, edge.from, edge.to) < tolerance)
+                cuts.push_back(vertex);
         }
     }
     std::ranges::sort(cuts, {}, [&](const Vec2& cut) { return (cut - edge.from).norm(); });
@@ -73,7 +75,7 @@ std::vector<Segment> pieces_of(const Segment& edge, const std::vector<Polygon>& 
 enum class Sides { shared, own };
 std::vector<Segment> sides_of(const Polygon& polygon, const std::vector<Polygon>& others,
                               Sides wanted) {
-    const Box box = bounding_box(polygon);
+    const Box box = geometry::bounding_box(polygon);
     const double tolerance = 1e-6 * (box.high - box.low).norm();
     std::vector<Segment> found;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -101,7 +103,7 @@ Shape shape_of(const std::vector<Polygon>& parts) {
 double distance_to_border(const Shape& shape, const Vec2& point) {
     double least = std::numeric_limits<double>::max();
     for (const Segment& side : shape.border)
-        least = std::min(least, distance_to_segment(point, side.from, side.to));
+        least = std::min(least, geometry::distance_to_segment(point, side.from, side.to));
     return least;
 }
 
@@ -113,17 +115,19 @@ double perimeter(const Polygon& polygon) {
 }
 
 bool holds(const Shape& shape, const Vec2& point) {
-    return std::ranges::any_of(shape.parts,
-                               [&](const Polygon& part) { return contains(part, point); });
+    return std::ranges::any_of(
+        shape.parts, [&](const Polygon& part) { return geometry::contains(part, point); });
 }
 
 constexpr double places_wanted = 250.0;
 
-double spacing_of(const Polygon& polygon) { return std::sqrt(area(polygon) / places_wanted); }
+double spacing_of(const Polygon& polygon) {
+    return std::sqrt(geometry::area(polygon) / places_wanted);
+}
 
 /// Places inside on a lattice, a few hundred.
 std::vector<Vec2> places_inside(const Polygon& polygon) {
-    const Box box = bounding_box(polygon);
+    const Box box = geometry::bounding_box(polygon);
     const Vec2 extent = box.high - box.low;
     const auto lines = [&](double length) {
         const double wanted = std::ceil(length / spacing_of(polygon));
@@ -136,7 +140,7 @@ std::vector<Vec2> places_inside(const Polygon& polygon) {
         for (int j = 0; j < rows; ++j) {
             const Vec2 share{(i + 0.5) / columns, (j + 0.5) / rows};
             const Vec2 place = box.low + extent.cwiseProduct(share);
-            if (contains(polygon, place)) places.push_back(place);
+            if (geometry::contains(polygon, place)) places.push_back(place);
         }
     }
     return places;
@@ -414,7 +418,7 @@ double measured_thickness(const Polygon& polygon, const std::vector<Polygon>& pa
         thickness.push_back(2.0 * radius);
     }
     // A hair's breadth, which no place of the lattice has met.
-    if (thickness.empty()) return 2.0 * area(polygon) / perimeter(polygon);
+    if (thickness.empty()) return 2.0 * geometry::area(polygon) / perimeter(polygon);
     const auto middle = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 2);
     std::ranges::nth_element(thickness, middle);
     return *middle;
@@ -463,7 +467,7 @@ double mobile_height(const Scene& scene, const Mpm& mpm) {
     double high = std::numeric_limits<double>::lowest();
     for (const Region& region : scene.section.regions) {
         if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
-        const Box box = bounding_box(region.polygon);
+        const Box box = geometry::bounding_box(region.polygon);
         low = std::min(low, box.low.y());
         high = std::max(high, box.high.y());
     }
@@ -481,7 +485,7 @@ std::vector<Across> cells_across(const Scene& scene) {
         if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
         add("the thickness of region \"" + region.name + "\"",
             thickness_of(region.polygon, attached_to(region, scene)));
-        top = std::max(top, bounding_box(region.polygon).high.y());
+        top = std::max(top, geometry::bounding_box(region.polygon).high.y());
     }
     if (top > mpm.runout.toe.y()) add("the height of the slope", top - mpm.runout.toe.y());
     return all;

@@ -13,12 +13,16 @@
 
 #include "core/fault/fault.hpp"
 #include "core/fault/flag.hpp"
+#include "core/geometry/polygon.hpp"
 #include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
 #include "core/materials/strength/profile.hpp"
-#include "core/scene/polygon.hpp"
 
 namespace breach::scene {
+
+using geometry::Box;
+using geometry::Polygon;
+using mechanics::Vec2;
 
 /// Strength at failure.
 struct LimitStrength {

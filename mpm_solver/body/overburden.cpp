@@ -9,7 +9,7 @@ namespace breach::mpm {
 
 namespace {
 
-using scene::Polygon;
+using geometry::Polygon;
 using scene::Vec2;
 
 double thickness_above(const Polygon& polygon, const Vec2& place) {

@@ -255,8 +255,8 @@ std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
 double least_distance(const Vec2& place, const Polygon& ring) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < ring.size(); ++i)
-        least = std::min(least,
-                         scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
+        least = std::min(
+            least, geometry::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
     return least;
 }
 
@@ -297,7 +297,7 @@ void find_inside(Face& face, const Polygon& ring, const std::vector<Polygon>& ot
     for (const double y : levels_between(ring))
         for (const Vec2& place : middles_at(ring, y)) {
             const bool taken = std::ranges::any_of(
-                others, [&](const Polygon& each) { return scene::contains(each, place); });
+                others, [&](const Polygon& each) { return geometry::contains(each, place); });
             if (taken) continue;
             const double width = 2.0 * least_distance(place, ring);
             if (width <= face.width) continue;
@@ -339,7 +339,7 @@ std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edg
     std::vector<Polygon> rings;
     for (auto& ring : walks(nodes, directed)) {
         Polygon polygon = polygon_of(nodes, ring);
-        const double area = scene::signed_area(polygon);
+        const double area = geometry::signed_area(polygon);
         if (ring.size() < 3 || !(area > 0.0)) continue;  // what is seen from outside
         faces.push_back({std::move(ring), Vec2::Zero(), 0.0, area});
         rings.push_back(std::move(polygon));
@@ -348,7 +348,7 @@ std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edg
         std::vector<Polygon> within;  // of parts that touch nothing around them
         for (std::size_t j = 0; j < faces.size(); ++j)
             if (j != i && faces[j].area < faces[i].area &&
-                scene::contains(rings[i], rings[j].front()) &&
+                geometry::contains(rings[i], rings[j].front()) &&
                 std::ranges::find(faces[i].ring, faces[j].ring.front()) == faces[i].ring.end())
                 within.push_back(rings[j]);
         find_inside(faces[i], rings[i], within);

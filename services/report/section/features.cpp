@@ -55,7 +55,7 @@ void draw_support(Canvas& canvas, const scene::Scene& scene, const scene::Suppor
 
 void draw_free_field(Canvas& canvas, const scene::Scene& scene) {
     const scene::FreeField& columns = *scene.fem->free_field;
-    const scene::Box soil = check::extent(scene);
+    const geometry::Box soil = check::extent(scene);
     const auto column = [&](double edge, double direction) {
         const auto strata = check::strata_at(scene, edge - direction * 1e-6);
         if (strata.empty()) return;
@@ -94,7 +94,7 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
                                std::string("FEM: ") + held.meaning});
     }
     if (fem.base) {
-        const scene::Box soil = check::extent(scene);
+        const geometry::Box soil = check::extent(scene);
         const double below = 14.0 / canvas.panel.scale();
         canvas.svg << shape(path_of(canvas.panel, {{soil.low.x(), soil.low.y() - below},
                                                    {soil.high.x(), soil.low.y() - below}}),

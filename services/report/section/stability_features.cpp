@@ -29,16 +29,16 @@ void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
     if (layers.empty()) return;
     const std::string dash = " stroke-dasharray=\"6 3\"";
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        scene::Polygon part = scene.section.regions[layers[i].region].polygon;
+        geometry::Polygon part = scene.section.regions[layers[i].region].polygon;
         if (layers[i].levels) {
             const auto [low, high] = *layers[i].levels;
-            part = scene::clipped_left(part, {0.0, low}, {1.0, low});
-            part = scene::clipped_left(part, {1.0, high}, {0.0, high});
+            part = geometry::clipped_left(part, {0.0, low}, {1.0, low});
+            part = geometry::clipped_left(part, {1.0, high}, {0.0, high});
         }
         if (part.empty()) continue;
         canvas.svg << shape(path_of(canvas.panel, part) + "Z",
                             stroke(dark_red, 1.3, "class=\"liquefaction\"" + dash));
-        const scene::Box box = scene::bounding_box(part);
+        const geometry::Box box = geometry::bounding_box(part);
         const Vec2 inside = canvas.panel.inside(0.5 * (box.low + box.high));
         canvas.labels.write(canvas.over, canvas.panel.at(inside), std::to_string(i + 1), dark_red);
     }
@@ -54,7 +54,7 @@ void draw_crack(Canvas& canvas, const scene::Scene& scene) {
     const scene::Lem& lem = *scene.lem;
     if (!lem.tension_crack) return;
     const scene::TensionCrack& crack = *lem.tension_crack;
-    const scene::Box world = canvas.panel.world();
+    const geometry::Box world = canvas.panel.world();
     const auto [from, to] =
         lem.search ? lem.search->entry : std::array<double, 2>{world.low.x(), world.high.x()};
     const std::string dash = " stroke-dasharray=\"1 3\"";
@@ -83,7 +83,7 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
         draw_range(canvas, scene, lem.search->entry, "upper ends", "#d55e00");
         draw_range(canvas, scene, lem.search->exit, "lower ends", violet);
         if (lem.search->lowest_level) {
-            const scene::Box world = canvas.panel.world();
+            const geometry::Box world = canvas.panel.world();
             const double y = *lem.search->lowest_level;
             const std::string dash = " stroke-dasharray=\"2 4\"";
             draw_line(canvas, "search", {{world.low.x(), y}, {world.high.x(), y}}, violet, dash);

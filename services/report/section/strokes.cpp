@@ -35,7 +35,7 @@ std::string place(const Vec2& at) {
 
 /// The line over the whole panel, as it goes on beyond its ends.
 Line across(const Panel& panel, const Line& line, check::Level level) {
-    const scene::Box world = panel.world();
+    const geometry::Box world = panel.world();
     Line whole{{world.low.x(), level(line, world.low.x())}};
     for (const Vec2& each : line)
         if (each.x() > world.low.x() && each.x() < world.high.x()) whole.push_back(each);

@@ -13,7 +13,7 @@ bool same(const Line& a, const Line& b) { return a == b; }
 
 /// Where a line of water stands above the ground.
 void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) {
-    const scene::Box world = canvas.panel.world();
+    const geometry::Box world = canvas.panel.world();
     for (const Line& ground : ground_between(scene, world.low.x(), world.high.x())) {
         std::vector<double> xs;
         for (const Vec2& each : ground) xs.push_back(each.x());

@@ -12,8 +12,8 @@
 namespace breach {
 namespace {
 
+using geometry::Polygon;
 using nlohmann::json;
-using scene::Polygon;
 
 double thickness(const Polygon& polygon) { return scene::thickness_of(polygon); }
 

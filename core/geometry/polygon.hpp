@@ -7,7 +7,7 @@
 
 #include "core/mechanics/tensor.hpp"
 
-namespace breach::scene {
+namespace breach::geometry {
 
 using mechanics::Vec2;
 using Polygon = std::vector<Vec2>;
@@ -34,4 +34,4 @@ struct Box {
 };
 Box bounding_box(const Polygon& polygon);
 
-}  // namespace breach::scene
+}  // namespace breach::geometry

@@ -1,4 +1,4 @@
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,7 @@
 
 #include "core/geometry/polyline.hpp"
 
-namespace breach::scene {
-
-using geometry::cross;
+namespace breach::geometry {
 
 namespace {
 
@@ -167,4 +165,4 @@ Box bounding_box(const Polygon& polygon) {
     return box;
 }
 
-}  // namespace breach::scene
+}  // namespace breach::geometry
