@@ -81,11 +81,15 @@ double signed_area(const Polygon& polygon) {
 
 double area(const Polygon& polygon) { return std::abs(signed_area(polygon)); }
 
-double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to) {
+double squared_distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to) {
     const Vec2 along = to - from;
     const double length2 = along.squaredNorm();
     const double s = length2 > 0 ? std::clamp((point - from).dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (point - from - s * along).norm();
+    return (point - from - s * along).squaredNorm();
+}
+
+double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to) {
+    return std::sqrt(squared_distance_to_segment(point, from, to));
 }
 
 bool contains(const Polygon& polygon, const Vec2& point, double tolerance) {

@@ -17,6 +17,7 @@ double signed_area(const Polygon& polygon);
 double area(const Polygon& polygon);
 /// True inside or on the border (within `tolerance` [m]).
 bool contains(const Polygon& polygon, const Vec2& point, double tolerance = 0.0);
+double squared_distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 
 /// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it

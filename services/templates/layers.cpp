@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/geometry/polyline.hpp"
-#include "core/scene/resolution.hpp"
+#include "core/geometry/thickness.hpp"
 
 namespace breach::templates {
 
@@ -189,7 +189,7 @@ Layer joined(const Layer& one, const Layer& other, const Seam& seam) {
 /// goes to wet soil and dry to dry where it can: a layer that became dry would keep its strength.
 bool absorb_one(std::vector<Layer>& all, double thinnest) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (scene::thickness_of(all[i].polygon) >= thinnest) continue;
+        if (!geometry::thickness_below(thinnest, all[i].polygon)) continue;
         std::optional<Seam> best;
         std::size_t neighbour = i;
         bool best_is_alike = false;
