@@ -20,7 +20,7 @@ struct GapRange {
 };
 
 GapRange gap_range(const scene::Scene& scene, const scene::Region& a, const scene::Region& b) {
-    const geometry::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double height = box.high.y() - box.low.y();
     GapRange range{1e-3 * height, 0.02 * height};
     if (scene.mpm) {
@@ -64,7 +64,7 @@ std::optional<Gap> gap_between(const scene::Scene& scene, const Side& one, const
     for (const double share : {0.25, 0.5, 0.75}) {
         const double s = begin + share * (end - begin);
         const Vec2 middle = 0.5 * (one.a + s * along + across(s));
-        if (in_soil(scene, middle, 0.0)) continue;
+        if (in_soil(scene.section, middle)) continue;
         const double at = w_begin > w_end ? begin : end;
         return Gap{widest, one.a + at * along, across(at)};
     }

@@ -71,7 +71,7 @@ std::string how_it_misses(const scene::Scene& scene, const Side& segment) {
     double least = std::numeric_limits<double>::infinity();
     for (const scene::Region& region : scene.section.regions)
         if (!region.polygon.empty()) least = std::min(least, distance_to_border(region, segment));
-    if (in_soil(scene, segment.a, 0.0) || least == 0.0)
+    if (in_soil(scene.section, segment.a) || least == 0.0)
         return "crosses the soil, where no node can be told to lie on it";
     return "touches no node: it runs " + metres(least) + " away from the section";
 }

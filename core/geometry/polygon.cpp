@@ -71,6 +71,13 @@ std::vector<Triangle> triangles(Polygon polygon) {
 
 }  // namespace
 
+std::vector<Side> sides_of(const Polygon& polygon) {
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        sides.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+    return sides;
+}
+
 double signed_area(const Polygon& polygon) {
     double twice = 0.0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {

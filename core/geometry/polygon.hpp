@@ -12,6 +12,12 @@ namespace breach::geometry {
 using mechanics::Vec2;
 using Polygon = std::vector<Vec2>;
 
+/// Two points of a ring that follow each other.
+struct Side {
+    Vec2 a, b;
+};
+std::vector<Side> sides_of(const Polygon& polygon);
+
 /// Signed area [m2], positive when counter-clockwise.
 double signed_area(const Polygon& polygon);
 double area(const Polygon& polygon);

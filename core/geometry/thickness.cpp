@@ -11,11 +11,6 @@ namespace breach::geometry {
 
 namespace {
 
-struct Segment {
-    Vec2 from;
-    Vec2 to;
-};
-
 struct Disc {
     Vec2 center;
     double radius;
@@ -24,28 +19,26 @@ struct Disc {
 /// Polygons that touch, as one shape: what two of them share is inside.
 struct Shape {
     std::vector<Polygon> parts;
-    std::vector<Segment> border;
+    std::vector<Side> border;
 };
 
 bool lies_on(const Vec2& point, const Polygon& polygon, double tolerance) {
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        if (distance_to_segment(point, polygon[i], polygon[(i + 1) % polygon.size()]) < tolerance)
-            return true;
-    }
-    return false;
+    return std::ranges::any_of(sides_of(polygon), [&](const Side& side) {
+        return distance_to_segment(point, side.a, side.b) < tolerance;
+    });
 }
 
 /// An edge cut where a vertex of another polygon lies on it.
-std::vector<Segment> pieces_of(const Segment& edge, const std::vector<Polygon>& others,
-                               double tolerance) {
-    std::vector<Vec2> cuts{edge.from, edge.to};
+std::vector<Side> pieces_of(const Side& edge, const std::vector<Polygon>& others,
+                            double tolerance) {
+    std::vector<Vec2> cuts{edge.a, edge.b};
     for (const Polygon& other : others) {
         for (const Vec2& vertex : other) {
-            if (distance_to_segment(vertex, edge.from, edge.to) < tolerance) cuts.push_back(vertex);
+            if (distance_to_segment(vertex, edge.a, edge.b) < tolerance) cuts.push_back(vertex);
         }
     }
-    std::ranges::sort(cuts, {}, [&](const Vec2& cut) { return (cut - edge.from).norm(); });
-    std::vector<Segment> pieces;
+    std::ranges::sort(cuts, {}, [&](const Vec2& cut) { return (cut - edge.a).norm(); });
+    std::vector<Side> pieces;
     for (std::size_t i = 1; i < cuts.size(); ++i) {
         if ((cuts[i] - cuts[i - 1]).norm() > tolerance) pieces.push_back({cuts[i - 1], cuts[i]});
     }
@@ -53,19 +46,18 @@ std::vector<Segment> pieces_of(const Segment& edge, const std::vector<Polygon>& 
 }
 
 /// The pieces of a polygon's edges that lie on another's border, or those that do not.
-enum class Sides { shared, own };
-std::vector<Segment> sides_of(const Polygon& polygon, const std::vector<Polygon>& others,
-                              Sides wanted) {
+enum class Border { shared, own };
+std::vector<Side> pieces_of(const Polygon& polygon, const std::vector<Polygon>& others,
+                            Border wanted) {
     const Box box = bounding_box(polygon);
     const double tolerance = 1e-6 * (box.high - box.low).norm();
-    std::vector<Segment> found;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Segment edge{polygon[i], polygon[(i + 1) % polygon.size()]};
-        for (const Segment& piece : pieces_of(edge, others, tolerance)) {
-            const Vec2 middle = 0.5 * (piece.from + piece.to);
+    std::vector<Side> found;
+    for (const Side& edge : sides_of(polygon)) {
+        for (const Side& piece : pieces_of(edge, others, tolerance)) {
+            const Vec2 middle = 0.5 * (piece.a + piece.b);
             const bool shared = std::ranges::any_of(
                 others, [&](const Polygon& other) { return lies_on(middle, other, tolerance); });
-            if (shared == (wanted == Sides::shared)) found.push_back(piece);
+            if (shared == (wanted == Border::shared)) found.push_back(piece);
         }
     }
     return found;
@@ -76,22 +68,22 @@ Shape shape_of(const std::vector<Polygon>& parts) {
     for (std::size_t i = 0; i < parts.size(); ++i) {
         std::vector<Polygon> others = parts;
         others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-        std::ranges::move(sides_of(parts[i], others, Sides::own), std::back_inserter(shape.border));
+        std::ranges::move(pieces_of(parts[i], others, Border::own),
+                          std::back_inserter(shape.border));
     }
     return shape;
 }
 
 double distance_to_border(const Shape& shape, const Vec2& point) {
     double least = std::numeric_limits<double>::max();
-    for (const Segment& side : shape.border)
-        least = std::min(least, squared_distance_to_segment(point, side.from, side.to));
+    for (const Side& side : shape.border)
+        least = std::min(least, squared_distance_to_segment(point, side.a, side.b));
     return std::sqrt(least);
 }
 
 double perimeter(const Polygon& polygon) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-        sum += (polygon[(i + 1) % polygon.size()] - polygon[i]).norm();
+    for (const Side& side : sides_of(polygon)) sum += (side.b - side.a).norm();
     return sum;
 }
 
@@ -145,9 +137,9 @@ Vec2 middle_of_shortest_chord(const Shape& shape, const Vec2& place) {
         const Vec2 normal{-along.y(), along.x()};
         double ahead = std::numeric_limits<double>::max();
         double behind = ahead;
-        for (const Segment& side : shape.border) {
-            const Vec2 a = side.from - place;
-            const Vec2 b = side.to - place;
+        for (const Side& side : shape.border) {
+            const Vec2 a = side.a - place;
+            const Vec2 b = side.b - place;
             const double from = normal.dot(a);
             const double to = normal.dot(b);
             if ((from > 0.0) == (to > 0.0)) continue;
@@ -214,6 +206,8 @@ double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached
     return *thickness_below(std::numeric_limits<double>::infinity(), polygon, attached);
 }
 
-bool touch(const Polygon& a, const Polygon& b) { return !sides_of(a, {b}, Sides::shared).empty(); }
+bool touch(const Polygon& a, const Polygon& b) {
+    return !pieces_of(a, {b}, Border::shared).empty();
+}
 
 }  // namespace breach::geometry

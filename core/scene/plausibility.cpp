@@ -36,17 +36,6 @@ struct Doubter {
     }
 };
 
-Box extent_of(const std::vector<Region>& regions) {
-    Box all{{infinity, infinity}, {-infinity, -infinity}};
-    for (const Region& region : regions) {
-        if (region.polygon.empty()) continue;
-        const Box box = geometry::bounding_box(region.polygon);
-        all.low = all.low.cwiseMin(box.low);
-        all.high = all.high.cwiseMax(box.high);
-    }
-    return all;
-}
-
 /// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long.
 void doubt_section(Doubter& d) {
     constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
@@ -62,22 +51,6 @@ void doubt_section(Doubter& d) {
     } else if (d.height() < least) {
         d.doubt(pointer, "the section is " + size + ": vertices are in m, these look like km");
     }
-}
-
-/// Highest soil at x; -infinity: there is none [m].
-double ground_level(const Scene& scene, double x) {
-    double level = -infinity;
-    for (const Region& region : scene.section.regions) {
-        const Polygon& ring = region.polygon;
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-            if (x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
-            const double width = b.x() - a.x();
-            level = std::max(level, width == 0.0 ? std::max(a.y(), b.y())
-                                                 : a.y() + (x - a.x()) / width * (b.y() - a.y()));
-        }
-    }
-    return level;
 }
 
 /// Free water lies level: a line that slopes above the ground loads the face with water that is not
@@ -96,7 +69,7 @@ void doubt_slope_of_free_water(Doubter& d, const std::vector<Vec2>& line,
         const double right = geometry::level_at(line, places[i + 1]);
         if (std::abs(right - left) <= 0.01 * (places[i + 1] - places[i])) continue;
         const double x = 0.5 * (places[i] + places[i + 1]);
-        const double above = 0.5 * (left + right) - ground_level(d.scene, x);
+        const double above = 0.5 * (left + right) - geometry::ground_at(d.scene.section, x);
         if (above > most && std::isfinite(above)) most = above, where = x;
     }
     if (where == -infinity) return;
@@ -285,9 +258,7 @@ double area_beyond(const Polygon& polygon, double x) {
 double foot_above(const Scene& scene, double level) {
     double foot = -infinity;
     for (const Region& region : scene.section.regions) {
-        const Polygon& ring = region.polygon;
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        for (const auto& [a, b] : geometry::sides_of(region.polygon)) {
             if (a.y() > level) foot = std::max(foot, a.x());
             if ((a.y() > level) == (b.y() > level)) continue;
             const double share = (level - a.y()) / (b.y() - a.y());
@@ -358,7 +329,7 @@ void doubt_floor(Doubter& d) {
 }  // namespace
 
 void doubt_together(Reader& reader, Scene& scene) {
-    Doubter d{reader, scene, extent_of(scene.section.regions)};
+    Doubter d{reader, scene, geometry::extent(scene.section)};
     if (reader.sound("/gravity") && reader.document().at("gravity") == 0.0) {
         d.doubt("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
     }

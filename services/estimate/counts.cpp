@@ -174,9 +174,7 @@ double strength_of(const scene::Scene& scene, const scene::Region& region) {
 
 /// Layers thinner than a tenth of their depth and weaker than all thicker soil: each is searched along.
 double thin_weak_layers(const scene::Scene& scene) {
-    double top = -std::numeric_limits<double>::infinity();
-    for (const scene::Region& each : scene.section.regions)
-        top = std::max(top, geometry::bounding_box(each.polygon).high.y());
+    const double top = geometry::extent(scene.section).high.y();
     const auto is_thin = [&](const scene::Region& region) {
         const geometry::Box box = geometry::bounding_box(region.polygon);
         const double thickness = geometry::area(region.polygon) / (box.high.x() - box.low.x());

@@ -11,8 +11,6 @@
 
 namespace breach::importing {
 
-using geometry::cross;
-
 namespace {
 
 constexpr int most_passes = 20;
@@ -183,22 +181,11 @@ class Snapping {
         return changed;
     }
 
-    struct Crossing {
-        Vec2 at;
-        double on_first, on_second;
-    };
-
-    std::optional<Crossing> crossing(const Segment& s, const Segment& t) const {
+    std::optional<geometry::Crossing> crossing(const Segment& s, const Segment& t) const {
         if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return std::nullopt;
-        const Vec2 A = result_.nodes[s.a], C = result_.nodes[t.a];
-        const Vec2 along = result_.nodes[s.b] - A, other = result_.nodes[t.b] - C;
-        const double turn = cross(along, other);
-        if (turn == 0.0) return std::nullopt;
-        const double on_first = cross(C - A, other) / turn;
-        const double on_second = cross(C - A, along) / turn;
-        if (!(on_first > 0.0 && on_first < 1.0 && on_second > 0.0 && on_second < 1.0))
-            return std::nullopt;
-        return Crossing{A + on_first * along, on_first, on_second};
+        const std::vector<Vec2>& nodes = result_.nodes;
+        const auto place = geometry::crossing(nodes[s.a], nodes[s.b], nodes[t.a], nodes[t.b]);
+        return place && place->is_within() ? place : std::nullopt;
     }
 
     const std::vector<Chain>& chains_;

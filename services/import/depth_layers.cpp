@@ -55,12 +55,9 @@ std::vector<Chain> inside_of(const Polygon& ring, const std::vector<Vec2>& line)
         std::vector<double> shares{0.0, 1.0};
         const Vec2 along = b - a;
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Vec2 &c = ring[k], side = ring[(k + 1) % ring.size()] - c;
-            const double turn = along.x() * side.y() - along.y() * side.x();
-            if (turn == 0.0) continue;
-            const Vec2 off = c - a;
-            const double s = (off.x() * side.y() - off.y() * side.x()) / turn;
-            const double t = (off.x() * along.y() - off.y() * along.x()) / turn;
+            const auto cross = geometry::crossing(a, b, ring[k], ring[(k + 1) % ring.size()]);
+            if (!cross) continue;
+            const double s = cross->on_first, t = cross->on_second;
             if (s > 0.0 && s < 1.0 && t >= 0.0 && t <= 1.0) shares.push_back(s);
         }
         std::ranges::sort(shares);

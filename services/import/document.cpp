@@ -44,15 +44,9 @@ json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell
 
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
-    geometry::Box box{terrain.front(), terrain.front()};
-    const auto extend = [&](const std::vector<Vec2>& line) {
-        for (const Vec2& each : line) {
-            box.low = box.low.cwiseMin(each);
-            box.high = box.high.cwiseMax(each);
-        }
-    };
-    extend(terrain);
-    for (const Soil& each : soils) extend(each.ring);
+    geometry::Outlines all = outlines_of(soils);
+    all.push_back(&terrain);
+    const geometry::Box box = geometry::extent(all);
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
     const double floor = down(box.low.y() - 2.0 * cell);

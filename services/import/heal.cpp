@@ -12,8 +12,6 @@
 
 namespace breach::importing {
 
-using geometry::cross;
-
 namespace {
 
 // ---------------------------------------------------------------- one outline
@@ -73,11 +71,8 @@ void clean(Soil& soil, double tolerance, std::vector<Change>& changes) {
 }
 
 std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const double turn = cross(b - a, d - c);
-    if (turn == 0.0) return std::nullopt;
-    const double s = cross(c - a, d - c) / turn, t = cross(c - a, b - a) / turn;
-    if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return std::nullopt;
-    return Vec2(a + s * (b - a));
+    const auto cross = geometry::crossing(a, b, c, d);
+    return cross && cross->is_within() ? std::optional(cross->at) : std::nullopt;
 }
 
 /// Mean width of a slender ring [m].

@@ -10,19 +10,16 @@
 
 namespace breach::templates {
 
-using geometry::cross;
-
 namespace {
 
 /// Where two segments meet; their ends count. Parallel ones meet nowhere.
 std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const Vec2 u = b - a, v = d - c;
-    const double det = cross(u, v);
-    if (std::abs(det) < 1e-12 * u.norm() * v.norm()) return std::nullopt;
-    const double s = cross(c - a, v) / det, t = cross(c - a, u) / det;
     const double little = 1e-12;
+    const Vec2 u = b - a, v = d - c;
+    if (std::abs(geometry::cross(u, v)) <= little * u.norm() * v.norm()) return std::nullopt;
+    const auto [at, s, t] = *geometry::crossing(a, b, c, d);
     if (s < -little || s > 1 + little || t < -little || t > 1 + little) return std::nullopt;
-    return Vec2(a + s * u);
+    return at;
 }
 
 /// The line over all of the polygon and beyond.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check/section.hpp"
 #include "core/scene/schema.hpp"
 #include "services/report/chart/frame.hpp"
 #include "services/report/section/fault_places.hpp"
@@ -154,7 +153,7 @@ bool holds(const geometry::Polygon& polygon, const Panel& panel, const Room& roo
 
 double depth_inside(const geometry::Polygon& polygon, const Vec2& place) {
     double least = INFINITY;
-    for (const check::Side& side : check::sides_of(polygon))
+    for (const geometry::Side& side : geometry::sides_of(polygon))
         least = std::min(least, geometry::distance_to_segment(place, side.a, side.b));
     return geometry::contains(polygon, place) ? least : -least;
 }
@@ -187,7 +186,7 @@ void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& 
     const auto in_soil = [&](const Room& room) {
         for (const double x : {room.left, 0.5 * (room.left + room.right), room.right})
             for (const double y : {room.top, room.bottom})
-                if (check::in_soil(scene, canvas.panel.back({x, y}), 0.0)) return true;
+                if (geometry::in_soil(scene.section, canvas.panel.back({x, y}))) return true;
         return false;
     };
     for (const double away : {26.0, 42.0, 60.0, 80.0, 110.0, 150.0})

@@ -3,7 +3,6 @@
 
 #include "services/report/chart/axis.hpp"
 #include "services/report/section/features.hpp"
-#include "services/report/section/ground_line.hpp"
 #include "services/report/section/strokes.hpp"
 
 namespace breach::report {
@@ -13,7 +12,7 @@ namespace {
 void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<double, 2>& range,
                 const std::string& name, const std::string& colour) {
     const double lift = 5.0 / canvas.panel.scale();
-    for (Line ground : ground_between(scene, range[0], range[1])) {
+    for (Line ground : geometry::ground_between(scene.section, range[0], range[1])) {
         for (Vec2& each : ground) each.y() += lift;
         canvas.svg << shape(path_of(canvas.panel, ground),
                             stroke(colour, 5, "class=\"search\" stroke-opacity=\"0.85\""));
@@ -58,7 +57,7 @@ void draw_crack(Canvas& canvas, const scene::Scene& scene) {
     const auto [from, to] =
         lem.search ? lem.search->entry : std::array<double, 2>{world.low.x(), world.high.x()};
     const std::string dash = " stroke-dasharray=\"1 3\"";
-    for (Line foot : ground_between(scene, from, to)) {
+    for (Line foot : geometry::ground_between(scene.section, from, to)) {
         for (Vec2& each : foot)
             each.y() = crack.depth ? each.y() - *crack.depth : std::min(each.y(), *crack.level);
         draw_line(canvas, "crack", foot, dark_red, dash);
@@ -103,14 +102,14 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
         canvas.keys.push_back(line_key(violet, "LEM: given surface"));
     }
     if (!lem.floor.empty()) {
-        draw_line(canvas, "floor", across(canvas.panel, lem.floor, check::level_at), brown,
+        draw_line(canvas, "floor", across(canvas.panel, lem.floor, geometry::level_at), brown,
                   " stroke-dasharray=\"8 3 2 3\"");
         canvas.keys.push_back(
             line_key(brown, "LEM: floor of all surfaces", " stroke-dasharray=\"8 3 2 3\""));
     }
     draw_loads(canvas, scene, lem.surcharge, "LEM");
     for (const scene::LineLoad& each : lem.line_loads) {
-        const auto ground = ground_between(scene, each.x - 0.01, each.x + 0.01);
+        const auto ground = geometry::ground_between(scene.section, each.x - 0.01, each.x + 0.01);
         if (ground.empty()) continue;
         const Vec2 at = canvas.panel.at(ground.front().front());
         canvas.svg << shape("M" + px(at.x()) + " " + px(at.y() - 26) + "v24m-4 -6l4 6l4 -6",
