@@ -191,10 +191,11 @@ bool fits(const Beginning& beginning, const Model& model) {
 /// Everything but whose it is and where. Throws std::out_of_range when a number is missing or one is left over.
 Checkpoint read(const exchange::Archive& archive, const Model& model) {
     Checkpoint c;
-    c.motion = motion_from(archive, model);
-    c.beginning = beginning_from(archive);
-    c.excess_pressure_max = archive.reals.at("excess_pressure_max");
-    c.stage_force = vector_from(archive.reals.at("stage_force"));
+    Kept& kept = c.kept;
+    kept.motion = motion_from(archive, model);
+    kept.beginning = beginning_from(archive);
+    kept.excess_pressure_max = archive.reals.at("excess_pressure_max");
+    kept.stage_force = vector_from(archive.reals.at("stage_force"));
     c.newton.values = archive.reals.at("newton.values");
     const Reals& rule = archive.reals.at("newton.rule");
     c.newton.rule = {rule.at(0), rule.at(1)};
@@ -202,14 +203,14 @@ Checkpoint read(const exchange::Archive& archive, const Model& model) {
     c.newton.has_matrix = state.at(0) != 0;
     c.newton.last_iterations = static_cast<int>(state.at(1));
     const auto& counts = archive.integers.at("newton.counts");
-    c.counts = {counts.at(0), counts.at(1), counts.at(2), counts.at(3)};
+    kept.counts = {counts.at(0), counts.at(1), counts.at(2), counts.at(3)};
     exchange::Archive history;
     for (const auto& [name, values] : archive.reals) {
         if (name.starts_with(history_prefix)) {
             history.reals[name.substr(std::string(history_prefix).size())] = values;
         }
     }
-    c.history = history_from(history);
+    kept.history = history_from(history);
     return c;
 }
 
@@ -224,24 +225,24 @@ Checkpoint read(const exchange::Archive& archive, const Model& model) {
 
 }  // namespace
 
-exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene) {
+exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newton,
+                                     const scene::Scene& scene) {
     exchange::Archive archive;
     archive.kind = checkpoint_kind;
     archive.version = checkpoint_version;
     archive.texts["scene"] = exchange::sha256_of_text(scene.completed);
-    put(archive, checkpoint.position);
-    put(archive, checkpoint.motion);
-    put(archive, checkpoint.beginning);
-    archive.reals["excess_pressure_max"] = checkpoint.excess_pressure_max;
-    archive.reals["stage_force"] = flat(checkpoint.stage_force);
-    const NewtonMemory& newton = checkpoint.newton;
+    put(archive, kept.position);
+    put(archive, kept.motion);
+    put(archive, kept.beginning);
+    archive.reals["excess_pressure_max"] = kept.excess_pressure_max;
+    archive.reals["stage_force"] = flat(kept.stage_force);
     archive.reals["newton.values"] = newton.values;
     archive.reals["newton.rule"] = {newton.rule.c_a, newton.rule.c_v};
     archive.integers["newton.state"] = {newton.has_matrix, newton.last_iterations};
-    const NewtonCounts& counts = checkpoint.counts;
+    const NewtonCounts& counts = kept.counts;
     archive.integers["newton.counts"] = {counts.iterations, counts.factorisations,
                                          counts.elastic_fallbacks, counts.stalled};
-    for (auto& [name, values] : history_archive(checkpoint.history, columns()).reals) {
+    for (auto& [name, values] : history_archive(kept.history, columns()).reals) {
         archive.reals[history_prefix + name] = values;
     }
     return archive;
@@ -282,10 +283,11 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
     const Position position = position_in(archive, scene, file);
     try {
         Checkpoint checkpoint = read(archive, model);
-        checkpoint.position = position;
-        const bool whole = fits(checkpoint.motion, model) && fits(checkpoint.beginning, model) &&
-                           empty_or(checkpoint.excess_pressure_max, model.body.nodes) &&
-                           empty_or(checkpoint.stage_force, model.mesh.nodes.size() * 2);
+        checkpoint.kept.position = position;
+        const Kept& kept = checkpoint.kept;
+        const bool whole = fits(kept.motion, model) && fits(kept.beginning, model) &&
+                           empty_or(kept.excess_pressure_max, model.body.nodes) &&
+                           empty_or(kept.stage_force, model.mesh.nodes.size() * 2);
         if (whole) return checkpoint;
     } catch (const std::out_of_range&) {
         // An array is missing or too short: said below.

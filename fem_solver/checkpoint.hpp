@@ -32,18 +32,26 @@ struct Position {
     bool at_limit = false;     ///< static stage: what an edge pushes has reached its limit state
 };
 
-struct Checkpoint {
+/// What an analysis needs to go on, beside the matrix.
+struct Kept {
     Position position;
     Motion motion;
     Beginning beginning;
-    std::vector<double> excess_pressure_max;  ///< per node of the body; empty when dry [Pa]
-    Eigen::VectorXd stage_force;              ///< internal force when the static stage began [N]
-    NewtonMemory newton;
-    NewtonCounts counts;
+    std::vector<double> excess_pressure_max;  ///< since the first dynamic stage began, per node of
+                                              ///< the body; empty when dry [Pa]
+    Eigen::VectorXd stage_force;  ///< internal force when the static stage began; of a dynamic one
+                                  ///< with a ramp what it withholds [N]
+    NewtonCounts counts;          ///< until the matrix was last asked for them
     std::vector<Reading> history;
 };
 
-exchange::Archive checkpoint_archive(const Checkpoint& checkpoint, const scene::Scene& scene);
+struct Checkpoint {
+    Kept kept;
+    NewtonMemory newton;
+};
+
+exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newton,
+                                     const scene::Scene& scene);
 /// Where the archive's analysis was. Throws BadInput when it belongs to another scene.
 Position position_in(const exchange::Archive& archive, const scene::Scene& scene,
                      const std::string& file);

@@ -56,8 +56,8 @@ process::Outcome run(process::Session& session) {
         quality.least_jacobian);
     const ModelDecisions decided = decide_model(scene);
     if (const auto& motion = decided.motion.value) keep_motion(session, *motion);
-    Analysis analysis(session, build_model(scene, decided, std::move(mesh)));
-    return analysis.run();
+    Course course(session, build_model(scene, decided, std::move(mesh)));
+    return analyse(course);
 }
 
 process::Plan plan(const scene::Scene& scene) { return plan_of(decide(scene), scene); }

@@ -35,7 +35,8 @@ nlohmann::json facts_of(const process::Session& asked, double steps) {
     std::filesystem::create_directories(settings.output);
     process::Session session(settings, shortened(asked.scene(), steps));
     const scene::Scene& scene = session.scene();
-    Analysis(session, build_model(scene, build_mesh(scene, settings.output))).run();
+    Course course(session, build_model(scene, build_mesh(scene, settings.output)));
+    analyse(course);
     return session.result();
 }
 

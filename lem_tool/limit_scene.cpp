@@ -25,7 +25,7 @@ void use_limit_strength(scene::Material& material) {
 
 /// Levels at which the layers cut a region, from the top down, without its own top and bottom.
 std::vector<double> cuts_of(const scene::Scene& scene, std::size_t region) {
-    const scene::Box box = scene::bounding_box(scene.section.regions[region].polygon);
+    const geometry::Box box = geometry::bounding_box(scene.section.regions[region].polygon);
     const double near = 1e-9 * (box.high.y() - box.low.y());
     std::vector<double> cuts;
     for (const scene::UndrainedRegion& layer : scene.lem->liquefaction) {
@@ -40,8 +40,8 @@ std::vector<double> cuts_of(const scene::Scene& scene, std::size_t region) {
     return cuts;
 }
 
-std::string part_name(const std::string& region, const scene::Polygon& part) {
-    const scene::Box box = scene::bounding_box(part);
+std::string part_name(const std::string& region, const geometry::Polygon& part) {
+    const geometry::Box box = geometry::bounding_box(part);
     std::ostringstream name;
     name << region << " (" << box.low.y() << " to " << box.high.y() << " m)";
     return name.str();
@@ -50,11 +50,11 @@ std::string part_name(const std::string& region, const scene::Polygon& part) {
 /// The region's parts between the cuts, from the top down.
 std::vector<scene::Region> parts_of(const scene::Region& region, const std::vector<double>& cuts) {
     std::vector<scene::Region> parts;
-    scene::Polygon rest = region.polygon;
+    geometry::Polygon rest = region.polygon;
     for (const double level : cuts) {
         parts.push_back(region);
-        parts.back().polygon = scene::clipped_left(rest, {0.0, level}, {1.0, level});
-        rest = scene::clipped_left(rest, {1.0, level}, {0.0, level});
+        parts.back().polygon = geometry::clipped_left(rest, {0.0, level}, {1.0, level});
+        rest = geometry::clipped_left(rest, {1.0, level}, {0.0, level});
     }
     parts.push_back(region);
     parts.back().polygon = rest;
@@ -73,7 +73,7 @@ std::vector<scene::UndrainedRegion> entries_for(const std::vector<scene::Undrain
     std::vector<scene::UndrainedRegion> result;
     for (const scene::UndrainedRegion& entry : entries) {
         for (const std::size_t place : places[entry.region]) {
-            const scene::Box box = scene::bounding_box(parts[place].polygon);
+            const geometry::Box box = geometry::bounding_box(parts[place].polygon);
             const double middle = 0.5 * (box.low.y() + box.high.y());
             if (entry.levels && (middle < (*entry.levels)[0] || middle > (*entry.levels)[1])) {
                 continue;

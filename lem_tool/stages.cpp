@@ -12,9 +12,11 @@ using nlohmann::json;
 
 namespace {
 
-double top_of(const scene::Region& region) { return scene::bounding_box(region.polygon).high.y(); }
+double top_of(const scene::Region& region) {
+    return geometry::bounding_box(region.polygon).high.y();
+}
 double bottom_of(const scene::Region& region) {
-    return scene::bounding_box(region.polygon).low.y();
+    return geometry::bounding_box(region.polygon).low.y();
 }
 
 /// Depth at which F falls through 1, linear between the stages around it; 0 when it begins below.

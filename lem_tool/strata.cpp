@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::lem {
 
 namespace {
@@ -23,15 +25,11 @@ using Path = std::vector<scene::Vec2>;
 
 void add_crossings(const Path& one, const Path& other, std::vector<double>& xs) {
     for (std::size_t i = 0; i + 1 < one.size(); ++i) {
-        const scene::Vec2 ab = one[i + 1] - one[i];
         for (std::size_t j = 0; j + 1 < other.size(); ++j) {
-            const scene::Vec2 cd = other[j + 1] - other[j];
-            const scene::Vec2 ac = other[j] - one[i];
-            const double cross = ab.x() * cd.y() - ab.y() * cd.x();
-            if (cross == 0.0) continue;
-            const double s = (ac.x() * cd.y() - ac.y() * cd.x()) / cross;
-            const double t = (ac.x() * ab.y() - ac.y() * ab.x()) / cross;
-            if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) xs.push_back(one[i].x() + s * ab.x());
+            const auto cross = geometry::crossing(one[i], one[i + 1], other[j], other[j + 1]);
+            if (!cross) continue;
+            const double s = cross->on_first, t = cross->on_second;
+            if (s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0) xs.push_back(cross->at.x());
         }
     }
 }
@@ -70,22 +68,14 @@ std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
     const scene::Section& section = scene.section;
     const scene::Lem& lem = scene::lem_of(scene);
     std::vector<double> xs;
-    double low = section.regions.front().polygon.front().y();
-    double high = low;
-    for (const scene::Region& region : section.regions) {
-        for (const scene::Vec2& vertex : region.polygon) {
-            xs.push_back(vertex.x());
-            low = std::min(low, vertex.y());
-            high = std::max(high, vertex.y());
-        }
-    }
-    const auto [left, right] = std::minmax_element(xs.begin(), xs.end());
-    const double from = *left;
-    const double to = *right;
+    for (const scene::Region& region : section.regions)
+        for (const scene::Vec2& vertex : region.polygon) xs.push_back(vertex.x());
+    const geometry::Box box = geometry::extent(section);
+    const double from = box.low.x(), to = box.high.x();
     const auto add = [&](double x) {
         if (x > from && x < to) xs.push_back(x);
     };
-    extent = {to - from, high - low};
+    extent = {to - from, box.high.y() - box.low.y()};
     const std::vector<Path> waters = water_paths(lem, from, to);
     for (const Path& water : waters) {
         for (const double x : breaks_of(water, section)) add(x);
@@ -128,7 +118,7 @@ Line line_through(const scene::Vec2& a, const scene::Vec2& b) {
     return {a.y() - slope * a.x(), slope};
 }
 
-void add_pieces(const scene::Polygon& polygon, std::size_t region, double from, double to,
+void add_pieces(const geometry::Polygon& polygon, std::size_t region, double from, double to,
                 double tolerance, std::vector<Piece>& pieces) {
     const double middle = 0.5 * (from + to);
     std::vector<Line> lines;

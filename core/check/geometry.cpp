@@ -20,7 +20,7 @@ struct GapRange {
 };
 
 GapRange gap_range(const scene::Scene& scene, const scene::Region& a, const scene::Region& b) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double height = box.high.y() - box.low.y();
     GapRange range{1e-3 * height, 0.02 * height};
     if (scene.mpm) {
@@ -64,7 +64,7 @@ std::optional<Gap> gap_between(const scene::Scene& scene, const Side& one, const
     for (const double share : {0.25, 0.5, 0.75}) {
         const double s = begin + share * (end - begin);
         const Vec2 middle = 0.5 * (one.a + s * along + across(s));
-        if (in_soil(scene, middle, 0.0)) continue;
+        if (in_soil(scene.section, middle)) continue;
         const double at = w_begin > w_end ? begin : end;
         return Gap{widest, one.a + at * along, across(at)};
     }
@@ -75,7 +75,8 @@ void check_pair(const scene::Scene& scene, std::size_t i, std::size_t j, Finding
     const scene::Region& a = scene.section.regions[i];
     const scene::Region& b = scene.section.regions[j];
     const GapRange range = gap_range(scene, a, b);
-    const scene::Box A = scene::bounding_box(a.polygon), B = scene::bounding_box(b.polygon);
+    const geometry::Box A = geometry::bounding_box(a.polygon),
+                        B = geometry::bounding_box(b.polygon);
     if (((A.low - B.high).array() > range.largest).any() ||
         ((B.low - A.high).array() > range.largest).any())
         return;

@@ -39,13 +39,13 @@ struct Clearance {
 
 Clearance clearance_below_section(const scene::Scene& scene, double told) {
     const scene::Mpm& mpm = *scene.mpm;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double near = 1e-6 * (box.high.x() - box.low.x());
-    std::vector<double> places = abscissae(scene);
+    std::vector<double> places = abscissae(scene.section);
     for (const Vec2& kink : mpm.terrain) places.push_back(kink.x());
     Clearance gap;
     const auto lowest = [&](double x) {
-        const std::vector<Stratum> strata = strata_at(scene, x);
+        const std::vector<Stratum> strata = strata_at(scene.section, x);
         return strata.empty() ? std::numeric_limits<double>::quiet_NaN()
                               : std::ranges::min(strata, {}, &Stratum::bottom).bottom;
     };
@@ -118,7 +118,7 @@ void check_toe(const scene::Scene& scene, Findings& findings) {
 void check_upstream_end(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem) return;
     const scene::Mpm& mpm = *scene.mpm;
-    const double end = extent(scene).low.x();
+    const double end = extent(scene.section).low.x();
     const double gap = end - mpm.domain_x[0];
     if (!(gap > mpm.cell_size)) return;
     const double held = mpm.terrain.empty() ? -std::numeric_limits<double>::infinity()

@@ -21,9 +21,9 @@ double distance_to_border(const scene::Region& region, const Side& segment) {
     double least = std::numeric_limits<double>::infinity();
     for (const Side& side : sides_of(region.polygon)) {
         if (crosses(side, segment)) return 0.0;
-        least = std::min({least, scene::distance_to_segment(side.a, segment.a, segment.b),
-                          scene::distance_to_segment(segment.a, side.a, side.b),
-                          scene::distance_to_segment(segment.b, side.a, side.b)});
+        least = std::min({least, geometry::distance_to_segment(side.a, segment.a, segment.b),
+                          geometry::distance_to_segment(segment.a, side.a, side.b),
+                          geometry::distance_to_segment(segment.b, side.a, side.b)});
     }
     return least;
 }
@@ -45,12 +45,12 @@ double shared_length(const Side& side, const Side& segment, double tolerance) {
 
 bool touches(const scene::Region& region, const Side& segment, double tolerance) {
     for (const Side& side : sides_of(region.polygon)) {
-        if (scene::distance_to_segment(side.a, segment.a, segment.b) <= tolerance) return true;
+        if (geometry::distance_to_segment(side.a, segment.a, segment.b) <= tolerance) return true;
         if (shared_length(side, segment, tolerance) > tolerance) return true;
     }
     return region.mesh == scene::RegionMesh::block &&
            (distance_to_border(region, segment) <= tolerance ||
-            scene::contains(region.polygon, segment.a, tolerance));
+            geometry::contains(region.polygon, segment.a, tolerance));
 }
 
 bool may_hold_nodes(const scene::Scene& scene, const Side& segment, double tolerance) {
@@ -71,7 +71,7 @@ std::string how_it_misses(const scene::Scene& scene, const Side& segment) {
     double least = std::numeric_limits<double>::infinity();
     for (const scene::Region& region : scene.section.regions)
         if (!region.polygon.empty()) least = std::min(least, distance_to_border(region, segment));
-    if (in_soil(scene, segment.a, 0.0) || least == 0.0)
+    if (in_soil(scene.section, segment.a) || least == 0.0)
         return "crosses the soil, where no node can be told to lie on it";
     return "touches no node: it runs " + metres(least) + " away from the section";
 }

@@ -14,15 +14,15 @@ constexpr double gap_share = 1e-3;  // of the section's height: thinner is a dra
 
 /// Vertical slices need ground without holes below it.
 bool check_slices(const scene::Scene& scene, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double allowed = gap_share * (box.high.y() - box.low.y());
-    const std::vector<double> xs = abscissae(scene);
+    const std::vector<double> xs = abscissae(scene.section);
     const std::string remedy =
         "limit equilibrium cuts vertical slices: give regions that touch from the ground to the "
         "bottom of the model, without overhang";
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
         const double x = 0.5 * (xs[i] + xs[i + 1]);
-        const std::vector<Stratum> strata = strata_at(scene, x);
+        const std::vector<Stratum> strata = strata_at(scene.section, x);
         if (strata.empty()) {
             refuse(findings, "/section/regions",
                    "leave nothing between x = " + metres(xs[i]) + " and " + metres(xs[i + 1]),
@@ -47,7 +47,7 @@ bool check_slices(const scene::Scene& scene, Findings& findings) {
 /// A range of x of which some lies over the section.
 bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                  const std::string& pointer, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const std::string ground = "the section's ground reaches from x = " + text(box.low.x()) +
                                " to " + metres(box.high.x());
     if (range[1] < box.low.x() || range[0] > box.high.x()) {
@@ -68,15 +68,15 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
     const bool entry = check_range(scene, search.entry, "/lem/search/entry", findings);
     const bool exit = check_range(scene, search.exit, "/lem/search/exit", findings);
     if (!entry || !exit) return;
-    const Levels upper = ground_over(scene, search.entry[0], search.entry[1]);
-    const Levels lower = ground_over(scene, search.exit[0], search.exit[1]);
+    const geometry::Levels upper = ground_over(scene.section, search.entry[0], search.entry[1]);
+    const geometry::Levels lower = ground_over(scene.section, search.exit[0], search.exit[1]);
     if (upper.highest <= lower.lowest)
         refuse(findings, "/lem/search/entry",
                "lies at most at " + metres(upper.highest) + ", and exit nowhere below " +
                    metres(lower.lowest),
                "put entry on the upper and exit on the lower side of the slope");
-    const scene::Box box = extent(scene);
-    const Levels ground = ground_over(scene, box.low.x(), box.high.x());
+    const geometry::Box box = extent(scene.section);
+    const geometry::Levels ground = ground_over(scene.section, box.low.x(), box.high.x());
     if (search.lowest_level && *search.lowest_level >= ground.highest)
         refuse(findings, "/lem/search/lowest_level",
                "lies above all ground, whose highest level is " + metres(ground.highest),
@@ -89,7 +89,7 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
 
 /// A crack cannot be deeper than the section, and begins in its ground.
 void check_crack(const scene::Scene& scene, const scene::TensionCrack& crack, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const std::string remedy =
         "give the depth to which the soil stands open, about 2 c / gamma tan(45 + phi / 2), or "
         "delete /lem/tension_crack";
@@ -111,7 +111,7 @@ void check_crack(const scene::Scene& scene, const scene::TensionCrack& crack, Fi
 }
 
 void check_circle(const scene::Scene& scene, const scene::Circle& circle, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     constexpr int samples = 256;
     const double left = std::max(box.low.x(), circle.center.x() - circle.radius);
     const double right = std::min(box.high.x(), circle.center.x() + circle.radius);
@@ -120,8 +120,7 @@ void check_circle(const scene::Scene& scene, const scene::Circle& circle, Findin
         const double across = x - circle.center.x();
         const double base =
             circle.center.y() - std::sqrt(circle.radius * circle.radius - across * across);
-        const std::vector<Stratum> strata = strata_at(scene, x);
-        if (!strata.empty() && base < strata.front().top) return;
+        if (base < ground_at(scene.section, x)) return;
     }
     refuse(findings, "/lem/circle",
            "passes the ground without cutting it: its lowest point is (" + text(circle.center.x()) +
@@ -147,7 +146,7 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
         if (!layers[i].levels) continue;
         const scene::Region& region = scene.section.regions[layers[i].region];
         if (region.polygon.empty()) continue;
-        const scene::Box box = scene::bounding_box(region.polygon);
+        const geometry::Box box = geometry::bounding_box(region.polygon);
         const auto& [low, high] = *layers[i].levels;
         const std::string pointer = "/lem/liquefaction/" + std::to_string(i) + "/levels";
         if (low >= box.high.y() || high <= box.low.y()) {
@@ -171,7 +170,7 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
 
 /// Levels of a layer, as far as its region reaches.
 std::array<double, 2> levels_of(const scene::Scene& scene, const scene::UndrainedRegion& layer) {
-    const scene::Box box = scene::bounding_box(scene.section.regions[layer.region].polygon);
+    const geometry::Box box = geometry::bounding_box(scene.section.regions[layer.region].polygon);
     if (!layer.levels) return {box.low.y(), box.high.y()};
     return {std::max(box.low.y(), (*layer.levels)[0]), std::min(box.high.y(), (*layer.levels)[1])};
 }
@@ -181,7 +180,7 @@ std::vector<Stratum> parts_at(const scene::Scene& scene, const scene::UndrainedR
                               double x) {
     const auto [low, high] = levels_of(scene, layer);
     std::vector<Stratum> parts;
-    for (Stratum each : strata_at(scene, x)) {
+    for (Stratum each : strata_at(scene.section, x)) {
         if (each.region != layer.region) continue;
         each.top = std::min(each.top, high);
         each.bottom = std::max(each.bottom, low);
@@ -193,7 +192,7 @@ std::vector<Stratum> parts_at(const scene::Scene& scene, const scene::UndrainedR
 /// Somewhere the one lies on the other.
 bool lies_on(const scene::Scene& scene, const scene::UndrainedRegion& upper,
              const scene::UndrainedRegion& lower) {
-    const std::vector<double> xs = abscissae(scene);
+    const std::vector<double> xs = abscissae(scene.section);
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
         const double x = 0.5 * (xs[i] + xs[i + 1]);
         const std::vector<Stratum> above = parts_at(scene, upper, x);
@@ -212,7 +211,7 @@ void check_order(const scene::Scene& scene, Findings& findings) {
     const auto& regions = scene.section.regions;
     for (const scene::UndrainedRegion& each : layers)
         if (regions[each.region].polygon.empty()) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double height = box.high.y() - box.low.y();
     for (std::size_t i = 1; i < layers.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {

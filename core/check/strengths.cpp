@@ -192,14 +192,14 @@ class Region {
 std::vector<Place> places_in(const scene::Scene& scene, const scene::Ground& ground,
                              std::size_t region) {
     constexpr int along = 6;
-    const scene::Polygon& polygon = scene.section.regions[region].polygon;
-    const scene::Box box = scene::bounding_box(polygon);
+    const geometry::Polygon& polygon = scene.section.regions[region].polygon;
+    const geometry::Box box = geometry::bounding_box(polygon);
     std::vector<Place> places;
     for (int i = 0; i < along; ++i) {
         for (int j = 0; j < along; ++j) {
             const Vec2 at{box.low.x() + (box.high.x() - box.low.x()) * (i + 0.5) / along,
                           box.low.y() + (box.high.y() - box.low.y()) * (j + 0.5) / along};
-            if (scene::contains(polygon, at)) places.push_back(ground.at(at, region));
+            if (geometry::contains(polygon, at)) places.push_back(ground.at(at, region));
         }
     }
     return places;

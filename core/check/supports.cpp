@@ -17,7 +17,7 @@ std::vector<std::size_t> bodies_of(const scene::Scene& scene, double tolerance) 
     std::iota(body.begin(), body.end(), std::size_t{0});
     const auto touch = [&](const scene::Region& a, const scene::Region& b) {
         return std::ranges::any_of(a.polygon, [&](const Vec2& vertex) {
-            return scene::contains(b.polygon, vertex, tolerance);
+            return geometry::contains(b.polygon, vertex, tolerance);
         });
     };
     for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -103,7 +103,7 @@ void check_column(const scene::Scene& scene, double x, const std::string& side, 
                "end the section there in a vertical side, or leave this column out (\"sides\")");
         return;
     }
-    const double base = extent(scene).low.y();
+    const double base = extent(scene.section).low.y();
     for (std::size_t i = 0; i < scene.fem->supports.size(); ++i) {
         const scene::Support& support = scene.fem->supports[i];
         const bool along = std::abs(support.from.x() - x) <= tolerance &&
@@ -122,7 +122,7 @@ void check_column(const scene::Scene& scene, double x, const std::string& side, 
 void check_free_field(const scene::Scene& scene, double tolerance, Findings& findings) {
     if (!scene.fem->free_field) return;
     const scene::FreeFieldSides sides = scene.fem->free_field->sides;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     if (sides != scene::FreeFieldSides::right)
         check_column(scene, box.low.x(), "left", tolerance, findings);
     if (sides != scene::FreeFieldSides::left)
@@ -132,7 +132,7 @@ void check_free_field(const scene::Scene& scene, double tolerance, Findings& fin
 /// The dashpots stand on the edges of the lowest level.
 void check_base(const scene::Scene& scene, double tolerance, Findings& findings) {
     if (!scene.fem->base) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     double level = 0.0;
     for (const scene::Region& region : scene.section.regions)
         for (const Side& side : sides_of(region.polygon))
@@ -152,9 +152,9 @@ void check_base(const scene::Scene& scene, double tolerance, Findings& findings)
 
 void check_crest(const scene::Scene& scene, Findings& findings) {
     const Vec2& crest = scene.fem->crest;
-    const double away = distance_to_soil(scene, crest);
+    const double away = geometry::distance_to_soil(scene.section, crest);
     const double size = largest_element_size(scene);
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double height = box.high.y() - box.low.y();
     if (away > std::max(height, 2.0 * size)) {
         refuse(

@@ -96,7 +96,7 @@ void doubt_friction_under_water(const scene::Scene& scene, const std::vector<sce
     if (scene.fem) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     std::vector<std::size_t> told;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
@@ -118,17 +118,15 @@ void doubt_friction_under_water(const scene::Scene& scene, const std::vector<sce
 
 /// Deepest water that stands on the ground [m].
 double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double near = 1e-6 * (box.high.x() - box.low.x());
-    std::vector<double> xs = abscissae(scene);
+    std::vector<double> xs = abscissae(scene.section);
     for (const Vec2& each : line) xs.push_back(each.x());
     double deepest = 0.0;
     for (const double at : xs)
-        for (const double x : {at - near, at + near}) {  // both heads of a vertical face
-            const std::vector<Stratum> strata = strata_at(scene, x);
-            if (!strata.empty())
-                deepest = std::max(deepest, level_at(line, x) - strata.front().top);
-        }
+        for (const double x : {at - near, at + near})  // both heads of a vertical face
+            if (const double ground = ground_at(scene.section, x); std::isfinite(ground))
+                deepest = std::max(deepest, level_at(line, x) - ground);
     return deepest;
 }
 
@@ -159,7 +157,7 @@ void doubt_loads_that_end(const scene::Scene& scene, Findings& findings) {
     if (pressed) tell(of_pressures, "the pressure on the edges");
     if (pushed) tell(of_forces, "the force on the nodes");
     if (!fem.water || fem.stages.empty()) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     const double pond = deepest_pond(scene, fem.water_in(fem.stages.size() - 1)->line);
     if (pond > shallow) tell("/fem/water/line", "free water up to " + metres(pond) + " deep");
@@ -215,13 +213,13 @@ void check_transfer(const scene::Scene& scene, Findings& findings) {
                "asks what has liquefied, and the FEM has no pore water",
                "add /fem/water, or leave this out");
     if (!transfer.phreatic_line.empty()) {
-        const Depth deepest = deepest_below(scene, transfer.phreatic_line, level_at);
+        const Depth deepest = deepest_below(scene.section, transfer.phreatic_line, level_at);
         if (deepest.below <= 0.0)
             refuse(findings, "/transfer/phreatic_line",
                    "runs below all soil, by at least " + metres(-deepest.below) +
                        ": nothing would be saturated",
                    "raise the line above the section's lowest level, " +
-                       metres(extent(scene).low.y()) + ", or leave it out");
+                       metres(extent(scene.section).low.y()) + ", or leave it out");
     }
     if (transfer.window) check_window(scene, findings);
 }

@@ -53,7 +53,7 @@ void check_boundaries(const scene::Scene& scene, const GroundWater& water, Findi
 /// Does some soil of the region lie between these abscissae?
 bool lies_between(const scene::Region& region, const std::array<double, 2>& x) {
     if (region.polygon.empty()) return false;
-    const scene::Box box = scene::bounding_box(region.polygon);
+    const geometry::Box box = geometry::bounding_box(region.polygon);
     return box.high.x() >= x[0] && box.low.x() <= x[1];
 }
 
@@ -71,8 +71,9 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
         refuse(findings, "/fem/liquefaction/x",
                "no soil of these regions lies between " + metres(watch.x[0]) + " and " +
                    metres(watch.x[1]),
-               "the section reaches from " + metres(extent(scene).low.x()) + " to " +
-                   metres(extent(scene).high.x()) + ": give a range that holds these regions");
+               "the section reaches from " + metres(extent(scene.section).low.x()) + " to " +
+                   metres(extent(scene.section).high.x()) +
+                   ": give a range that holds these regions");
     } else if (!wet) {
         refuse(findings, "/fem/liquefaction/regions", "lie above the phreatic line throughout",
                "name regions that have soil below /fem/water/line");
@@ -81,7 +82,7 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
 
 /// No stretch of the line lies over the section: it would be level there, at the height of an end.
 bool is_beside(const scene::Scene& scene, const std::vector<Vec2>& line) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     return line.size() > 1 && (line.back().x() <= box.low.x() || line.front().x() >= box.high.x());
 }
 
@@ -113,7 +114,7 @@ void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Find
 
 bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
                  const std::string& pointer, Findings& findings) {
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     if (is_beside(scene, line)) {
         refuse(findings, pointer,
                "runs from x = " + metres(line.front().x()) + " to " + metres(line.back().x()) +
@@ -122,7 +123,7 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
                    ": draw the line over it");
         return false;
     }
-    const Depth deepest = deepest_below(scene, line, level_at);
+    const Depth deepest = deepest_below(scene.section, line, level_at);
     if (deepest.below >= -1e-9 * (box.high.y() - box.low.y())) return true;
     refuse(findings, pointer,
            "runs below all soil, by at least " + metres(-deepest.below) +
@@ -134,11 +135,11 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
 void doubt_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
                 const std::string& pointer, Findings& findings) {
     if (line.empty()) return;
-    const scene::Box box = extent(scene);
+    const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     const auto look = [&](const Vec2& end, double from, double to) {
         if (from >= to) return;
-        const double depth = end.y() - ground_over(scene, from, to).lowest;
+        const double depth = end.y() - ground_over(scene.section, from, to).lowest;
         if (depth <= shallow) return;
         warn(findings, "undrawn_water", pointer,
              "ends at " + text(end) + " and goes on level from there: water stands up to " +
@@ -155,13 +156,13 @@ void check_water(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem->water || scene.fem->water->line.empty()) return;
     const GroundWater& water = *scene.fem->water;
     check_boundaries(scene, water, findings);
-    const Depth deepest = deepest_below(scene, water.line, level_at);
+    const Depth deepest = deepest_below(scene.section, water.line, level_at);
     if (deepest.below <= 0.0) {
         refuse(findings, "/fem/water/line",
                "runs below all soil, by at least " + metres(-deepest.below) +
                    " at x = " + metres(deepest.place.x()),
-               "raise the line above the section's lowest level, " + metres(extent(scene).low.y()) +
-                   ", or leave out /fem/water");
+               "raise the line above the section's lowest level, " +
+                   metres(extent(scene.section).low.y()) + ", or leave out /fem/water");
         return;
     }
     std::vector<std::size_t> told;

@@ -6,13 +6,17 @@ namespace breach::geometry {
 
 using mechanics::Vec2;
 
-namespace {
+std::optional<Crossing> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    const Vec2 first = b - a, second = d - c;
+    const double turn = cross(first, second);
+    if (turn == 0.0) return std::nullopt;
+    const double s = cross(c - a, second) / turn, t = cross(c - a, first) / turn;
+    return Crossing{a + s * first, s, t};
+}
 
 double on_straight(const Vec2& a, const Vec2& b, double x) {
     return a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
 }
-
-}  // namespace
 
 double level_at(const std::vector<Vec2>& line, double x) {
     if (x <= line.front().x()) return line.front().y();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::geometry {
 namespace {
 
@@ -38,7 +40,7 @@ Eigen::Vector4d corner_jacobians(const Corners& x) {
     for (int k = 0; k < 4; ++k) {
         const Vec2 ahead = x.col((k + 1) % 4) - x.col(k);
         const Vec2 back = x.col((k + 3) % 4) - x.col(k);
-        J[k] = 0.25 * (ahead.x() * back.y() - ahead.y() * back.x());
+        J[k] = 0.25 * cross(ahead, back);
     }
     return J;
 }

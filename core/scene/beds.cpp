@@ -39,14 +39,15 @@ std::vector<Drawn> drawn_soils(const Scene& scene) {
         const Polygon& polygon = scene.section.regions[soil.region].polygon;
         if (polygon.empty() || !materials::is_for_particles(scene.materials[soil.material].law))
             continue;
-        drawn.push_back({soil, polygon, bounding_box(polygon)});
+        drawn.push_back({soil, polygon, geometry::bounding_box(polygon)});
     }
     return drawn;
 }
 
 bool lies_in(const Vec2& place, const Drawn& soil) {
     return (place.array() >= soil.box.low.array()).all() &&
-           (place.array() <= soil.box.high.array()).all() && contains(soil.polygon, place);
+           (place.array() <= soil.box.high.array()).all() &&
+           geometry::contains(soil.polygon, place);
 }
 
 bool is_firm_under(const Scene& scene, const Soil& bed, const Drawn& cover, const Vec2& place) {

@@ -21,18 +21,6 @@ constexpr double density_of_water = 1000.0;  // kg/m3, where only a line is give
 
 }  // namespace
 
-std::vector<double> crossings(const Polygon& polygon, double x) {
-    std::vector<double> heights;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-        const Vec2& from = polygon[k];
-        const Vec2& to = polygon[(k + 1) % polygon.size()];
-        if ((from.x() <= x) == (to.x() <= x)) continue;
-        heights.push_back(from.y() + (to.y() - from.y()) * (x - from.x()) / (to.x() - from.x()));
-    }
-    std::sort(heights.begin(), heights.end());
-    return heights;
-}
-
 Ground::Ground(const Scene& scene, const std::vector<bool>& gone) {
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const Region& region = scene.section.regions[r];
@@ -89,7 +77,7 @@ materials::Place Ground::at(const Vec2& place, std::size_t region) const {
     double ground = -std::numeric_limits<double>::infinity();
     for (const Layer& layer : layers_) {
         if (layer.is_gone) continue;
-        const std::vector<double> heights = crossings(layer.polygon, place.x());
+        const std::vector<double> heights = geometry::crossings(layer.polygon, place.x());
         for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {
             ground = std::max(ground, heights[k + 1]);
             weight += layer.gamma * std::max(heights[k + 1] - std::max(heights[k], place.y()), 0.0);

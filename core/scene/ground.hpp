@@ -7,10 +7,6 @@
 
 namespace breach::scene {
 
-/// Heights at which the border crosses the upright through x, ascending. Edges count at their left
-/// end only, so a vertex on the upright is met once, or not at all where the border turns back.
-std::vector<double> crossings(const Polygon& polygon, double x);
-
 /// Vertical stresses of the section as it is drawn, or of the part of it that is there. The total one is the weight of soil and free
 /// water above; the pore pressure is that of the line of the place's region in /lem, in a scene
 /// whose /lem has none the hydrostatic one below /fem/water's line, else below the transfer's

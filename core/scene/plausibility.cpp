@@ -37,17 +37,6 @@ struct Doubter {
     }
 };
 
-Box extent_of(const std::vector<Region>& regions) {
-    Box all{{infinity, infinity}, {-infinity, -infinity}};
-    for (const Region& region : regions) {
-        if (region.polygon.empty()) continue;
-        const Box box = bounding_box(region.polygon);
-        all.low = all.low.cwiseMin(box.low);
-        all.high = all.high.cwiseMax(box.high);
-    }
-    return all;
-}
-
 /// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long.
 void doubt_section(Doubter& d) {
     constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
@@ -63,22 +52,6 @@ void doubt_section(Doubter& d) {
     } else if (d.height() < least) {
         d.doubt(pointer, "the section is " + size + ": vertices are in m, these look like km");
     }
-}
-
-/// Highest soil at x; -infinity: there is none [m].
-double ground_level(const Scene& scene, double x) {
-    double level = -infinity;
-    for (const Region& region : scene.section.regions) {
-        const Polygon& ring = region.polygon;
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-            if (x < std::min(a.x(), b.x()) || x > std::max(a.x(), b.x())) continue;
-            const double width = b.x() - a.x();
-            level = std::max(level, width == 0.0 ? std::max(a.y(), b.y())
-                                                 : a.y() + (x - a.x()) / width * (b.y() - a.y()));
-        }
-    }
-    return level;
 }
 
 /// Free water lies level: a line that slopes above the ground loads the face with water that is not
@@ -97,7 +70,7 @@ void doubt_slope_of_free_water(Doubter& d, const std::vector<Vec2>& line,
         const double right = geometry::level_at(line, places[i + 1]);
         if (std::abs(right - left) <= 0.01 * (places[i + 1] - places[i])) continue;
         const double x = 0.5 * (places[i] + places[i + 1]);
-        const double above = 0.5 * (left + right) - ground_level(d.scene, x);
+        const double above = 0.5 * (left + right) - geometry::ground_at(d.scene.section, x);
         if (above > most && std::isfinite(above)) most = above, where = x;
     }
     if (where == -infinity) return;
@@ -254,7 +227,7 @@ void doubt_sizes(Doubter& d) {
             if (region.polygon.empty() || region.element_size <= 0.0) continue;
             const std::string own = "/section/regions/" + std::to_string(i) + "/mesh/element_size";
             const bool has_own = d.reader.document().contains(nlohmann::json::json_pointer(own));
-            doubt_size(d, region.element_size, area(region.polygon),
+            doubt_size(d, region.element_size, geometry::area(region.polygon),
                        has_own ? own : "/section/element_size", "elements");
         }
     }
@@ -273,22 +246,20 @@ void doubt_sizes(Doubter& d) {
 
 /// Area of the polygon with x above the given one [m2].
 double area_beyond(const Polygon& polygon, double x) {
-    const Box box = bounding_box(polygon);
-    if (x <= box.low.x()) return area(polygon);
+    const Box box = geometry::bounding_box(polygon);
+    if (x <= box.low.x()) return geometry::area(polygon);
     if (x >= box.high.x()) return 0.0;
     const double below = box.low.y() - 1.0, above = box.high.y() + 1.0;
     const Polygon beyond{
         {x, below}, {box.high.x() + 1.0, below}, {box.high.x() + 1.0, above}, {x, above}};
-    return overlap_area(polygon, beyond);
+    return geometry::overlap_area(polygon, beyond);
 }
 
 /// Farthest x of soil above a level; -infinity: there is none [m].
 double foot_above(const Scene& scene, double level) {
     double foot = -infinity;
     for (const Region& region : scene.section.regions) {
-        const Polygon& ring = region.polygon;
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        for (const auto& [a, b] : geometry::sides_of(region.polygon)) {
             if (a.y() > level) foot = std::max(foot, a.x());
             if ((a.y() > level) == (b.y() > level)) continue;
             const double share = (level - a.y()) / (b.y() - a.y());
@@ -307,8 +278,8 @@ void doubt_toe(Doubter& d) {
     double all = 0.0, beyond = 0.0, end = -infinity;
     for (const Region& region : d.scene.section.regions) {
         if (!is_mobile(region, *d.scene.mpm) || region.polygon.empty()) continue;
-        end = std::max(end, bounding_box(region.polygon).high.x());
-        all += area(region.polygon);
+        end = std::max(end, geometry::bounding_box(region.polygon).high.x());
+        all += geometry::area(region.polygon);
         beyond += area_beyond(region.polygon, runout.toe.x());
     }
     if (!(all > 0.0)) return;
@@ -357,7 +328,7 @@ void doubt_floor(Doubter& d) {
 }  // namespace
 
 void doubt_together(Reader& reader, Scene& scene) {
-    Doubter d{reader, scene, extent_of(scene.section.regions)};
+    Doubter d{reader, scene, geometry::extent(scene.section)};
     if (reader.sound("/gravity") && reader.document().at("gravity") == 0.0) {
         d.doubt("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
     }

@@ -137,7 +137,7 @@ void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
         const Polygon& polygon = scene.section.regions[i].polygon;
         if (polygon.empty()) continue;
-        const Box box = bounding_box(polygon);
+        const Box box = geometry::bounding_box(polygon);
         const bool inside =
             box.low.x() >= mpm.domain_x[0] - 1e-9 && box.high.x() <= mpm.domain_x[1] + 1e-9 &&
             box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;

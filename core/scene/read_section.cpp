@@ -177,11 +177,11 @@ Polygon polygon_from(Reader& reader, const json& ring, const std::string& pointe
         return {};
     }
     polygon.pop_back();
-    if (const auto what = defect(polygon)) {
+    if (const auto what = geometry::defect(polygon)) {
         reader.add(pointer, *what, "list the vertices of a simple polygon in order");
         return {};
     }
-    if (signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
+    if (geometry::signed_area(polygon) < 0) std::reverse(polygon.begin(), polygon.end());
     return polygon;
 }
 
@@ -282,8 +282,9 @@ void check_overlaps(Reader& reader, const Scene& scene) {
     for (std::size_t i = 0; i < regions.size(); ++i) {
         for (std::size_t j = i + 1; j < regions.size(); ++j) {
             if (regions[i].polygon.empty() || regions[j].polygon.empty()) continue;
-            const double shared = overlap_area(regions[i].polygon, regions[j].polygon);
-            const double least = std::min(area(regions[i].polygon), area(regions[j].polygon));
+            const double shared = geometry::overlap_area(regions[i].polygon, regions[j].polygon);
+            const double least =
+                std::min(geometry::area(regions[i].polygon), geometry::area(regions[j].polygon));
             if (shared <= 1e-9 * least) continue;
             reader.add(
                 "/section/regions/" + std::to_string(j) + "/polygon",

@@ -25,14 +25,6 @@ constexpr double widest_band_share = 1.0 / 3.0;
 /// Elements across a region: one cannot bend, and a band through it has no soil beside it.
 constexpr double elements_wanted = 2.0;
 
-/// How thick a polygon is [m], together with those that it touches and that count as one with it.
-/// The local thickness at a place is the diameter of the largest disc inside the whole that covers
-/// the place (Hildebrand & Rueegsegger 1997); half of the polygon's area lies where the whole is
-/// thicker than the value returned, half where it is thinner. A long band's own thickness, a
-/// square's edge; thin wedges and necks that hold less than half of the area do not count. Within a
-/// few per cent.
-double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached = {});
-
 /// Whether the region counts for the runout.
 bool is_mobile(const Region& region, const Mpm& mpm);
 
@@ -46,18 +38,17 @@ Levels mobile_levels(const Scene& scene, const Mpm& mpm);
 /// Between the two [m]; 0: none.
 double mobile_height(const Scene& scene, const Mpm& mpm);
 
-/// Something that has to be resolved, and by how much it is.
+/// Something that cells have to resolve, and by how much they do.
 struct Across {
     std::string what;  ///< "region \"dam\""
     std::string pointer;
     double length;  ///< [m]
-    double number;  ///< of cells or elements across it [-]
+    double number;  ///< of cells across it [-]
 };
 
-/// Every mobile region, with mobile regions of the same strength that touch it, and the slope from the toe to the highest mobile soil.
-std::vector<Across> cells_across(const Scene& scene);
-/// Every region of the section that the FEM meshes.
-std::vector<Across> elements_across(const Scene& scene);
+/// Every mobile region, with mobile regions of the same strength that touch it, and the slope from the
+/// toe to the highest mobile soil: those with fewer cells than `below`.
+std::vector<Across> cells_across(const Scene& scene, double below);
 
 struct Resolved {
     std::vector<fault::Fault> faults;

@@ -13,12 +13,16 @@
 
 #include "core/fault/fault.hpp"
 #include "core/fault/flag.hpp"
+#include "core/geometry/section.hpp"
 #include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
 #include "core/materials/strength/profile.hpp"
-#include "core/scene/polygon.hpp"
 
 namespace breach::scene {
+
+using geometry::Box;
+using geometry::Polygon;
+using mechanics::Vec2;
 
 /// Strength at failure.
 struct LimitStrength {
@@ -75,6 +79,9 @@ struct Region {
 
 struct Section {
     std::vector<Region> regions;
+
+    /// For the questions of core/geometry/section.hpp.
+    operator geometry::Outlines() const { return geometry::outlines_of(regions, &Region::polygon); }
 };
 
 // ---------------------------------------------------------------- lem_tool

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::fem {
 
 Corners corners_of(const Mesh& mesh, std::size_t element) {
@@ -19,7 +21,7 @@ namespace {
 double corner_jacobian(const Corners& x, int k) {
     const Vec2 forward = x.col((k + 1) % 4) - x.col(k);
     const Vec2 backward = x.col((k + 3) % 4) - x.col(k);
-    return forward.x() * backward.y() - forward.y() * backward.x();
+    return geometry::cross(forward, backward);
 }
 
 void check_convex(const Mesh& mesh, const scene::Section& section) {

@@ -89,7 +89,7 @@ Quality quality_of(const Mesh& mesh);
 /// Side positions [0, 1] do not matter here: points along the side from corner k to corner k+1,
 /// divisions + 1 of them, with every polyline vertex among them; within a segment, each element is
 /// `growth` times as long as the one before. Empty when the side has more segments than divisions.
-std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
+std::vector<Vec2> divide_side(const geometry::Polygon& polygon, std::size_t from, std::size_t to,
                               int divisions, double growth = 1.0, int unit = 1);
 
 /// How many of a side's divisions each of its segments gets: at least one `unit` each, otherwise

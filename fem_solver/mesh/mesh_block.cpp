@@ -34,7 +34,7 @@ double share_at(int k, int n, double growth) {
 
 }  // namespace
 
-std::vector<Vec2> divide_side(const scene::Polygon& polygon, std::size_t from, std::size_t to,
+std::vector<Vec2> divide_side(const geometry::Polygon& polygon, std::size_t from, std::size_t to,
                               int divisions, double growth, int unit) {
     std::vector<Vec2> vertices{polygon[from]};
     for (std::size_t i = from; i != to;) {

@@ -48,7 +48,7 @@ std::vector<int> points_between(const Outline& outline, int a, int b, double tol
     const Vec2 A = outline.points[a], B = outline.points[b];
     std::vector<int> found;
     for (std::size_t i = 0; i < outline.points.size(); ++i) {
-        if (scene::distance_to_segment(outline.points[i], A, B) <= tolerance) {
+        if (geometry::distance_to_segment(outline.points[i], A, B) <= tolerance) {
             found.push_back(static_cast<int>(i));
         }
     }
@@ -70,7 +70,7 @@ int line_between(Outline& outline, int from, int to) {
 Outline outline_of(const std::vector<Piece>& pieces) {
     double size = 0.0;
     for (const Piece& piece : pieces) {
-        const scene::Box box = scene::bounding_box(piece.region.polygon);
+        const geometry::Box box = geometry::bounding_box(piece.region.polygon);
         size = std::max(size, (box.high - box.low).norm());
     }
     const double tolerance = 1e-9 * size;
@@ -79,7 +79,7 @@ Outline outline_of(const std::vector<Piece>& pieces) {
         for (const Vec2& vertex : piece.region.polygon) point_at(outline, vertex, tolerance);
     }
     for (const Piece& piece : pieces) {
-        const scene::Polygon& ring = piece.region.polygon;
+        const geometry::Polygon& ring = piece.region.polygon;
         std::vector<int> loop;
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const int a = point_at(outline, ring[i], tolerance);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "core/geometry/polyline.hpp"
 #include "fem_solver/mesh/mesh.hpp"
 
 namespace breach::fem {
@@ -228,8 +229,7 @@ std::map<int, std::int32_t> match_regions(const RawMesh& raw, const scene::Secti
 }
 
 double twice_area(const Corners& x) {
-    const Vec2 d1 = x.col(2) - x.col(0), d2 = x.col(3) - x.col(1);
-    return d1.x() * d2.y() - d1.y() * d2.x();
+    return geometry::cross(x.col(2) - x.col(0), x.col(3) - x.col(1));
 }
 
 /// Why the quad that was read last is none; nothing: it is one.

@@ -42,12 +42,12 @@ Progression fill(double length, double first, double last) {
     return {n, 0.5 * (low + high)};
 }
 
-scene::Polygon without_straight_vertices(const scene::Polygon& polygon) {
+geometry::Polygon without_straight_vertices(const geometry::Polygon& polygon) {
     const std::size_t n = polygon.size();
-    scene::Polygon kept;
+    geometry::Polygon kept;
     for (std::size_t i = 0; i < n; ++i) {
         const Vec2 &before = polygon[(i + n - 1) % n], &after = polygon[(i + 1) % n];
-        const double off = scene::distance_to_segment(polygon[i], before, after);
+        const double off = geometry::distance_to_segment(polygon[i], before, after);
         if (off > 1e-9 * (after - before).norm()) kept.push_back(polygon[i]);
     }
     return kept;
@@ -64,7 +64,8 @@ fault::BadInput refusal(const scene::Region& region, std::size_t index, const st
 /// The strip on one side of x as a block from its lower left corner on.
 Piece strip(const scene::Region& region, std::size_t index, Side side, double x) {
     const Vec2 a{x, side == Side::left ? 0.0 : 1.0}, b{x, side == Side::left ? 1.0 : 0.0};
-    scene::Polygon ring = without_straight_vertices(scene::clipped_left(region.polygon, a, b));
+    geometry::Polygon ring =
+        without_straight_vertices(geometry::clipped_left(region.polygon, a, b));
     if (ring.size() != 4) {
         throw refusal(region, index,
                       "the part beyond x = " + std::to_string(x) + " is not a quadrilateral",
@@ -88,12 +89,12 @@ Piece strip(const scene::Region& region, std::size_t index, Side side, double x)
 /// What lies between the strips; a block keeps its corners in their order.
 Piece middle(const scene::Region& region, std::size_t index) {
     Piece piece{region, index};
-    scene::Polygon& ring = piece.region.polygon;
+    geometry::Polygon& ring = piece.region.polygon;
     if (const auto x = region.grading.left_of) {
-        ring = scene::clipped_left(ring, {*x, 1.0}, {*x, 0.0});
+        ring = geometry::clipped_left(ring, {*x, 1.0}, {*x, 0.0});
     }
     if (const auto x = region.grading.right_of) {
-        ring = scene::clipped_left(ring, {*x, 0.0}, {*x, 1.0});
+        ring = geometry::clipped_left(ring, {*x, 0.0}, {*x, 1.0});
     }
     if (ring.size() < 3) {
         throw refusal(region, index, "nothing is left between the strips", "move the strips apart");

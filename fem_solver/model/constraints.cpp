@@ -11,7 +11,7 @@ struct Found {
 };
 
 bool is_on(const scene::Support& support, const Vec2& node, double tolerance) {
-    return scene::distance_to_segment(node, support.from, support.to) <= tolerance;
+    return geometry::distance_to_segment(node, support.from, support.to) <= tolerance;
 }
 
 void hold(const scene::Fem& fem, const Mesh& mesh, double tolerance, std::vector<bool>& held,
@@ -117,7 +117,7 @@ std::vector<std::size_t> nodes_on(const Mesh& mesh, const Vec2& from, const Vec2
     const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
-        if (scene::distance_to_segment(mesh.nodes[i], from, to) <= tolerance) found.push_back(i);
+        if (geometry::distance_to_segment(mesh.nodes[i], from, to) <= tolerance) found.push_back(i);
     return found;
 }
 

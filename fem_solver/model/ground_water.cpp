@@ -52,7 +52,7 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
         bool found = false;
         for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
             const Vec2& x = mesh.nodes[i];
-            if (scene::distance_to_segment(x, boundary.from, boundary.to) > tolerance) continue;
+            if (geometry::distance_to_segment(x, boundary.from, boundary.to) > tolerance) continue;
             found = true;
             const double p = boundary.level ? weight * std::max(0.0, *boundary.level - x.y()) : 0.0;
             if (p > 0.0 || !prescribed[i] || *prescribed[i] > 0.0) prescribed[i] = p;

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "core/geometry/polyline.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -52,8 +54,7 @@ std::vector<std::array<std::int32_t, 4>> neighbours_of(const Mesh& mesh, const E
 
 double area_of(const Mesh& mesh, std::size_t element) {
     const Corners x = corners_of(mesh, element);
-    const Vec2 a = x.col(2) - x.col(0), b = x.col(3) - x.col(1);
-    return 0.5 * (a.x() * b.y() - a.y() * b.x());
+    return 0.5 * geometry::cross(x.col(2) - x.col(0), x.col(3) - x.col(1));
 }
 
 enum class Side { left, right };

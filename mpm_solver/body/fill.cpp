@@ -10,8 +10,8 @@
 
 namespace breach::mpm {
 
-using scene::Box;
-using scene::Polygon;
+using geometry::Box;
+using geometry::Polygon;
 using scene::Vec2;
 
 namespace {
@@ -87,7 +87,7 @@ void join_slivers(Patches& patches, double square) {
 }
 
 Patches sample(const Polygon& polygon, const Vec2& origin, double spacing) {
-    const Box box = scene::bounding_box(polygon);
+    const Box box = geometry::bounding_box(polygon);
     const auto first = [&](int axis) {
         return static_cast<int>(std::floor((box.low[axis] - origin[axis]) / spacing));
     };
@@ -193,10 +193,10 @@ std::vector<SampledRegion> sampling_of(const scene::Scene& scene,
                                        const exchange::ParticleState& state) {
     std::vector<SampledRegion> result;
     for (const scene::Region& region : scene.section.regions) {
-        const Box box = scene::bounding_box(region.polygon);
+        const Box box = geometry::bounding_box(region.polygon);
         const Patch drawn = patch_of(region.polygon);
         SampledRegion sampled{.name = region.name,
-                              .polygon_area = scene::area(region.polygon),
+                              .polygon_area = geometry::area(region.polygon),
                               .sampled_area = 0.0,
                               .polygon_level = drawn.centroid.y(),
                               .sampled_level = 0.0,

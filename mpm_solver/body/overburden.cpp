@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/scene/ground.hpp"
+#include "core/geometry/section.hpp"
 
 namespace breach::mpm {
 
 namespace {
 
-using scene::Polygon;
+using geometry::Polygon;
 using scene::Vec2;
 
 double thickness_above(const Polygon& polygon, const Vec2& place) {
-    const std::vector<double> heights = scene::crossings(polygon, place.x());
+    const std::vector<double> heights = geometry::crossings(polygon, place.x());
     double thickness = 0.0;
     for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {
         thickness += std::max(heights[k + 1] - std::max(heights[k], place.y()), 0.0);

@@ -12,7 +12,7 @@ namespace {
 constexpr double far_away = 1e6;
 
 double distance_to(const Vec2& from, const Vec2& to, const Vec2& place) {
-    return scene::distance_to_segment(place, from, to);
+    return geometry::distance_to_segment(place, from, to);
 }
 
 /// Stops what enters the plane and slows what slides along it; returns the impulse of friction.

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 namespace breach::mpm {
 

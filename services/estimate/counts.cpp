@@ -12,7 +12,7 @@
 
 namespace breach::estimate {
 
-using scene::Polygon;
+using geometry::Polygon;
 using scene::Vec2;
 
 namespace {
@@ -26,21 +26,21 @@ constexpr double panel_excess = 1.25;
 double even(double divisions) { return 2.0 * std::max(1.0, std::round(0.5 * divisions)); }
 
 double block_elements(const Polygon& block, double h) {
-    const scene::Box box = scene::bounding_box(block);
+    const geometry::Box box = geometry::bounding_box(block);
     const Vec2 size = box.high - box.low;
-    const double share = scene::area(block) / (size.x() * size.y());
+    const double share = geometry::area(block) / (size.x() * size.y());
     return even(size.x() / h) * even(share * size.y() / h);
 }
 
 /// A strip whose columns widen from `first` to `last`: the integral of dx over the width there.
 double strip_elements(const Polygon& strip, double first, double last) {
     if (strip.size() < 3) return 0.0;
-    const scene::Box box = scene::bounding_box(strip);
+    const geometry::Box box = geometry::bounding_box(strip);
     const double length = box.high.x() - box.low.x();
     if (length <= 0.0) return 0.0;
     const double columns =
         last > 1.01 * first ? length * std::log(last / first) / (last - first) : length / first;
-    return even(columns) * even(scene::area(strip) / length / first);
+    return even(columns) * even(geometry::area(strip) / length / first);
 }
 
 double elements_of(const scene::Region& region) {
@@ -53,13 +53,14 @@ double elements_of(const scene::Region& region) {
     double elements = 0.0;
     /// Takes what lies right of the line from a to b away as a strip.
     const auto cut = [&](const Vec2& a, const Vec2& b) {
-        elements += strip_elements(scene::clipped_left(middle, b, a), h, region.grading.largest);
-        middle = scene::clipped_left(middle, a, b);
+        elements += strip_elements(geometry::clipped_left(middle, b, a), h, region.grading.largest);
+        middle = geometry::clipped_left(middle, a, b);
     };
     if (const auto x = region.grading.left_of) cut({*x, 1.0}, {*x, 0.0});
     if (const auto x = region.grading.right_of) cut({*x, 0.0}, {*x, 1.0});
     if (middle.size() > 2)
-        elements += block ? block_elements(middle, h) : gmsh_excess * scene::area(middle) / (h * h);
+        elements +=
+            block ? block_elements(middle, h) : gmsh_excess * geometry::area(middle) / (h * h);
     return std::max(1.0, elements);
 }
 
@@ -140,7 +141,7 @@ double boundaries_of(const scene::Scene& scene) {
     std::set<std::pair<double, double>> lines;
     for (const scene::Region& region : scene.section.regions) {
         const Polygon& ring = region.polygon;
-        const bool anticlockwise = scene::signed_area(ring) > 0.0;
+        const bool anticlockwise = geometry::signed_area(ring) > 0.0;
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const Vec2& a = ring[i];
             const Vec2& b = ring[(i + 1) % ring.size()];
@@ -174,12 +175,10 @@ double strength_of(const scene::Scene& scene, const scene::Region& region) {
 
 /// Layers thinner than a tenth of their depth and weaker than all thicker soil: each is searched along.
 double thin_weak_layers(const scene::Scene& scene) {
-    double top = -std::numeric_limits<double>::infinity();
-    for (const scene::Region& each : scene.section.regions)
-        top = std::max(top, scene::bounding_box(each.polygon).high.y());
+    const double top = geometry::extent(scene.section).high.y();
     const auto is_thin = [&](const scene::Region& region) {
-        const scene::Box box = scene::bounding_box(region.polygon);
-        const double thickness = scene::area(region.polygon) / (box.high.x() - box.low.x());
+        const geometry::Box box = geometry::bounding_box(region.polygon);
+        const double thickness = geometry::area(region.polygon) / (box.high.x() - box.low.x());
         return thickness < 0.1 * (top - box.low.y());
     };
     double least = std::numeric_limits<double>::infinity();
@@ -233,7 +232,7 @@ std::vector<double> elements_of(const scene::Scene& scene) {
 
 double soil_area(const scene::Scene& scene) {
     double sum = 0.0;
-    for (const scene::Region& each : scene.section.regions) sum += scene::area(each.polygon);
+    for (const scene::Region& each : scene.section.regions) sum += geometry::area(each.polygon);
     return sum;
 }
 

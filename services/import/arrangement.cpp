@@ -11,8 +11,6 @@
 
 namespace breach::importing {
 
-using geometry::cross;
-
 namespace {
 
 constexpr int most_passes = 20;
@@ -183,22 +181,11 @@ class Snapping {
         return changed;
     }
 
-    struct Crossing {
-        Vec2 at;
-        double on_first, on_second;
-    };
-
-    std::optional<Crossing> crossing(const Segment& s, const Segment& t) const {
+    std::optional<geometry::Crossing> crossing(const Segment& s, const Segment& t) const {
         if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return std::nullopt;
-        const Vec2 A = result_.nodes[s.a], C = result_.nodes[t.a];
-        const Vec2 along = result_.nodes[s.b] - A, other = result_.nodes[t.b] - C;
-        const double turn = cross(along, other);
-        if (turn == 0.0) return std::nullopt;
-        const double on_first = cross(C - A, other) / turn;
-        const double on_second = cross(C - A, along) / turn;
-        if (!(on_first > 0.0 && on_first < 1.0 && on_second > 0.0 && on_second < 1.0))
-            return std::nullopt;
-        return Crossing{A + on_first * along, on_first, on_second};
+        const std::vector<Vec2>& nodes = result_.nodes;
+        const auto place = geometry::crossing(nodes[s.a], nodes[s.b], nodes[t.a], nodes[t.b]);
+        return place && place->is_within() ? place : std::nullopt;
     }
 
     const std::vector<Chain>& chains_;
@@ -255,8 +242,8 @@ std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
 double least_distance(const Vec2& place, const Polygon& ring) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < ring.size(); ++i)
-        least = std::min(least,
-                         scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
+        least = std::min(
+            least, geometry::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]));
     return least;
 }
 
@@ -297,7 +284,7 @@ void find_inside(Face& face, const Polygon& ring, const std::vector<Polygon>& ot
     for (const double y : levels_between(ring))
         for (const Vec2& place : middles_at(ring, y)) {
             const bool taken = std::ranges::any_of(
-                others, [&](const Polygon& each) { return scene::contains(each, place); });
+                others, [&](const Polygon& each) { return geometry::contains(each, place); });
             if (taken) continue;
             const double width = 2.0 * least_distance(place, ring);
             if (width <= face.width) continue;
@@ -339,7 +326,7 @@ std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edg
     std::vector<Polygon> rings;
     for (auto& ring : walks(nodes, directed)) {
         Polygon polygon = polygon_of(nodes, ring);
-        const double area = scene::signed_area(polygon);
+        const double area = geometry::signed_area(polygon);
         if (ring.size() < 3 || !(area > 0.0)) continue;  // what is seen from outside
         faces.push_back({std::move(ring), Vec2::Zero(), 0.0, area});
         rings.push_back(std::move(polygon));
@@ -348,7 +335,7 @@ std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edg
         std::vector<Polygon> within;  // of parts that touch nothing around them
         for (std::size_t j = 0; j < faces.size(); ++j)
             if (j != i && faces[j].area < faces[i].area &&
-                scene::contains(rings[i], rings[j].front()) &&
+                geometry::contains(rings[i], rings[j].front()) &&
                 std::ranges::find(faces[i].ring, faces[j].ring.front()) == faces[i].ring.end())
                 within.push_back(rings[j]);
         find_inside(faces[i], rings[i], within);

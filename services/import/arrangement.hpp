@@ -5,12 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 namespace breach::importing {
 
+using geometry::Polygon;
 using mechanics::Vec2;
-using scene::Polygon;
 
 struct Chain {
     std::vector<Vec2> points;

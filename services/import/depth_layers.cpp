@@ -36,7 +36,7 @@ std::size_t part_at(const LayerWish& wish, const std::vector<Vec2>& line, const 
 
 /// The line `depth` lower, level beyond its ends, from one side of the ring to the other.
 std::vector<Vec2> lowered(const std::vector<Vec2>& line, double depth, const Polygon& ring) {
-    const scene::Box box = scene::bounding_box(ring);
+    const geometry::Box box = geometry::bounding_box(ring);
     const double aside = 1.0 + (box.high - box.low).norm();
     std::vector<Vec2> low;
     const double from = std::min(box.low.x(), line.front().x()) - aside;
@@ -55,18 +55,15 @@ std::vector<Chain> inside_of(const Polygon& ring, const std::vector<Vec2>& line)
         std::vector<double> shares{0.0, 1.0};
         const Vec2 along = b - a;
         for (std::size_t k = 0; k < ring.size(); ++k) {
-            const Vec2 &c = ring[k], side = ring[(k + 1) % ring.size()] - c;
-            const double turn = along.x() * side.y() - along.y() * side.x();
-            if (turn == 0.0) continue;
-            const Vec2 off = c - a;
-            const double s = (off.x() * side.y() - off.y() * side.x()) / turn;
-            const double t = (off.x() * along.y() - off.y() * along.x()) / turn;
+            const auto cross = geometry::crossing(a, b, ring[k], ring[(k + 1) % ring.size()]);
+            if (!cross) continue;
+            const double s = cross->on_first, t = cross->on_second;
             if (s > 0.0 && s < 1.0 && t >= 0.0 && t <= 1.0) shares.push_back(s);
         }
         std::ranges::sort(shares);
         for (std::size_t k = 0; k + 1 < shares.size(); ++k) {
             const Vec2 from = a + shares[k] * along, to = a + shares[k + 1] * along;
-            if (shares[k + 1] - shares[k] <= 0.0 || !scene::contains(ring, 0.5 * (from + to)))
+            if (shares[k + 1] - shares[k] <= 0.0 || !geometry::contains(ring, 0.5 * (from + to)))
                 continue;
             if (chains.empty() || chains.back().points.back() != from)
                 chains.push_back({{from}, false});
@@ -139,7 +136,7 @@ void cut_region(Healed& healed, std::size_t target, const LayerWish& wish,
     for (const Face& face : shares.faces) {
         int owner = -1;
         for (std::size_t s = 0; s < first && owner < 0; ++s)
-            if (scene::contains(rings[s], face.inside)) owner = static_cast<int>(s);
+            if (geometry::contains(rings[s], face.inside)) owner = static_cast<int>(s);
         if (owner == static_cast<int>(target))
             owner = static_cast<int>(first + part_at(wish, line, face.inside));
         shares.owners.push_back(owner);

@@ -37,22 +37,16 @@ json section_of(const std::vector<Soil>& soils, double element_size) {
 json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell) {
     json names = json::array();
     for (const Soil& each : soils)
-        if (scene::bounding_box(each.ring).high.y() > toe.y() + 0.5 * cell)
+        if (geometry::bounding_box(each.ring).high.y() > toe.y() + 0.5 * cell)
             names.push_back(each.name);
     return names;
 }
 
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
-    scene::Box box{terrain.front(), terrain.front()};
-    const auto extend = [&](const std::vector<Vec2>& line) {
-        for (const Vec2& each : line) {
-            box.low = box.low.cwiseMin(each);
-            box.high = box.high.cwiseMax(each);
-        }
-    };
-    extend(terrain);
-    for (const Soil& each : soils) extend(each.ring);
+    geometry::Outlines all = outlines_of(soils);
+    all.push_back(&terrain);
+    const geometry::Box box = geometry::extent(all);
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
     const double floor = down(box.low.y() - 2.0 * cell);
@@ -87,7 +81,7 @@ Document document_of(const std::string& name, const json& materials, const std::
     const auto slope = document.slope = slope_of(ground);
     double height = 0.0;
     for (const Soil& each : soils) {
-        const scene::Box box = scene::bounding_box(each.ring);
+        const geometry::Box box = geometry::bounding_box(each.ring);
         height = std::max(height, box.high.y() - box.low.y());
     }
     const double size = element_size_for(slope ? slope->fall() : height);

@@ -2,44 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace breach::importing {
 
 namespace {
-
-/// Level of the highest side over the middle of [left, right], at both ends.
-std::optional<std::pair<Vec2, Vec2>> top_between(const std::vector<Soil>& soils, double left,
-                                                 double right) {
-    std::optional<std::pair<Vec2, Vec2>> top;
-    double highest = 0.0;
-    const double middle = 0.5 * (left + right);
-    for (const Soil& soil : soils) {
-        for (std::size_t i = 0; i < soil.ring.size(); ++i) {
-            Vec2 a = soil.ring[i], b = soil.ring[(i + 1) % soil.ring.size()];
-            if (a.x() > b.x()) std::swap(a, b);
-            if (!(a.x() <= left && b.x() >= right) || a.x() == b.x()) continue;
-            const auto level = [&](double x) {
-                return a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
-            };
-            if (top && level(middle) <= highest) continue;
-            highest = level(middle);
-            top = {{left, level(left)}, {right, level(right)}};
-        }
-    }
-    return top;
-}
-
-/// Where a vertical at x crosses the ring, ascending.
-std::vector<double> levels_at(const Polygon& ring, double x) {
-    std::vector<double> levels;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-        if ((a.x() > x) != (b.x() > x))
-            levels.push_back(a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
-    }
-    std::ranges::sort(levels);
-    return levels;
-}
 
 Vec2 mirrored(const Vec2& place) { return {-place.x(), place.y()}; }
 
@@ -88,51 +55,31 @@ double rounded(double x, double length) {
 
 }  // namespace
 
+geometry::Outlines outlines_of(const std::vector<Soil>& soils) {
+    return geometry::outlines_of(soils, &Soil::ring);
+}
+
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
-    std::vector<double> xs;
-    for (const Soil& soil : soils)
-        for (const Vec2& each : soil.ring) xs.push_back(each.x());
-    std::ranges::sort(xs);
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
     std::vector<Vec2> ground;
-    const double near = xs.empty() ? 0.0 : 1e-9 * (xs.back() - xs.front());
-    const auto add = [&](const Vec2& place) {
-        if (ground.empty() || (place - ground.back()).norm() > near) ground.push_back(place);
-    };
-    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-        if (xs[i + 1] - xs[i] <= near) continue;
-        const auto top = top_between(soils, xs[i], xs[i + 1]);
-        if (!top) continue;
-        add(top->first);
-        add(top->second);
-    }
+    for (const auto& piece : geometry::ground_between(outlines_of(soils), -everywhere, everywhere))
+        ground.insert(ground.end(), piece.begin(), piece.end());
     return ground;
 }
 
 std::optional<Void> highest_void(const std::vector<Soil>& soils, double tolerance) {
-    struct Span {
-        double low, high;
-        std::size_t soil;
-    };
-    std::vector<double> xs;
-    for (const Soil& soil : soils)
-        for (const Vec2& each : soil.ring) xs.push_back(each.x());
-    std::ranges::sort(xs);
+    const geometry::Outlines outlines = outlines_of(soils);
+    const std::vector<double> xs = geometry::abscissae(outlines);
     std::optional<Void> highest;
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-        if (xs[i + 1] <= xs[i]) continue;
         const double x = 0.5 * (xs[i] + xs[i + 1]);
-        std::vector<Span> spans;
-        for (std::size_t s = 0; s < soils.size(); ++s) {
-            const std::vector<double> levels = levels_at(soils[s].ring, x);
-            for (std::size_t k = 0; k + 1 < levels.size(); k += 2)
-                spans.push_back({levels[k], levels[k + 1], s});
-        }
-        std::ranges::sort(spans, {}, &Span::low);
-        for (std::size_t k = 1; k < spans.size(); ++k) {
-            const double height = spans[k].low - spans[k - 1].high;
+        const std::vector<geometry::Stratum> strata = geometry::strata_at(outlines, x);
+        for (std::size_t k = strata.size(); k > 1; --k) {
+            const geometry::Stratum &above = strata[k - 2], &below = strata[k - 1];
+            const double height = above.bottom - below.top;
             if (height <= (highest ? highest->height : tolerance)) continue;
-            const Vec2 at(x, 0.5 * (spans[k].low + spans[k - 1].high));
-            highest = {at, height, spans[k].soil, spans[k - 1].soil};
+            const Vec2 at(x, 0.5 * (above.bottom + below.top));
+            highest = {at, height, above.region, below.region};
         }
     }
     return highest;

@@ -5,9 +5,13 @@
 #include <array>
 #include <optional>
 
+#include "core/geometry/section.hpp"
 #include "services/import/heal.hpp"
 
 namespace breach::importing {
+
+/// For the questions of core/geometry/section.hpp.
+geometry::Outlines outlines_of(const std::vector<Soil>& soils);
 
 /// Upper border of the soils from left to right; pieces where nothing lies between are left out [m].
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils);

@@ -12,8 +12,6 @@
 
 namespace breach::importing {
 
-using geometry::cross;
-
 namespace {
 
 // ---------------------------------------------------------------- one outline
@@ -23,8 +21,8 @@ double spike_width(const Vec2& before, const Vec2& tip, const Vec2& after) {
     const Vec2 in = before - tip, out = after - tip;
     const double shorter = std::min(in.norm(), out.norm());
     if (in.dot(out) <= 0.0 || shorter == 0.0) return -1.0;
-    const double width = in.norm() < out.norm() ? scene::distance_to_segment(before, tip, after)
-                                                : scene::distance_to_segment(after, tip, before);
+    const double width = in.norm() < out.norm() ? geometry::distance_to_segment(before, tip, after)
+                                                : geometry::distance_to_segment(after, tip, before);
     return width <= 1e-3 * shorter ? width : -1.0;
 }
 
@@ -67,17 +65,14 @@ void drop_spikes(Soil& soil, double tolerance, std::vector<Change>& changes) {
 void clean(Soil& soil, double tolerance, std::vector<Change>& changes) {
     drop_short_sides(soil, tolerance, changes);
     drop_spikes(soil, tolerance, changes);
-    if (soil.ring.size() < 3 || scene::signed_area(soil.ring) >= 0.0) return;
+    if (soil.ring.size() < 3 || geometry::signed_area(soil.ring) >= 0.0) return;
     std::ranges::reverse(soil.ring);
     changes.push_back({"orientation", {soil.name}, soil.ring.front(), 0.0});
 }
 
 std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const double turn = cross(b - a, d - c);
-    if (turn == 0.0) return std::nullopt;
-    const double s = cross(c - a, d - c) / turn, t = cross(c - a, b - a) / turn;
-    if (!(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0)) return std::nullopt;
-    return Vec2(a + s * (b - a));
+    const auto cross = geometry::crossing(a, b, c, d);
+    return cross && cross->is_within() ? std::optional(cross->at) : std::nullopt;
 }
 
 /// Mean width of a slender ring [m].
@@ -85,7 +80,7 @@ double slimness(const Polygon& ring) {
     double length = 0.0;
     for (std::size_t i = 0; i < ring.size(); ++i)
         length += (ring[(i + 1) % ring.size()] - ring[i]).norm();
-    return length > 0.0 ? 2.0 * scene::area(ring) / length : 0.0;
+    return length > 0.0 ? 2.0 * geometry::area(ring) / length : 0.0;
 }
 
 /// Where the outline crosses itself and cuts off more than a sliver.
@@ -148,9 +143,9 @@ void straighten_ends(std::vector<Soil>& soils, double tolerance, std::vector<Cha
 }
 
 bool is_within(const Polygon& ring, const Vec2& place) {
-    if (!scene::contains(ring, place)) return false;
+    if (!geometry::contains(ring, place)) return false;
     for (std::size_t i = 0; i < ring.size(); ++i)
-        if (scene::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]) < 1e-9)
+        if (geometry::distance_to_segment(place, ring[i], ring[(i + 1) % ring.size()]) < 1e-9)
             return false;
     return true;
 }
@@ -248,7 +243,7 @@ Shares shared_out(const Snapped& snapped, const std::vector<Soil>& soils, double
     for (std::size_t f = 0; f < shares.faces.size(); ++f) {
         Claim claim{f, {}};
         for (std::size_t c = 0; c < soils.size(); ++c)
-            if (rings[c].size() >= 3 && scene::contains(rings[c], shares.faces[f].inside))
+            if (rings[c].size() >= 3 && geometry::contains(rings[c], shares.faces[f].inside))
                 claim.owners.push_back(static_cast<int>(c));
         shares.owners.push_back(claim.owners.size() == 1 ? claim.owners.front() : -1);
         if (claim.owners.size() != 1) open.push_back(std::move(claim));
@@ -341,13 +336,13 @@ std::vector<Polygon> pieces_of(const Shares& shares, int owner, bool& holes) {
     holes = false;
     for (const auto& ring : union_of(shares.nodes, faces)) {
         Polygon polygon = polygon_of(shares.nodes, ring);
-        if (scene::signed_area(polygon) > 0.0) {
+        if (geometry::signed_area(polygon) > 0.0) {
             pieces.push_back(std::move(polygon));
         } else {
             holes = true;
         }
     }
-    std::ranges::stable_sort(pieces, std::greater<>(), scene::area);
+    std::ranges::stable_sort(pieces, std::greater<>(), geometry::area);
     return pieces;
 }
 

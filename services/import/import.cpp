@@ -62,16 +62,6 @@ std::string scene_name(const Wish& wish) {
     return name;
 }
 
-scene::Box box_of(const std::vector<Soil>& soils) {
-    scene::Box box{soils.front().ring.front(), soils.front().ring.front()};
-    for (const Soil& soil : soils)
-        for (const Vec2& each : soil.ring) {
-            box.low = box.low.cwiseMin(each);
-            box.high = box.high.cwiseMax(each);
-        }
-    return box;
-}
-
 class Import {
   public:
     explicit Import(const Wish& wish)
@@ -283,7 +273,7 @@ class Import {
 
     bool has_sound_size() {
         if (soils_.empty()) return false;
-        const scene::Box box = box_of(soils_);
+        const geometry::Box box = geometry::extent(outlines_of(soils_));
         const double length = (box.high - box.low).maxCoeff();
         const std::string size = "the section reaches from " + text(box.low) + " to " +
                                  text(box.high) + ": it is " + metres(length) + " long";
@@ -370,7 +360,7 @@ class Import {
 
     /// The section's length and height [m], had the drawing been in these units.
     void tell_size(const std::vector<Soil>& soils) {
-        const scene::Box box = box_of(soils);
+        const geometry::Box box = geometry::extent(outlines_of(soils));
         const Vec2 size = box.high - box.low;
         result_.report["size"] = as_json(size);
         const double own = unit_named(drawing_.unit).value_or(Unit{"m", 1.0}).metres;
@@ -393,7 +383,7 @@ class Import {
     /// Sizes and shapes that are likelier a slip than a section.
     void doubt_shape(const std::vector<Soil>& soils, const std::optional<Slope>& slope) {
         constexpr double least = 3.0, most = 500.0;  // m
-        const scene::Box box = box_of(soils);
+        const geometry::Box box = geometry::extent(outlines_of(soils));
         const Vec2 size = box.high - box.low;
         const double height = slope ? slope->fall() : size.y();
         if (height < least || height > most)
@@ -420,9 +410,9 @@ class Import {
             double after = 0.0;
             for (const Soil& each : soils)
                 if (each.origin.line == before.origin.line && each.layer == before.layer)
-                    after += scene::area(each.ring);
+                    after += geometry::area(each.ring);
             result_.report["areas"].push_back({{"region", before.name},
-                                               {"drawn", scene::area(before.ring)},
+                                               {"drawn", geometry::area(before.ring)},
                                                {"imported", after}});
         }
     }

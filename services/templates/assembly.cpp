@@ -80,14 +80,14 @@ struct Sum {
 /// Adds what lies right of `from`, on a lattice.
 void add(Sum& sum, const Polygon& polygon, const Outline& outline, double density, double from) {
     constexpr int lines = 40;
-    const scene::Box box = scene::bounding_box(polygon);
+    const geometry::Box box = geometry::bounding_box(polygon);
     const Vec2 size = box.high - box.low;
     const double cell = size.x() * size.y() / (lines * lines);
     for (int i = 0; i < lines; ++i) {
         for (int j = 0; j < lines; ++j) {
             const Vec2 share{(i + 0.5) / lines, (j + 0.5) / lines};
             const Vec2 place = box.low + size.cwiseProduct(share);
-            if (place.x() < from || !scene::contains(polygon, place)) continue;
+            if (place.x() < from || !geometry::contains(polygon, place)) continue;
             sum.stress_area += cell * sigma_v0_at(place, outline, density);
             sum.area += cell;
         }
@@ -378,7 +378,7 @@ Json fem_of(const Context& all) {
     double right = outline.left;  // of what can liquefy
     for (const Region& each : layers_of(all)) {
         names.push_back(each.part.name);
-        right = std::max(right, scene::bounding_box(each.part.polygon).high.x());
+        right = std::max(right, geometry::bounding_box(each.part.polygon).high.x());
     }
     const double from = std::min(outline.crest_from, right) - values["height"];
     if (!names.empty())

@@ -6,28 +6,25 @@
 #include <optional>
 
 #include "core/geometry/polyline.hpp"
-#include "core/scene/resolution.hpp"
+#include "core/geometry/thickness.hpp"
 
 namespace breach::templates {
-
-using geometry::cross;
 
 namespace {
 
 /// Where two segments meet; their ends count. Parallel ones meet nowhere.
 std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-    const Vec2 u = b - a, v = d - c;
-    const double det = cross(u, v);
-    if (std::abs(det) < 1e-12 * u.norm() * v.norm()) return std::nullopt;
-    const double s = cross(c - a, v) / det, t = cross(c - a, u) / det;
     const double little = 1e-12;
+    const Vec2 u = b - a, v = d - c;
+    if (std::abs(geometry::cross(u, v)) <= little * u.norm() * v.norm()) return std::nullopt;
+    const auto [at, s, t] = *geometry::crossing(a, b, c, d);
     if (s < -little || s > 1 + little || t < -little || t > 1 + little) return std::nullopt;
-    return Vec2(a + s * u);
+    return at;
 }
 
 /// The line over all of the polygon and beyond.
 Line across(const Line& line, const Polygon& polygon) {
-    const scene::Box box = scene::bounding_box(polygon);
+    const geometry::Box box = geometry::bounding_box(polygon);
     const double margin = 1.0 + (box.high - box.low).norm();
     Line all{{std::min(box.low.x(), line.front().x()) - margin, line.front().y()}};
     all.insert(all.end(), line.begin(), line.end());
@@ -82,8 +79,8 @@ Line way_between(const Vec2& from, const Vec2& to, const Line& line, double near
 double distance_to_border(const Polygon& polygon, const Vec2& place) {
     double least = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < polygon.size(); ++i)
-        least = std::min(least, scene::distance_to_segment(place, polygon[i],
-                                                           polygon[(i + 1) % polygon.size()]));
+        least = std::min(least, geometry::distance_to_segment(place, polygon[i],
+                                                              polygon[(i + 1) % polygon.size()]));
     return least;
 }
 
@@ -91,9 +88,9 @@ double distance_to_border(const Polygon& polygon, const Vec2& place) {
 bool runs_inside(const Polygon& polygon, const Line& way, double little) {
     for (std::size_t k = 1; k < way.size(); ++k) {
         const Vec2 middle = 0.5 * (way[k - 1] + way[k]);
-        if (!scene::contains(polygon, middle) || distance_to_border(polygon, middle) < little)
+        if (!geometry::contains(polygon, middle) || distance_to_border(polygon, middle) < little)
             return false;
-        if (k + 1 < way.size() && !scene::contains(polygon, way[k])) return false;
+        if (k + 1 < way.size() && !geometry::contains(polygon, way[k])) return false;
     }
     return true;
 }
@@ -120,7 +117,7 @@ std::array<Polygon, 2> parted(const Polygon& polygon, std::size_t from, std::siz
 
 /// Depth below the line in the middle of the widest vertical way through the polygon.
 double depth_of(const Polygon& polygon, const Line& line) {
-    const scene::Box box = scene::bounding_box(polygon);
+    const geometry::Box box = geometry::bounding_box(polygon);
     double widest = 0.0, depth = 0.0;
     for (const double share : {0.5, 0.27, 0.73, 0.11, 0.89, 0.03, 0.97}) {
         const double x = box.low.x() + share * (box.high.x() - box.low.x());
@@ -181,7 +178,7 @@ Polygon united(const Polygon& one, const Polygon& other, const Seam& seam) {
 
 /// The number is that of the larger piece.
 Layer joined(const Layer& one, const Layer& other, const Seam& seam) {
-    const bool first = scene::area(one.polygon) > scene::area(other.polygon);
+    const bool first = geometry::area(one.polygon) > geometry::area(other.polygon);
     return {first ? one.number : other.number, united(one.polygon, other.polygon, seam)};
 }
 
@@ -189,7 +186,7 @@ Layer joined(const Layer& one, const Layer& other, const Seam& seam) {
 /// goes to wet soil and dry to dry where it can: a layer that became dry would keep its strength.
 bool absorb_one(std::vector<Layer>& all, double thinnest) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-        if (scene::thickness_of(all[i].polygon) >= thinnest) continue;
+        if (!geometry::thickness_below(thinnest, all[i].polygon)) continue;
         std::optional<Seam> best;
         std::size_t neighbour = i;
         bool best_is_alike = false;
@@ -275,7 +272,7 @@ void share_vertices(std::vector<Part>& parts) {
             for (const Part& other : parts)
                 for (const Vec2& vertex : other.polygon)
                     if (vertex != a && vertex != b &&
-                        scene::distance_to_segment(vertex, a, b) < little &&
+                        geometry::distance_to_segment(vertex, a, b) < little &&
                         (vertex - a).norm() > little && (vertex - b).norm() > little &&
                         std::ranges::find(on_side, vertex) == on_side.end())
                         on_side.push_back(vertex);

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 #include "services/templates/options.hpp"
 
 namespace breach::templates {
 
-using scene::Polygon;
-using scene::Vec2;
+using geometry::Polygon;
+using mechanics::Vec2;
 using Line = std::vector<Vec2>;  ///< ascending in x
 
 struct Part {

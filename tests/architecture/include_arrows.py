@@ -39,13 +39,13 @@ arrows = {
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
     "services/templates": {"core/fault", "core/geometry", "core/motion", "core/scene", "core/words"},
-    "services/estimate": {"core/materials", "core/phases", "core/scene"},
+    "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
     "services/findings": {"core/fault", "core/phases", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
-    "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry"},
+    "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.

@@ -49,24 +49,19 @@ class FemPhase {
         : session_(settings_in(folder_.path()), scene::parse_scene(scene_text, "fuzz")),
           model_(fem::build_model(session_.scene(),
                                   fem::build_mesh(session_.scene(), folder_.path()))) {
-        fem::Analysis analysis(session_, model_);
-        analysis.run();
-        fem::Position in_failure = analysis.position();
-        in_failure.stage = 1;
-        sound_ = fem::checkpoint_archive({.position = in_failure,
-                                          .motion = analysis.motion(),
-                                          .beginning = analysis.beginning(),
-                                          .excess_pressure_max = {},
-                                          .stage_force = analysis.motion().force,
-                                          .newton = {},
-                                          .counts = {},
-                                          .history = analysis.history()},
-                                         session_.scene());
+        fem::Course course(session_, model_);
+        fem::analyse(course);
+        fem::Kept kept = course;
+        kept.position.stage = 1;
+        kept.excess_pressure_max.clear();
+        kept.stage_force = kept.motion.force;
+        kept.counts = {};
+        sound_ = fem::checkpoint_archive(kept, {}, session_.scene());
     }
     const Archive& sound() const { return sound_; }
     void go_on_from(const Archive& archive) {
         exchange::write_archive(session_.output("checkpoint.h5"), archive, session_.provenance());
-        const fem::Analysis resumed(session_, model_);
+        const fem::Course resumed(session_, model_);
     }
 
   private:

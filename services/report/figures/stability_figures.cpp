@@ -1,12 +1,11 @@
 #include "services/report/figures/stability_figures.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
+#include "core/geometry/polyline.hpp"
 #include "core/phases/files.hpp"
 #include "services/report/read/read_results.hpp"
 
@@ -32,36 +31,24 @@ Figure safety_against_depth(const json& result) {
     return {"safety_against_depth", chart};
 }
 
-/// /lem/floor, level beyond its first and last point; -infinity without one [m].
-double floor_at(const json& floor, double x) {
-    if (floor.empty()) return -std::numeric_limits<double>::infinity();
-    const auto point = [&](std::size_t k) { return floor[k].get<std::array<double, 2>>(); };
-    if (x <= point(0)[0]) return point(0)[1];
-    for (std::size_t k = 0; k + 1 < floor.size(); ++k) {
-        const auto [x0, y0] = point(k);
-        const auto [x1, y1] = point(k + 1);
-        if (x <= x1) return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
-    }
-    return point(floor.size() - 1)[1];
-}
-
 /// The surface where its arc would go below the floor: along it, with its kinks. The corners, where the
 /// two meet, lie on the chords.
 Series held_by(const json& floor, const Series& arc) {
     if (floor.empty()) return arc;
+    std::vector<mechanics::Vec2> line;
+    for (const json& each : floor) line.emplace_back(each.at(0), each.at(1));
     Series s{arc.name, {}, {}};
     const auto add = [&](double x, double y) { s.x.push_back(x), s.y.push_back(y); };
     for (std::size_t i = 0; i < arc.x.size(); ++i) {
-        add(arc.x[i], std::max(arc.y[i], floor_at(floor, arc.x[i])));
+        add(arc.x[i], std::max(arc.y[i], geometry::level_at(line, arc.x[i])));
         if (i + 1 == arc.x.size()) break;
         const double x0 = arc.x[i], dx = arc.x[i + 1] - x0, dy = arc.y[i + 1] - arc.y[i];
         std::vector<double> places{0.0, 1.0};  // shares of the chord
-        for (const json& each : floor)
-            if (const double t = (each.at(0).get<double>() - x0) / dx; t > 0.0 && t < 1.0)
-                places.push_back(t);
+        for (const mechanics::Vec2& each : line)
+            if (const double t = (each.x() - x0) / dx; t > 0.0 && t < 1.0) places.push_back(t);
         std::ranges::sort(places);
         const auto above = [&](double t) {
-            return arc.y[i] + t * dy - floor_at(floor, x0 + t * dx);
+            return arc.y[i] + t * dy - geometry::level_at(line, x0 + t * dx);
         };
         for (std::size_t k = 0; k + 1 < places.size(); ++k) {
             const double begin = above(places[k]), end = above(places[k + 1]);
@@ -70,7 +57,7 @@ Series held_by(const json& floor, const Series& arc) {
                 add(x0 + t * dx, arc.y[i] + t * dy);
             }
             if (k + 2 < places.size() && end <= 0.0)
-                add(x0 + places[k + 1] * dx, floor_at(floor, x0 + places[k + 1] * dx));
+                add(x0 + places[k + 1] * dx, geometry::level_at(line, x0 + places[k + 1] * dx));
         }
     }
     return s;

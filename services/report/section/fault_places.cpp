@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/check/section.hpp"
+#include "core/scene/scene.hpp"
 
 namespace breach::report {
 
@@ -40,16 +40,12 @@ bool is_pair(const json& value) {
 
 Vec2 point_of(const json& pair) { return {pair.at(0).get<double>(), pair.at(1).get<double>()}; }
 
-double ground_at(const scene::Scene& scene, double x) {
-    const double aside = 1e-6 * std::max(1.0, std::abs(x));  // borders themselves are at no stratum
-    for (const double each : {x + aside, x - aside}) {
-        const auto strata = check::strata_at(scene, each);
-        if (!strata.empty()) return strata.front().top;
-    }
-    double lowest = 0.0;
-    for (const scene::Region& each : scene.section.regions)
-        for (const Vec2& vertex : each.polygon) lowest = std::min(lowest, vertex.y());
-    return lowest;
+double ground_at(const scene::Section& section, double x) {
+    const double aside = 1e-6 * std::max(1.0, std::abs(x));  // of a vertical face
+    for (const double each : {x + aside, x - aside})
+        if (const double ground = geometry::ground_at(section, each); std::isfinite(ground))
+            return ground;
+    return std::min(0.0, geometry::extent(section).low.y());
 }
 
 /// A number at this place of a text, and where it ends; empty: there is none.
@@ -73,7 +69,7 @@ std::vector<Trace> told_in(const std::string& text, const scene::Scene& scene) {
     if (!told.empty()) return told;
     if (const std::size_t at = text.find("x = "); at != std::string::npos)
         if (const auto x = number_at(text.c_str() + at + 4, &end))
-            told.push_back({Vec2(*x, ground_at(scene, *x))});
+            told.push_back({Vec2(*x, ground_at(scene.section, *x))});
     return told;
 }
 
@@ -120,7 +116,8 @@ class Collector {
     void collect_abscissae(const json& value) {
         const auto add = [&](const json& x) {
             if (x.is_number())
-                traces.push_back({Vec2(x.get<double>(), ground_at(scene_, x.get<double>()))});
+                traces.push_back(
+                    {Vec2(x.get<double>(), ground_at(scene_.section, x.get<double>()))});
         };
         if (!value.is_array()) return add(value);
         for (const json& each : value) add(each);

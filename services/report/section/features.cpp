@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/check/applied_motion.hpp"
-#include "core/check/section.hpp"
 #include "core/motion/plausibility.hpp"
 #include "services/report/chart/axis.hpp"
 #include "services/report/section/strokes.hpp"
@@ -42,7 +41,7 @@ void draw_support(Canvas& canvas, const scene::Scene& scene, const scene::Suppor
     if (length > 0.0) along = (b - a) / length;
     Vec2 out(-along.y(), along.x());
     const Vec2 probe = canvas.panel.back(0.5 * (a + b) + 6.0 * out);
-    if (check::in_soil(scene, probe, 0.0)) out = -out;
+    if (geometry::in_soil(scene.section, probe)) out = -out;
     std::string signs;
     const int count = std::max(1, static_cast<int>(length / 26.0));
     for (int i = 0; i < count; ++i)
@@ -55,9 +54,9 @@ void draw_support(Canvas& canvas, const scene::Scene& scene, const scene::Suppor
 
 void draw_free_field(Canvas& canvas, const scene::Scene& scene) {
     const scene::FreeField& columns = *scene.fem->free_field;
-    const scene::Box soil = check::extent(scene);
+    const geometry::Box soil = geometry::extent(scene.section);
     const auto column = [&](double edge, double direction) {
-        const auto strata = check::strata_at(scene, edge - direction * 1e-6);
+        const auto strata = geometry::strata_at(scene.section, edge - direction * 1e-6);
         if (strata.empty()) return;
         const double far = edge + direction * std::min(columns.width, 24.0 / canvas.panel.scale());
         const Line ring{{edge, strata.back().bottom},
@@ -94,7 +93,7 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
                                std::string("FEM: ") + held.meaning});
     }
     if (fem.base) {
-        const scene::Box soil = check::extent(scene);
+        const geometry::Box soil = geometry::extent(scene.section);
         const double below = 14.0 / canvas.panel.scale();
         canvas.svg << shape(path_of(canvas.panel, {{soil.low.x(), soil.low.y() - below},
                                                    {soil.high.x(), soil.low.y() - below}}),
@@ -162,7 +161,7 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
                                        short_number(mpm.cell_size) + " m",
                                    " stroke-dasharray=\"7 3\""));
     if (!mpm.terrain.empty()) {
-        draw_line(canvas, "terrain", across(canvas.panel, mpm.terrain, check::straight_level_at),
+        draw_line(canvas, "terrain", across(canvas.panel, mpm.terrain, geometry::straight_level_at),
                   brown);
         canvas.keys.push_back(line_key(brown, "MPM: terrain"));
     } else {

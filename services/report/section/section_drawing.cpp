@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check/section.hpp"
 #include "core/scene/schema.hpp"
 #include "services/report/chart/frame.hpp"
 #include "services/report/section/fault_places.hpp"
@@ -34,17 +33,17 @@ std::vector<MarkedFault> marked(const Draft& draft) {
     return marks;
 }
 
-void extend(scene::Box& box, const Vec2& place) {
+void extend(geometry::Box& box, const Vec2& place) {
     box.low = box.low.cwiseMin(place);
     box.high = box.high.cwiseMax(place);
 }
 
-std::optional<scene::Box> box_around(const std::vector<const Trace*>& traces) {
-    std::optional<scene::Box> box;
+std::optional<geometry::Box> box_around(const std::vector<const Trace*>& traces) {
+    std::optional<geometry::Box> box;
     for (const Trace* trace : traces)
         for (const Vec2& each : *trace) {
             if (!each.allFinite()) continue;
-            if (!box) box = scene::Box{each, each};
+            if (!box) box = geometry::Box{each, each};
             extend(*box, each);
         }
     return box;
@@ -52,15 +51,15 @@ std::optional<scene::Box> box_around(const std::vector<const Trace*>& traces) {
 
 /// The section and, not much farther away, what is wrong with it; without a sound region, what is
 /// wrong.
-scene::Box world_of(const scene::Scene& scene, const std::vector<MarkedFault>& marks) {
+geometry::Box world_of(const scene::Scene& scene, const std::vector<MarkedFault>& marks) {
     std::vector<const Trace*> polygons, places;
     for (const scene::Region& each : scene.section.regions) polygons.push_back(&each.polygon);
     for (const MarkedFault& each : marks)
         for (const Trace& trace : each.places) places.push_back(&trace);
-    std::optional<scene::Box> box = box_around(polygons);
+    std::optional<geometry::Box> box = box_around(polygons);
     if (!box) return box_around(places).value();
     const Vec2 near = Vec2::Constant(0.25 * (box->high - box->low).maxCoeff());
-    const scene::Box limit{box->low - near, box->high + near};
+    const geometry::Box limit{box->low - near, box->high + near};
     for (const Trace* trace : places)
         for (const Vec2& each : *trace)
             if (each.allFinite()) extend(*box, each.cwiseMax(limit.low).cwiseMin(limit.high));
@@ -143,27 +142,27 @@ void add_material_keys(Canvas& canvas, const scene::Scene& scene) {
 }
 
 /// Whether all of the label lies in the polygon.
-bool holds(const scene::Polygon& polygon, const Panel& panel, const Room& room) {
+bool holds(const geometry::Polygon& polygon, const Panel& panel, const Room& room) {
     for (const double across : {0.0, 0.25, 0.5, 0.75, 1.0})
         for (const double y : {room.top, 0.5 * (room.top + room.bottom), room.bottom})
-            if (!scene::contains(polygon,
-                                 panel.back({room.left + across * (room.right - room.left), y})))
+            if (!geometry::contains(polygon,
+                                    panel.back({room.left + across * (room.right - room.left), y})))
                 return false;
     return true;
 }
 
-double depth_inside(const scene::Polygon& polygon, const Vec2& place) {
+double depth_inside(const geometry::Polygon& polygon, const Vec2& place) {
     double least = INFINITY;
-    for (const check::Side& side : check::sides_of(polygon))
-        least = std::min(least, scene::distance_to_segment(place, side.a, side.b));
-    return scene::contains(polygon, place) ? least : -least;
+    for (const geometry::Side& side : geometry::sides_of(polygon))
+        least = std::min(least, geometry::distance_to_segment(place, side.a, side.b));
+    return geometry::contains(polygon, place) ? least : -least;
 }
 
 /// Lattice places of the region's box on the page: the deepest inside the polygon first, of those that
 /// are deep enough the nearest to its middle [px].
-std::vector<Vec2> places_inside(const scene::Polygon& polygon, const Panel& panel) {
+std::vector<Vec2> places_inside(const geometry::Polygon& polygon, const Panel& panel) {
     constexpr int columns = 24, rows = 10;
-    const scene::Box box = scene::bounding_box(polygon);
+    const geometry::Box box = geometry::bounding_box(polygon);
     std::vector<std::pair<double, Vec2>> places;
     for (int i = 1; i < columns; ++i)
         for (int j = 1; j < rows; ++j) {
@@ -187,7 +186,7 @@ void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& 
     const auto in_soil = [&](const Room& room) {
         for (const double x : {room.left, 0.5 * (room.left + room.right), room.right})
             for (const double y : {room.top, room.bottom})
-                if (check::in_soil(scene, canvas.panel.back({x, y}), 0.0)) return true;
+                if (geometry::in_soil(scene.section, canvas.panel.back({x, y}))) return true;
         return false;
     };
     for (const double away : {26.0, 42.0, 60.0, 80.0, 110.0, 150.0})
@@ -392,7 +391,7 @@ void put(std::ostream& svg, const Canvas& canvas, const std::string& name) {
         << canvas.over.str();
 }
 
-Canvas canvas_of(const scene::Box& world, double top, double most_height) {
+Canvas canvas_of(const geometry::Box& world, double top, double most_height) {
     Panel panel(world, top, most_height);
     const Room room = panel.room();
     return {panel, Labels({room.left + 2, room.top + 2, room.right - 2, room.bottom - 2})};
@@ -418,7 +417,8 @@ Canvas section_of(const Draft& draft, const Additions& additions,
 
 Canvas runout_of(const scene::Scene& scene, double top) {
     const scene::Mpm& mpm = *scene.mpm;
-    const scene::Box world{{mpm.domain_x[0], mpm.domain_y[0]}, {mpm.domain_x[1], mpm.domain_y[1]}};
+    const geometry::Box world{{mpm.domain_x[0], mpm.domain_y[0]},
+                              {mpm.domain_x[1], mpm.domain_y[1]}};
     Canvas canvas = canvas_of(world, top, 280);
     draw_regions(canvas, scene, Regions::outlined);
     draw_grid(canvas, scene);

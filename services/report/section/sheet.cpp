@@ -16,7 +16,7 @@ constexpr double beside = 28, above = 46, below = 24;  // free border [px]
 
 }  // namespace
 
-Panel::Panel(const scene::Box& world, double top, double most_height)
+Panel::Panel(const geometry::Box& world, double top, double most_height)
     : left_(page_left), top_(top) {
     const Vec2 size = (world.high - world.low).cwiseMax(1e-6);
     scale_ =
@@ -36,11 +36,11 @@ Vec2 Panel::back(const Vec2& pixel) const {
     return low_ + Vec2(pixel.x() - left_, top_ + height_ - pixel.y()) / scale_;
 }
 
-scene::Box Panel::world() const { return {low_, low_ + Vec2(width_, height_) / scale_}; }
+geometry::Box Panel::world() const { return {low_, low_ + Vec2(width_, height_) / scale_}; }
 
 Vec2 Panel::inside(const Vec2& place) const {
     const Vec2 margin = Vec2::Constant(12.0 / scale_);
-    const scene::Box shown = world();
+    const geometry::Box shown = world();
     return place.cwiseMax(shown.low + margin).cwiseMin(shown.high - margin);
 }
 
@@ -57,7 +57,7 @@ std::string path_of(const Panel& panel, const std::vector<Vec2>& line) {
 
 void draw_axes(std::ostream& svg, const Panel& panel) {
     const Room room = panel.room();
-    const scene::Box world = panel.world();
+    const geometry::Box world = panel.world();
     const auto ticks = [](double low, double high, double pixels) {
         return linear_ticks({low, high}, std::clamp(pixels / 80.0, 1.5, 10.0));
     };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 namespace breach::report {
 
@@ -28,7 +28,7 @@ struct Room {
 class Panel {
   public:
     /// As large as fits into the given pixels, at least `least_width` wide; its top is at `top`.
-    Panel(const scene::Box& world, double top, double most_height);
+    Panel(const geometry::Box& world, double top, double most_height);
 
     Room room() const { return {left_, top_, left_ + width_, top_ + height_}; }
     double scale() const { return scale_; }  ///< [px/m]
@@ -36,7 +36,7 @@ class Panel {
     Vec2 at(const Vec2& place) const;
     Vec2 back(const Vec2& pixel) const;
     /// The world that the panel shows [m].
-    scene::Box world() const;
+    geometry::Box world() const;
     bool shows(const Vec2& place) const {
         return room().holds({at(place).x(), at(place).y(), at(place).x(), at(place).y()});
     }

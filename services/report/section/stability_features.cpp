@@ -3,7 +3,6 @@
 
 #include "services/report/chart/axis.hpp"
 #include "services/report/section/features.hpp"
-#include "services/report/section/ground_line.hpp"
 #include "services/report/section/strokes.hpp"
 
 namespace breach::report {
@@ -13,7 +12,7 @@ namespace {
 void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<double, 2>& range,
                 const std::string& name, const std::string& colour) {
     const double lift = 5.0 / canvas.panel.scale();
-    for (Line ground : ground_between(scene, range[0], range[1])) {
+    for (Line ground : geometry::ground_between(scene.section, range[0], range[1])) {
         for (Vec2& each : ground) each.y() += lift;
         canvas.svg << shape(path_of(canvas.panel, ground),
                             stroke(colour, 5, "class=\"search\" stroke-opacity=\"0.85\""));
@@ -29,16 +28,16 @@ void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
     if (layers.empty()) return;
     const std::string dash = " stroke-dasharray=\"6 3\"";
     for (std::size_t i = 0; i < layers.size(); ++i) {
-        scene::Polygon part = scene.section.regions[layers[i].region].polygon;
+        geometry::Polygon part = scene.section.regions[layers[i].region].polygon;
         if (layers[i].levels) {
             const auto [low, high] = *layers[i].levels;
-            part = scene::clipped_left(part, {0.0, low}, {1.0, low});
-            part = scene::clipped_left(part, {1.0, high}, {0.0, high});
+            part = geometry::clipped_left(part, {0.0, low}, {1.0, low});
+            part = geometry::clipped_left(part, {1.0, high}, {0.0, high});
         }
         if (part.empty()) continue;
         canvas.svg << shape(path_of(canvas.panel, part) + "Z",
                             stroke(dark_red, 1.3, "class=\"liquefaction\"" + dash));
-        const scene::Box box = scene::bounding_box(part);
+        const geometry::Box box = geometry::bounding_box(part);
         const Vec2 inside = canvas.panel.inside(0.5 * (box.low + box.high));
         canvas.labels.write(canvas.over, canvas.panel.at(inside), std::to_string(i + 1), dark_red);
     }
@@ -54,11 +53,11 @@ void draw_crack(Canvas& canvas, const scene::Scene& scene) {
     const scene::Lem& lem = *scene.lem;
     if (!lem.tension_crack) return;
     const scene::TensionCrack& crack = *lem.tension_crack;
-    const scene::Box world = canvas.panel.world();
+    const geometry::Box world = canvas.panel.world();
     const auto [from, to] =
         lem.search ? lem.search->entry : std::array<double, 2>{world.low.x(), world.high.x()};
     const std::string dash = " stroke-dasharray=\"1 3\"";
-    for (Line foot : ground_between(scene, from, to)) {
+    for (Line foot : geometry::ground_between(scene.section, from, to)) {
         for (Vec2& each : foot)
             each.y() = crack.depth ? each.y() - *crack.depth : std::min(each.y(), *crack.level);
         draw_line(canvas, "crack", foot, dark_red, dash);
@@ -83,7 +82,7 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
         draw_range(canvas, scene, lem.search->entry, "upper ends", "#d55e00");
         draw_range(canvas, scene, lem.search->exit, "lower ends", violet);
         if (lem.search->lowest_level) {
-            const scene::Box world = canvas.panel.world();
+            const geometry::Box world = canvas.panel.world();
             const double y = *lem.search->lowest_level;
             const std::string dash = " stroke-dasharray=\"2 4\"";
             draw_line(canvas, "search", {{world.low.x(), y}, {world.high.x(), y}}, violet, dash);
@@ -103,14 +102,14 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
         canvas.keys.push_back(line_key(violet, "LEM: given surface"));
     }
     if (!lem.floor.empty()) {
-        draw_line(canvas, "floor", across(canvas.panel, lem.floor, check::level_at), brown,
+        draw_line(canvas, "floor", across(canvas.panel, lem.floor, geometry::level_at), brown,
                   " stroke-dasharray=\"8 3 2 3\"");
         canvas.keys.push_back(
             line_key(brown, "LEM: floor of all surfaces", " stroke-dasharray=\"8 3 2 3\""));
     }
     draw_loads(canvas, scene, lem.surcharge, "LEM");
     for (const scene::LineLoad& each : lem.line_loads) {
-        const auto ground = ground_between(scene, each.x - 0.01, each.x + 0.01);
+        const auto ground = geometry::ground_between(scene.section, each.x - 0.01, each.x + 0.01);
         if (ground.empty()) continue;
         const Vec2 at = canvas.panel.at(ground.front().front());
         canvas.svg << shape("M" + px(at.x()) + " " + px(at.y() - 26) + "v24m-4 -6l4 6l4 -6",

@@ -4,7 +4,6 @@
 
 #include "services/report/chart/axis.hpp"
 #include "services/report/chart/frame.hpp"
-#include "services/report/section/ground_line.hpp"
 
 namespace breach::report {
 
@@ -34,8 +33,8 @@ std::string place(const Vec2& at) {
 }
 
 /// The line over the whole panel, as it goes on beyond its ends.
-Line across(const Panel& panel, const Line& line, check::Level level) {
-    const scene::Box world = panel.world();
+Line across(const Panel& panel, const Line& line, geometry::Level level) {
+    const geometry::Box world = panel.world();
     Line whole{{world.low.x(), level(line, world.low.x())}};
     for (const Vec2& each : line)
         if (each.x() > world.low.x() && each.x() < world.high.x()) whole.push_back(each);
@@ -46,14 +45,15 @@ Line across(const Panel& panel, const Line& line, check::Level level) {
 void draw_loads(Canvas& canvas, const scene::Scene& scene,
                 const std::vector<scene::Surcharge>& loads, const std::string& of) {
     for (const scene::Surcharge& each : loads) {
-        for (const Line& ground : ground_between(scene, each.from, each.to)) {
+        for (const Line& ground : geometry::ground_between(scene.section, each.from, each.to)) {
             const Vec2 a = canvas.panel.at(ground.front()), b = canvas.panel.at(ground.back());
             const int arrows = std::max(2, static_cast<int>((b.x() - a.x()) / 14.0));
             std::string path;
             for (int i = 0; i <= arrows; ++i) {
                 const double x = a.x() + (b.x() - a.x()) * i / arrows;
                 const double y =
-                    canvas.panel.at({0.0, check::level_at(ground, canvas.panel.back({x, 0.0}).x())})
+                    canvas.panel
+                        .at({0.0, geometry::level_at(ground, canvas.panel.back({x, 0.0}).x())})
                         .y();
                 path += "M" + px(x) + " " + px(y - 16) + "V" + px(y - 2) + "m-3 -4l3 4l3 -4";
             }

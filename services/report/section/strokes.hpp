@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/check/section.hpp"
 #include "core/scene/scene.hpp"
 #include "services/report/section/canvas.hpp"
 
@@ -28,7 +27,7 @@ Key line_key(const std::string& colour, const std::string& text, const std::stri
 /// "(12, 4)"
 std::string place(const Vec2& at);
 /// The line over the whole panel, as it goes on beyond its ends.
-Line across(const Panel& panel, const Line& line, check::Level level);
+Line across(const Panel& panel, const Line& line, geometry::Level level);
 /// Arrows on the ground; `of` is the phase that they act in.
 void draw_loads(Canvas& canvas, const scene::Scene& scene,
                 const std::vector<scene::Surcharge>& loads, const std::string& of);

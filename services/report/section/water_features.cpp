@@ -2,7 +2,6 @@
 
 #include "services/report/chart/axis.hpp"
 #include "services/report/section/features.hpp"
-#include "services/report/section/ground_line.hpp"
 #include "services/report/section/strokes.hpp"
 
 namespace breach::report {
@@ -13,8 +12,9 @@ bool same(const Line& a, const Line& b) { return a == b; }
 
 /// Where a line of water stands above the ground.
 void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) {
-    const scene::Box world = canvas.panel.world();
-    for (const Line& ground : ground_between(scene, world.low.x(), world.high.x())) {
+    const geometry::Box world = canvas.panel.world();
+    for (const Line& ground :
+         geometry::ground_between(scene.section, world.low.x(), world.high.x())) {
         std::vector<double> xs;
         for (const Vec2& each : ground) xs.push_back(each.x());
         for (const Vec2& each : line)
@@ -23,8 +23,8 @@ void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) 
         std::ranges::sort(xs);
         Line surface, bed;
         for (const double x : xs) {
-            const double soil = check::level_at(ground, x);
-            surface.push_back({x, std::max(check::level_at(line, x), soil)});
+            const double soil = geometry::level_at(ground, x);
+            surface.push_back({x, std::max(geometry::level_at(line, x), soil)});
             bed.push_back({x, soil});
         }
         std::ranges::reverse(bed);
@@ -80,7 +80,7 @@ void draw_water(Canvas& canvas, const scene::Scene& scene) {
                                           " stroke-dasharray=\"3 3\""};
     for (std::size_t i = 0; i < found.size(); ++i) {
         const std::string& dash = dashes[std::min(i, dashes.size() - 1)];
-        draw_line(canvas, "phreatic", across(canvas.panel, found[i].line, check::level_at), blue,
+        draw_line(canvas, "phreatic", across(canvas.panel, found[i].line, geometry::level_at), blue,
                   dash);
         canvas.keys.push_back(line_key(blue, "phreatic line (" + found[i].of + ")", dash));
     }
@@ -88,7 +88,7 @@ void draw_water(Canvas& canvas, const scene::Scene& scene) {
     if (!scene.lem || scene.lem->piezometric_lines.empty()) return;
     const std::string dash = " stroke-dasharray=\"1 4\" stroke-linecap=\"round\"";
     for (const scene::Water& each : scene.lem->piezometric_lines)
-        draw_line(canvas, "piezometric", across(canvas.panel, each.line, check::level_at), blue,
+        draw_line(canvas, "piezometric", across(canvas.panel, each.line, geometry::level_at), blue,
                   dash);
     canvas.keys.push_back(line_key(blue, "piezometric line (LEM)", dash));
 }

@@ -8,7 +8,7 @@
 namespace breach::fem {
 namespace {
 
-scene::Region block(const std::string& name, scene::Polygon polygon,
+scene::Region block(const std::string& name, geometry::Polygon polygon,
                     std::array<std::size_t, 4> corners, std::array<int, 2> divisions) {
     scene::Region region;
     region.name = name;
@@ -85,7 +85,7 @@ std::vector<fault::Fault> faults_of_mesh(const scene::Region& region) {
 }
 
 TEST(Block, ThatFoldsOntoItselfIsRefusedWithTheElementThatDoes) {
-    const scene::Polygon dart{{0, 0}, {4, 0}, {0.8, 0.8}, {0, 4}};
+    const geometry::Polygon dart{{0, 0}, {4, 0}, {0.8, 0.8}, {0, 4}};
     const auto faults = faults_of_mesh(block("dart", dart, {0, 1, 2, 3}, {4, 4}));
     ASSERT_EQ(faults.size(), 1u);
     EXPECT_EQ(faults[0].pointer, "/section/regions/1/mesh");
@@ -93,10 +93,10 @@ TEST(Block, ThatFoldsOntoItselfIsRefusedWithTheElementThatDoes) {
         EXPECT_NE(faults[0].cause.find(part), std::string::npos) << faults[0].cause;
     EXPECT_FALSE(faults[0].remedy.empty());
     // Its corners in the order that crosses two sides: a bow tie.
-    const scene::Polygon tie{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+    const geometry::Polygon tie{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     EXPECT_EQ(faults_of_mesh(block("tie", tie, {0, 1, 2, 3}, {1, 1})).size(), 1u);
     // One element whose two corners are one place.
-    const scene::Polygon folded{{0, 0}, {1, 0}, {1, 0}, {0, 1}};
+    const geometry::Polygon folded{{0, 0}, {1, 0}, {1, 0}, {0, 1}};
     EXPECT_EQ(faults_of_mesh(block("triangle", folded, {0, 1, 2, 3}, {1, 1})).size(), 1u);
     EXPECT_TRUE(faults_of_mesh(square("sound", 0, 0, {2, 2})).empty());
 }

@@ -78,7 +78,7 @@ TEST(Dxf, ArcsAreRefusedUnlessAToleranceIsTold) {
     ASSERT_EQ(flat.outlines.size(), 2u);
     for (const Outline& each : flat.outlines) {
         // Chords lie inside: the area is short of the circle's by at most its length times the sagitta.
-        const double area = scene::signed_area(each.points), whole = 4.0 * std::numbers::pi;
+        const double area = geometry::signed_area(each.points), whole = 4.0 * std::numbers::pi;
         EXPECT_LT(area, whole);
         EXPECT_GT(area, whole - 4.0 * std::numbers::pi * 0.001);
     }

@@ -55,7 +55,7 @@ TEST(Heal, ASectionThatFitsIsLeftAsItIs) {
     const std::vector<Soil> drawn = section();
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_EQ(result.soils[i].ring.size(), drawn[i].ring.size());
-        EXPECT_EQ(scene::area(result.soils[i].ring), scene::area(drawn[i].ring));
+        EXPECT_EQ(geometry::area(result.soils[i].ring), geometry::area(drawn[i].ring));
     }
 }
 
@@ -70,8 +70,8 @@ TEST(Heal, VerticesOffByACentimetreComeToTheTopologyOfTheExactSection) {
         EXPECT_EQ(meetings(result.soils), exact) << seed;
         ASSERT_EQ(result.soils.size(), 3u);
         for (std::size_t i = 0; i < 3; ++i) {
-            const double before = scene::area(section()[i].ring);
-            EXPECT_NEAR(scene::area(result.soils[i].ring) / before, 1.0, 1e-3) << seed;
+            const double before = geometry::area(section()[i].ring);
+            EXPECT_NEAR(geometry::area(result.soils[i].ring) / before, 1.0, 1e-3) << seed;
         }
         for (const Change& each : result.changes) EXPECT_LE(each.size, 0.05) << each.kind;
     }
@@ -117,9 +117,9 @@ TEST(Heal, TwiceDrawnVerticesSpikesAndSenseAreMendedAndTold) {
     EXPECT_EQ(count(result, "spike"), 1u);
     EXPECT_EQ(count(result, "orientation"), 1u);
     EXPECT_GE(count(result, "short_side"), 2u);
-    EXPECT_GT(scene::signed_area(result.soils[0].ring), 0.0);
-    EXPECT_NEAR(scene::area(result.soils[0].ring), 50.0, 0.01);
-    EXPECT_EQ(scene::defect(result.soils[0].ring), std::nullopt);
+    EXPECT_GT(geometry::signed_area(result.soils[0].ring), 0.0);
+    EXPECT_NEAR(geometry::area(result.soils[0].ring), 50.0, 0.01);
+    EXPECT_EQ(geometry::defect(result.soils[0].ring), std::nullopt);
 }
 
 TEST(Heal, ARegionWithinAnotherIsAnOverlapAndARingAroundItIsRefused) {
@@ -147,7 +147,7 @@ TEST(Heal, AWedgeThatThinsOutKeepsItsTip) {
                                   soil("above", {{0, 1}, {50, 0}, {60, 0}, {60, 4}, {0, 4}})},
                                  0.05);
     ASSERT_EQ(test::told(result.faults), "");
-    EXPECT_DOUBLE_EQ(scene::area(result.soils[1].ring), 25.0);
+    EXPECT_DOUBLE_EQ(geometry::area(result.soils[1].ring), 25.0);
     EXPECT_TRUE(result.changes.empty());
 }
 

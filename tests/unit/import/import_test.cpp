@@ -43,10 +43,10 @@ const json& region(const json& scene, const std::string& name) {
 }
 
 double area_of(const json& region) {
-    scene::Polygon ring;
+    geometry::Polygon ring;
     for (const json& each : region.at("polygon")) ring.emplace_back(each[0], each[1]);
     ring.pop_back();
-    return scene::area(ring);
+    return geometry::area(ring);
 }
 
 /// Length of element sides that belong to one element only [m].

@@ -25,14 +25,15 @@ inline materials::Law sand(double E, double nu, double c, double phi_deg) {
                                   .softening = {}};
 }
 
-inline scene::Polygon rectangle(double x0, double y0, double x1, double y1) {
+inline geometry::Polygon rectangle(double x0, double y0, double x1, double y1) {
     return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
 }
 
 /// One soil in one polygon on a grid [0, width] x [0, height] with a frictionless floor, open ends
 /// and no gravity.
 inline scene::Scene one_soil(const materials::Law& law, double density,
-                             const scene::Polygon& polygon, double h, double width, double height) {
+                             const geometry::Polygon& polygon, double h, double width,
+                             double height) {
     scene::Scene scene{};
     scene.name = "test";
     scene.gravity = 0.0;

@@ -12,8 +12,8 @@ namespace {
 
 TEST(Fill, AreaAndCentroidAreThePolygons) {
     // A slope whose edges cut cells at every angle, and a re-entrant corner.
-    const scene::Polygon slope{{0.3, 0.0}, {9.7, 0.0}, {6.1, 3.3}, {4.0, 1.7}, {1.9, 4.4}};
-    const double area = scene::area(slope);
+    const geometry::Polygon slope{{0.3, 0.0}, {9.7, 0.0}, {6.1, 3.3}, {4.0, 1.7}, {1.9, 4.4}};
+    const double area = geometry::area(slope);
     for (const int points : {1, 2, 3, 4}) {
         scene::Scene scene = one_soil(elastic(1e6, 0.3), 2000.0, slope, 1.0, 10.0, 6.0);
         scene.mpm->fill_points = points;
@@ -24,14 +24,14 @@ TEST(Fill, AreaAndCentroidAreThePolygons) {
         double mass = 0.0;
         for (std::size_t p = 0; p < filled.state.size(); ++p) {
             mass += filled.state.mass[p];
-            EXPECT_TRUE(scene::contains(slope, filled.state.position[p], 0.3));
+            EXPECT_TRUE(geometry::contains(slope, filled.state.position[p], 0.3));
         }
         EXPECT_NEAR(mass, 2000.0 * area, 1e-9 * mass);
     }
 }
 
 TEST(Fill, LevelsAreCheckedAgainstThePolygon) {
-    const scene::Polygon pond{{0.0, 0.0}, {8.0, 0.0}, {8.0, 5.88}, {0.0, 5.88}};
+    const geometry::Polygon pond{{0.0, 0.0}, {8.0, 0.0}, {8.0, 5.88}, {0.0, 5.88}};
     const scene::Scene scene = one_soil(elastic(1e6, 0.3), 1000.0, pond, 1.0, 8.0, 8.0);
     FilledSection filled = fill_section(scene);
     EXPECT_NEAR(filled.regions.at(0).polygon_level, 2.94, 1e-12);
@@ -56,7 +56,7 @@ TEST(Fill, CellsOfARectangleGetTheirGaussLikeLattice) {
 }
 
 TEST(Fill, AMovedLatticeIsTheSameSoil) {
-    const scene::Polygon slope{{0.3, 0.0}, {9.7, 0.0}, {6.1, 3.3}, {4.0, 1.7}, {1.9, 4.4}};
+    const geometry::Polygon slope{{0.3, 0.0}, {9.7, 0.0}, {6.1, 3.3}, {4.0, 1.7}, {1.9, 4.4}};
     scene::Scene scene = one_soil(elastic(1e6, 0.3), 2000.0, slope, 1.0, 10.0, 6.0);
     const auto plain = fill_section(scene);
     scene.mpm->fill_shift = {0.3, 0.8};

@@ -150,7 +150,7 @@ TEST(Scene, TakesClockwiseRingsAndKeepsTheMeaningOfDivisions) {
         json::parse("[[0,0],[0,20],[10,20],[10,0],[0,0]]");
     document["section"]["regions"][0]["mesh"]["divisions"] = json::parse("[20, 10]");
     const scene::Region region = scene::parse_scene(document.dump(), "test").section.regions.at(0);
-    EXPECT_GT(scene::signed_area(region.polygon), 0.0);
+    EXPECT_GT(geometry::signed_area(region.polygon), 0.0);
     const auto side = [&](int k) {
         return (region.polygon[region.corners[k + 1]] - region.polygon[region.corners[k]]).norm();
     };

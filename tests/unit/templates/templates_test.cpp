@@ -10,15 +10,15 @@
 #include <random>
 
 #include "core/check/check.hpp"
+#include "core/geometry/polygon.hpp"
 #include "core/geometry/polyline.hpp"
-#include "core/scene/polygon.hpp"
 #include "tests/folder.hpp"
 
 namespace breach::templates {
 namespace {
 
+using mechanics::Vec2;
 using nlohmann::json;
-using scene::Vec2;
 using Line = std::vector<Vec2>;
 using Numbers = std::function<double(const std::string&)>;
 
@@ -64,8 +64,8 @@ Line asked_ground(const std::string& name, const Numbers& option, bool beach) {
     return up;
 }
 
-scene::Polygon ring_of(const json& polygon) {
-    scene::Polygon ring;
+geometry::Polygon ring_of(const json& polygon) {
+    geometry::Polygon ring;
     for (std::size_t i = 0; i + 1 < polygon.size(); ++i)
         ring.emplace_back(polygon[i][0].get<double>(), polygon[i][1].get<double>());
     return ring;
@@ -88,12 +88,12 @@ void hold_section(const std::string& name, const Made& made) {
     const Numbers option = [&](const std::string& key) { return options.at(key).get<double>(); };
     const bool dam = name.ends_with("_dam");
     const Line ground = asked_ground(name, option, dam);
-    std::vector<scene::Polygon> rings;
+    std::vector<geometry::Polygon> rings;
     double area = 0.0, left = 0.0, highest = 0.0;
     const json scene = made.scene;
     for (const json& each : scene.at("section").at("regions")) {
         rings.push_back(ring_of(each.at("polygon")));
-        EXPECT_FALSE(scene::defect(rings.back())) << *scene::defect(rings.back());
+        EXPECT_FALSE(geometry::defect(rings.back())) << *geometry::defect(rings.back());
         for (const Vec2& vertex : rings.back()) {
             left = std::min(left, vertex.x());
             highest = std::max(highest, vertex.y());
@@ -101,14 +101,14 @@ void hold_section(const std::string& name, const Made& made) {
                 EXPECT_LE(vertex.y(), geometry::straight_level_at(ground, vertex.x()) + 2e-3);
             }
         }
-        if (each.at("name") != "foundation") area += scene::area(rings.back());
+        if (each.at("name") != "foundation") area += geometry::area(rings.back());
     }
     const double length = 1e-3 * (std::abs(left) + highest);
     EXPECT_NEAR(highest, option("height"), 1e-3);
     EXPECT_NEAR(area, area_below(ground, left), 5.0 * length);
     for (std::size_t i = 0; i < rings.size(); ++i)
         for (std::size_t k = i + 1; k < rings.size(); ++k)
-            EXPECT_LT(scene::overlap_area(rings[i], rings[k]), length);
+            EXPECT_LT(geometry::overlap_area(rings[i], rings[k]), length);
 }
 
 /// As it is written by `breach new` and read by every phase.

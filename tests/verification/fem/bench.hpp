@@ -73,30 +73,30 @@ inline process::SessionSettings settings_for(const std::filesystem::path& output
     return settings;
 }
 
-/// Runs all stages of a scene in a folder of its own and keeps the analysis.
+/// Runs all stages of a scene in a folder of its own and keeps its course.
 class Run {
   public:
     explicit Run(const json& scene)
         : session_(settings_for(folder_.path()), parse(scene)),
-          analysis_(session_, model_of(session_.scene())) {}
-    const Analysis& go() {
-        analysis_.run();
-        return analysis_;
+          course_(session_, model_of(session_.scene())) {}
+    const Course& go() {
+        analyse(course_);
+        return course_;
     }
-    const Analysis& analysis() const { return analysis_; }
+    const Course& course() const { return course_; }
     const std::filesystem::path& folder() const { return folder_.path(); }
     process::Session& session() { return session_; }
 
   private:
     Folder folder_;
     process::Session session_;
-    Analysis analysis_;
+    Course course_;
 };
 
 /// Displacement of the node next to x [m].
-inline Vec2 u_at(const Analysis& done, const Vec2& x) {
-    const std::size_t node = nearest_node(done.model().mesh, x);
-    return done.motion().u.segment<2>(static_cast<Eigen::Index>(2 * node));
+inline Vec2 u_at(const Course& done, const Vec2& x) {
+    const std::size_t node = nearest_node(done.model.mesh, x);
+    return done.motion.u.segment<2>(static_cast<Eigen::Index>(2 * node));
 }
 
 /// Where a scene is refused, by reading, checking or building; empty: nowhere.

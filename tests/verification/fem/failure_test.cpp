@@ -29,7 +29,7 @@ TEST(Failure, EnergyIsAccountedFor) {
     scene["fem"]["newmark_beta"] = 0.25;  // no numerical damping: nothing may be lost
     scene["fem"]["newmark_gamma"] = 0.5;
     bench::Run run(scene);
-    const auto& history = run.go().history();
+    const auto& history = run.go().history;
     double worst = 0.0, largest = 0.0;
     for (const Reading& r : history) {
         largest = std::max(largest, r.kinetic_energy);
@@ -45,18 +45,18 @@ TEST(Failure, EnergyIsAccountedFor) {
 
 TEST(Failure, VerticalMomentumFollowsWeightAndReactions) {
     bench::Run run(unsupported_column());
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     // Newton's second law of the whole body: sum m a = weight + reactions, where the reaction of a
     // held dof is its internal force minus its own load.
-    const Model& model = a.model();
+    const Model& model = a.model;
     const Unknowns unknowns = model.unknowns(Solved::motion_and_pressure);
     double inertia = 0.0, weight = 0.0, reactions = 0.0;
     for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
         const auto d = static_cast<Eigen::Index>(2 * i + 1);
-        inertia += model.mass[d] * a.motion().a[d];
+        inertia += model.mass[d] * a.motion.a[d];
         weight += model.external_force[d];
         if (unknowns.of_dof[2 * i + 1] < 0) {
-            reactions += a.motion().force[d] - model.external_force[d];
+            reactions += a.motion.force[d] - model.external_force[d];
         }
     }
     expect_error("sum of m a against weight and reactions",
@@ -91,7 +91,7 @@ TEST(Failure, ScarcelyDependsOnTheTimeStep) {
         json scene = unsupported_column();
         scene["fem"]["stages"][1]["time_step"] = k == 0 ? 0.005 : 0.00125;
         bench::Run run(scene);
-        crest[k] = run.go().history().back().crest_displacement;
+        crest[k] = run.go().history.back().crest_displacement;
     }
     std::printf("    crest after 0.5 s: %.5f and %.5f m\n", crest[0], crest[1]);
     // Perfect plasticity and gamma 0.6 (first order): a per cent for a fourfold step.
@@ -104,7 +104,7 @@ TEST(Failure, AnEntangledMeshIsARegularEndWithTheLastGoodState) {
     scene["fem"]["snapshot_times"] = {0.25, 0.5};
     bench::Run run(scene);
     run.go();
-    const double last = run.analysis().position().time;
+    const double last = run.course().position.time;
     const json& facts = run.session().result();
     ASSERT_EQ(facts.at("ended"), "entangled") << "the column should have entangled its mesh";
     EXPECT_EQ(facts.at("end_time"), last);
@@ -135,7 +135,7 @@ TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
     EXPECT_EQ(known.at("went_on"), false);
     scene["fem"]["at_entanglement"] = "go_on";
     bench::Run run(scene);
-    const std::vector<Reading>& history = run.go().history();
+    const std::vector<Reading>& history = run.go().history;
     json facts = run.session().result();
     EXPECT_EQ(facts.at("ended"), "complete");
     EXPECT_EQ(facts.at("end_time"), 1.5);
@@ -171,7 +171,7 @@ TEST(KineticEnergy, OverItsPeakFallsToNothingWhereTheMotionDies) {
     scene["fem"]["rayleigh_mass"] = damping;
     scene["fem"]["telemetry_interval"] = 0;
     bench::Run run(scene);
-    const std::vector<Reading>& history = run.go().history();
+    const std::vector<Reading>& history = run.go().history;
     double peak = 0.0, wrong = 0.0;
     for (const Reading& each : history) {
         peak = std::max(peak, each.kinetic_energy);

@@ -63,16 +63,16 @@ struct Compared {
 
 Compared compared(const json& scene) {
     bench::Run run(scene);
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     const lem::Model slices = lem::make_model(run.session().scene());
-    const Mesh& mesh = a.model().mesh;
+    const Mesh& mesh = a.model.mesh;
     const exchange::MeshSnapshot state =
-        snapshot_of(run.session().scene(), a.model(), a.motion(), a.beginning(), {}, 0.0, 0);
+        snapshot_of(run.session().scene(), a.model, a.motion, a.beginning, {}, 0.0, 0);
     Compared result{0.0, {}};
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
         result.largest_u = std::max(
             result.largest_u, std::abs(state.pore_pressure[i] - lem_at(slices, mesh.nodes[i]).u));
-    const std::size_t points = a.model().points_per_element;
+    const std::size_t points = a.model.points_per_element;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         const Corners x = corners_of(mesh, e);
         const double low = x.row(1).minCoeff(), height = x.row(1).maxCoeff() - low;
@@ -85,7 +85,7 @@ Compared compared(const json& scene) {
         }
         for (std::size_t g = 0; g < points; ++g)
             here.fem_sigma_v0 -=
-                a.motion().points[e * points + g].sigma[1] / static_cast<double>(points);
+                a.motion.points[e * points + g].sigma[1] / static_cast<double>(points);
         result.elements.push_back(here);
     }
     return result;

@@ -216,7 +216,7 @@ TEST(ActiveWall, OfTheSceneThatStoppedGoesOnTo2Centimetres) {
                      5e-3);
         if (soil.phi == 31 && soil.c == 0)
             expect_error("... and over Rankine's", most / soil.rankine() - 1.0, 0.01);
-        EXPECT_LT(run.analysis().position().step, 600) << what;
+        EXPECT_LT(run.course().position.step, 600) << what;
     }
 }
 

@@ -98,28 +98,28 @@ TEST(NorSandInTheMesh, AWetColumnCollapsesAtThePeakOfThePoint) {
         bench::Run run(wet_column(kind, 0.05));
         const Element point(kind);
         const double s_u = norsand::undrained_strength(point.law().ready, point.memory(), 1e9).peak;
-        const Analysis& done = run.go();
+        const Course& done = run.go();
         double past = 0.0;
-        for (const Reading& reading : done.history()) {
+        for (const Reading& reading : done.history) {
             if (reading.past_peak_share < 0.5) continue;
             past = reading.time;
             break;
         }
-        EXPECT_GT(done.history().back().kinetic_energy, 1e3);
-        const Reading& first = done.history().front();
+        EXPECT_GT(done.history.back().kinetic_energy, 1e3);
+        const Reading& first = done.history.front();
         for (const double ratio : {first.strength_ratio_avg, first.strength_ratio_min})
             expect_error(kind + ": s_u over sigma'_v0 of the column against the point's",
                          std::abs(ratio * 100e3 / s_u - 1.0), 1e-3);
         // Between two looks the last one stands.
-        EXPECT_EQ(done.history().at(1).strength_ratio_avg, first.strength_ratio_avg);
-        EXPECT_LT(done.history().back().strength_ratio_min, 0.9 * first.strength_ratio_min);
+        EXPECT_EQ(done.history.at(1).strength_ratio_avg, first.strength_ratio_avg);
+        EXPECT_LT(done.history.back().strength_ratio_min, 0.9 * first.strength_ratio_min);
         // Half the difference of the stresses that the stage lets act.
         const double load = 0.5 * (30e3 + 70e3 * past / 20.0);
         expect_error(kind + ": load on a wet column past its peak, over s_u",
                      std::abs(load / s_u - 1.0), 0.02);
     }
     bench::Run standing(wet_column("ssp", -0.05));
-    EXPECT_LT(standing.go().history().back().kinetic_energy, 1.0);
+    EXPECT_LT(standing.go().history.back().kinetic_energy, 1.0);
 }
 
 TEST(NorSandInTheMesh, AnElementCompressedUndrainedGivesThePointsPath) {
@@ -162,11 +162,11 @@ TEST(NorSandInTheMesh, MemorySurvivesACheckpointToTheLastBit) {
     Element element("ssp");
     ASSERT_EQ(element.strain(5e-4, 0.0), Geometry::sound);
     const scene::Scene scene = bench::parse(element_scene("ssp"));
-    Checkpoint checkpoint;
-    checkpoint.motion = element.now;
-    const auto archive = checkpoint_archive(checkpoint, scene);
+    Kept kept;
+    kept.motion = element.now;
+    const auto archive = checkpoint_archive(kept, {}, scene);
     Element resumed("ssp");
-    resumed.now = checkpoint_from(archive, scene, resumed.model, "memory").motion;
+    resumed.now = checkpoint_from(archive, scene, resumed.model, "memory").kept.motion;
     resumed.trial = resumed.now;
     for (Element* each : {&element, &resumed}) {
         ASSERT_EQ(each->strain(8e-4, 0.0), Geometry::sound);
@@ -193,7 +193,7 @@ TEST(NorSandInTheMesh, LevelGroundRestsWithThePsiThatTheSceneGives) {
                                          {"name", "rest"},
                                          {"duration", 0.05},
                                          {"time_step", 5e-3}}}}));
-        const Reading last = run.go().history().back();
+        const Reading last = run.go().history.back();
         expect_error("displacement of level ground at rest [m]", last.crest_displacement, 1e-6);
         expect_error("psi at rest", std::abs(last.psi_avg - psi_0), 1e-4);
         EXPECT_GT(last.instability_ratio_max, 0.2);

@@ -148,30 +148,28 @@ INSTANTIATE_TEST_SUITE_P(Kinematics, Resume,
 
 /// As it is written in the dynamic stage.
 exchange::Archive archive_in_failure(bench::Run& run) {
-    const Analysis& a = run.analysis();
-    Position position = a.position();
-    position.stage = 1;
-    return checkpoint_archive({position, a.motion(), a.beginning(), {}, {}, {}, {}, a.history()},
-                              run.session().scene());
+    Kept kept = run.course();
+    kept.position.stage = 1;
+    return checkpoint_archive(kept, {}, run.session().scene());
 }
 
 TEST(Checkpoint, OfAnotherSceneIsRefused) {
     bench::Run run(failing_column(scene::Kinematics::small_strain));
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     exchange::Archive archive = archive_in_failure(run);
     json other = failing_column(scene::Kinematics::small_strain);
     other["materials"]["soil"]["density"] = 1999;
-    EXPECT_THROW(checkpoint_from(archive, bench::parse(other), a.model(), "checkpoint.h5"),
+    EXPECT_THROW(checkpoint_from(archive, bench::parse(other), a.model, "checkpoint.h5"),
                  fault::BadInput);
-    EXPECT_NO_THROW(checkpoint_from(archive, run.session().scene(), a.model(), "checkpoint.h5"));
+    EXPECT_NO_THROW(checkpoint_from(archive, run.session().scene(), a.model, "checkpoint.h5"));
 }
 
 TEST(Checkpoint, WithArraysThatAreNotTheMeshsIsRefused) {
     bench::Run run(failing_column(scene::Kinematics::small_strain));
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     const exchange::Archive sound = archive_in_failure(run);
     const auto expect_refused = [&](const exchange::Archive& changed, const std::string& name) {
-        EXPECT_THROW(checkpoint_from(changed, run.session().scene(), a.model(), "checkpoint.h5"),
+        EXPECT_THROW(checkpoint_from(changed, run.session().scene(), a.model, "checkpoint.h5"),
                      fault::BadInput)
             << name;
     };
@@ -207,7 +205,7 @@ TEST(Checkpoint, WithTheMatrixOfAnotherMeshIsRefused) {
     exchange::write_archive(file, archive, run.session().provenance());
     process::Session session(bench::settings_for(run.folder(), process::Start::resume),
                              bench::parse(scene));
-    EXPECT_THROW(Analysis(session, bench::model_of(session.scene())), fault::BadInput);
+    EXPECT_THROW(Course(session, bench::model_of(session.scene())), fault::BadInput);
 }
 
 TEST(Checkpoint, KeepsTheFlagsOfTheWay) {
@@ -222,7 +220,7 @@ TEST(Checkpoint, KeepsTheFlagsOfTheWay) {
         exchange::write_archive(file, archive, run.session().provenance());
         process::Session session(bench::settings_for(run.folder(), process::Start::resume),
                                  bench::parse(scene));
-        Analysis(session, bench::model_of(session.scene()));
+        Course(session, bench::model_of(session.scene()));
         return session.flags();
     };
     const std::vector<fault::Flag> own = resumed(before);

@@ -157,8 +157,8 @@ Shaken shaken_column(double dt, const char* compat, const char* integration = "f
     json scene = scene_of(folder.path() / "motion.csv", dt, compat);
     scene["fem"]["water"]["pressure_integration"] = integration;
     process::Session session(bench::settings_for(folder.path()), bench::parse(scene));
-    Analysis analysis(session, tied(bench::model_of(session.scene())));
-    analysis.run();
+    Course course(session, tied(bench::model_of(session.scene())));
+    analyse(course);
     Shaken result;
     for (int i = 1; i <= 4 * seconds; ++i) {
         const auto read = exchange::read_mesh_snapshot(folder.path() / snapshot_name(0.25 * i));

@@ -103,11 +103,11 @@ TEST(SandInTheMesh, MemorySurvivesACheckpointToTheLastBit) {
         ASSERT_EQ(sheared.shear(3e-3), Geometry::sound);
         ASSERT_EQ(sheared.shear(-2e-3), Geometry::sound);
         const scene::Scene scene = bench::parse(element_scene("ssp", kinematics));
-        Checkpoint checkpoint;
-        checkpoint.motion = sheared.now;
-        const auto archive = checkpoint_archive(checkpoint, scene);
+        Kept kept;
+        kept.motion = sheared.now;
+        const auto archive = checkpoint_archive(kept, {}, scene);
         ShearedElement resumed("ssp", kinematics);
-        resumed.now = checkpoint_from(archive, scene, resumed.model, "memory").motion;
+        resumed.now = checkpoint_from(archive, scene, resumed.model, "memory").kept.motion;
         resumed.trial = resumed.now;
         for (ShearedElement* each : {&sheared, &resumed}) {
             ASSERT_EQ(each->shear(1e-3), Geometry::sound);
@@ -138,13 +138,13 @@ TEST(SandInTheMesh, AZoneWithoutMemoryStandsBesideItInTheCheckpoint) {
         {{"name", "base"}, {"from", {-1, 0}}, {"to", {1, 0}}, {"fixes", "xy"}}};
     const scene::Scene parsed = bench::parse(scene);
     const Model model = bench::model_of(parsed);
-    Checkpoint checkpoint;
-    checkpoint.motion = at_rest(model);
-    for (State& point : checkpoint.motion.points) point.sigma = Voigt(-50e3, -100e3, -50e3, 0.0);
-    begin_memory(model, checkpoint.motion);
-    EXPECT_EQ(points_with_memory(model, checkpoint.motion), 4u) << "of eight";
-    auto archive = checkpoint_archive(checkpoint, parsed);
-    const Motion back = checkpoint_from(archive, parsed, model, "memory").motion;
+    Kept kept;
+    kept.motion = at_rest(model);
+    for (State& point : kept.motion.points) point.sigma = Voigt(-50e3, -100e3, -50e3, 0.0);
+    begin_memory(model, kept.motion);
+    EXPECT_EQ(points_with_memory(model, kept.motion), 4u) << "of eight";
+    auto archive = checkpoint_archive(kept, {}, parsed);
+    const Motion back = checkpoint_from(archive, parsed, model, "memory").kept.motion;
     EXPECT_EQ(points_with_memory(model, back), 4u);
     archive.reals["memory"].push_back(0.0);
     EXPECT_THROW(checkpoint_from(archive, parsed, model, "memory"), fault::BadInput);

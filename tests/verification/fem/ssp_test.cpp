@@ -146,12 +146,12 @@ TEST(SspQuad, PassesThePatchTestToRoundOff) {
 TEST(SspQuad, CarriesGravityLikeTheFullQuad) {
     const bench::Block block{.width = 4.0, .height = 10.0, .columns = 4, .rows = 10};
     bench::Run run(ssp_scene(block));
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     double error = 0.0;
-    for (std::size_t e = 0; e < a.model().mesh.quads.size(); ++e) {
-        const double depth = 10.0 - corners_of(a.model().mesh, e).row(1).mean();
+    for (std::size_t e = 0; e < a.model.mesh.quads.size(); ++e) {
+        const double depth = 10.0 - corners_of(a.model.mesh, e).row(1).mean();
         const double sigma_v = -2000.0 * 9.81 * depth;
-        error = std::max(error, std::abs(a.motion().points[e].sigma[1] / sigma_v - 1.0));
+        error = std::max(error, std::abs(a.motion.points[e].sigma[1] / sigma_v - 1.0));
     }
     expect_error("vertical stress at the centres, exact for a column", error, 1e-6);
 }

@@ -66,11 +66,11 @@ TEST(NodeForces, WhatTheBaseBearsIsTheForce) {
     supports.erase(0);
     scene["thickness"] = 2.0;
     bench::Run run(scene);
-    const Analysis& done = run.go();
+    const Course& done = run.go();
     Vec2 borne = Vec2::Zero();
-    for (std::size_t i = 0; i < done.model().mesh.nodes.size(); ++i)
-        if (done.model().mesh.nodes[i].y() == 0.0)
-            borne += done.motion().force.segment<2>(static_cast<Eigen::Index>(2 * i));
+    for (std::size_t i = 0; i < done.model.mesh.nodes.size(); ++i)
+        if (done.model.mesh.nodes[i].y() == 0.0)
+            borne += done.motion.force.segment<2>(static_cast<Eigen::Index>(2 * i));
     expect_error("what the base bears, over the force",
                  (borne / 2.0 - Vec2(-10e3, 4e3)).norm() / 10e3, 1e-8);
 }
@@ -136,9 +136,9 @@ TEST(Creep, AFreeBlockTakesTheStrainWithoutStress) {
             element);
         scene["fem"]["force_tolerance"] = 1e-12;
         bench::Run run(scene);
-        const Analysis& done = run.go();
+        const Course& done = run.go();
         double worst = 0.0;
-        for (const State& point : done.motion().points)
+        for (const State& point : done.motion.points)
             worst = std::max({worst, std::abs(point.sigma[1] + q), std::abs(point.sigma[0]),
                               std::abs(point.sigma[3])});
         expect_error(element + ": stress that creep leaves in a free block, over its own",
@@ -164,7 +164,7 @@ TEST(Creep, AHeldBlockTakesStressInstead) {
         scene["fem"]["element"] = element;
         bench::Run run(scene);
         const double lost = 2.0 * G * principal(epsilon_q);
-        for (const State& point : run.go().motion().points) {
+        for (const State& point : run.go().motion.points) {
             expect_error(element + ": stress of a held block that creeps, along its creep",
                          std::abs((point.sigma[1] - (-M * 1e-3 + lost)) / (M * 1e-3)), 1e-8);
             expect_error(
@@ -226,15 +226,13 @@ TEST(Creep, OfAPillarTriggersALooseColumnBesideIt) {
     const json much{{"pillar", 0.025}};
     bench::Run loose(pillar_and_column(0.05, much)), dense(pillar_and_column(-0.05, much)),
         without(pillar_and_column(0.05, nullptr));
-    const auto past_peak = [](bench::Run& run) {
-        return run.go().history().front().past_peak_share;
-    };
+    const auto past_peak = [](bench::Run& run) { return run.go().history.front().past_peak_share; };
     EXPECT_GT(past_peak(loose), 0.8) << "the pillar's load went to the column";
     EXPECT_EQ(past_peak(dense), 0.0);
     EXPECT_EQ(past_peak(without), 0.0);
     // At mid-height: sigma'_yy was 100 kPa.
     const auto held = [](const bench::Run& run) {
-        return -run.analysis().motion().points.at(9).sigma[1];
+        return -run.course().motion.points.at(9).sigma[1];
     };
     EXPECT_LT(held(loose), 60e3);
     EXPECT_GT(held(dense), 100e3);
@@ -277,7 +275,7 @@ json two_soils(double S_low, double S_top, const json& S_of_stage) {
 
 Eigen::VectorXd end_of(const json& scene) {
     bench::Run run(scene);
-    return run.go().motion().u;
+    return run.go().motion.u;
 }
 
 TEST(SofteningByRegion, IsThatOfAMaterialOfItsOwnToTheLastBit) {

@@ -42,7 +42,7 @@ TEST(Stages, ALiftOnAnElasticColumnSettlesItAsTheClosedFormSays) {
             column({static_stage("gravity"), static_stage("lift", {{"activate", {"top"}}})});
         before["fem"]["element"] = kind;
         bench::Run run(before);
-        const Analysis& done = run.go();
+        const Course& done = run.go();
         // Its own weight, rho g H^2 / 2 M, then 2 m of soil on 4 m.
         const double own = rho * g * 16.0 / (2.0 * M), lift = rho * g * 2.0 * 4.0 / M;
         expect_error(kind + ": settlement of the ground under a lift",
@@ -68,14 +68,14 @@ TEST(Stages, ALiftThatClosesAGapBearsOnBothSidesAndTheBase) {
     scene["fem"]["supports"] = {
         {{"name", "base"}, {"from", {0, 0}}, {"to", {3, 0}}, {"fixes", "xy"}}};
     bench::Run run(scene);
-    const Analysis& done = run.go();
+    const Course& done = run.go();
     const auto force_of = [&](std::size_t node) {
-        return done.motion().force.segment<2>(static_cast<Eigen::Index>(2 * node));
+        return done.motion.force.segment<2>(static_cast<Eigen::Index>(2 * node));
     };
     // The base's own nodes bear their share of the weight as well, which is no force of the soil.
     Vec2 borne = Vec2::Zero();
-    for (std::size_t i = 0; i < done.model().mesh.nodes.size(); ++i) {
-        if (done.model().mesh.nodes[i].y() == 0.0) continue;
+    for (std::size_t i = 0; i < done.model.mesh.nodes.size(); ++i) {
+        if (done.model.mesh.nodes[i].y() == 0.0) continue;
         borne += force_of(i);
     }
     const double above = 3.0 * rho * g * (4.0 - 0.5);
@@ -93,16 +93,15 @@ TEST(Stages, AnExcavationHeavesTheGroundAsTheClosedFormSays) {
     for (const int steps : {1, 4}) {
         bench::Run run(column({static_stage("gravity"),
                                static_stage("dig", {{"remove", {"top"}}, {"load_steps", steps}})}));
-        const Analysis& done = run.go();
+        const Course& done = run.go();
         const double left = rho * g * 16.0 / (2.0 * M);  // of the 4 m that are there alone
         expect_error("settlement that an excavation leaves",
                      std::abs(-u_at(done, {1, 4}).y() / left - 1.0), 1e-8);
-        const State& lowest = done.motion().points.at(0);
+        const State& lowest = done.motion.points.at(0);
         EXPECT_LT(lowest.sigma[1], 0.0);
-        for (std::size_t e = 0; e < done.model().mesh.quads.size(); ++e) {
-            if (!done.model().is_absent(e)) continue;
-            EXPECT_EQ(done.motion().points.at(e * done.model().points_per_element).sigma.norm(),
-                      0.0);
+        for (std::size_t e = 0; e < done.model.mesh.quads.size(); ++e) {
+            if (!done.model.is_absent(e)) continue;
+            EXPECT_EQ(done.motion.points.at(e * done.model.points_per_element).sigma.norm(), 0.0);
         }
     }
 }
@@ -129,7 +128,7 @@ TEST(Stages, ASupportThatLetsGoGivesItsReactionBack) {
     scene["gravity"] = 0.0;
     scene["fem"]["supports"][2]["fixes"] = "y";
     bench::Run run(scene);
-    const Analysis& done = run.go();
+    const Course& done = run.go();
     // sigma_xx = 0 in plane strain: epsilon_yy = -(1 - nu^2) q / E, epsilon_xx = nu (1 + nu) q / E.
     expect_error("settlement without the wall",
                  std::abs(-u_at(done, {1, 6}).y() / ((1 - nu * nu) * 50e3 * 6.0 / E) - 1.0), 1e-8);
@@ -168,11 +167,11 @@ TEST(Stages, ARisingPhreaticLineHeavesTheGroundAsTheClosedFormSays) {
     // A pond of 3 m loads what its water lifts: the soil is as under water up to the ground.
     bench::Run pond(
         column_with_water({static_stage("gravity"), static_stage("pond", line_at(9))}, 1.0));
-    const Analysis& under = pond.go();
+    const Course& under = pond.go();
     expect_error("settlement of the ground below a pond",
                  std::abs(-u_at(under, {1, 6}).y() / (own - heave(6)) - 1.0), 1e-8);
     expect_error("pore pressure at the base below a pond",
-                 std::abs(under.motion().p[0] / (of_water * 9.0) - 1.0), 1e-12);
+                 std::abs(under.motion.p[0] / (of_water * 9.0) - 1.0), 1e-12);
 }
 
 // Pore pressure is hydrostatic all along: what is placed or dug below water weighs what it is
@@ -190,7 +189,7 @@ TEST(Stages, SoilPlacedOrDugBelowWaterCountsByItsBuoyantWeight) {
         };
         for (const double level : {5.0, 7.0}) {
             bench::Run run(column_of(lift, level));
-            const Analysis& done = run.go();
+            const Course& done = run.go();
             const std::string where = kind + ", water at " + std::to_string(level).substr(0, 1);
             const double below = std::min(level, 6.0) - 4.0;  // of the lift
             const double load = (rho * 2.0 - rho_w * below) * g;
@@ -198,24 +197,24 @@ TEST(Stages, SoilPlacedOrDugBelowWaterCountsByItsBuoyantWeight) {
                          std::abs(-u_at(done, {1, 4}).y() / (own + load * 4.0 / M) - 1.0), 1e-8);
             // The lowest row of the lift.
             const double expected = load - 0.5 * of_soil;
-            const std::size_t points = done.model().points_per_element;
+            const std::size_t points = done.model.points_per_element;
             double mean = 0.0;
             for (std::size_t p = 4 * points; p < 5 * points; ++p)
-                mean -= done.motion().points.at(p).sigma[1] / static_cast<double>(points);
+                mean -= done.motion.points.at(p).sigma[1] / static_cast<double>(points);
             expect_error(where + ": effective stress in it", std::abs(mean / expected - 1.0), 1e-8);
             expect_error(where + ": pore pressure at the base",
-                         std::abs(done.motion().p[0] / (rho_w * g * level) - 1.0), 1e-12);
+                         std::abs(done.motion.p[0] / (rho_w * g * level) - 1.0), 1e-12);
         }
         // What the water was under its own weight it stays: below 4 m it fills the pit.
         for (const double level : {5.0, 7.0}) {
             bench::Run dug(column_of(dig, level));
-            const Analysis& done = dug.go();
+            const Course& done = dug.go();
             const std::string where = kind + ", water at " + std::to_string(level).substr(0, 1);
             expect_error(where + ": settlement that an excavation below water leaves",
                          std::abs(-u_at(done, {1, 4}).y() / own - 1.0), 1e-8);
-            const std::size_t ground = nearest_node(done.model().mesh, {1, 4});
+            const std::size_t ground = nearest_node(done.model.mesh, {1, 4});
             expect_error(where + ": pore pressure on the new ground",
-                         std::abs(done.motion().p[static_cast<Eigen::Index>(ground)] /
+                         std::abs(done.motion.p[static_cast<Eigen::Index>(ground)] /
                                       (rho_w * g * (level - 4.0)) -
                                   1.0),
                          1e-12);
@@ -236,13 +235,13 @@ TEST(Stages, SoilThatIsGoneCountsInNoShareOfSoftenedSoil) {
                                            {"c_residual_kPa", 5},
                                            {"phi_residual_deg", 20}}}};
     bench::Run run(scene);
-    const Analysis& done = run.go();
-    Motion motion = done.motion();
+    const Course& done = run.go();
+    Motion motion = done.motion;
     for (std::size_t p = 0; p < motion.points.size(); ++p)
-        if (!done.model().is_absent(p / done.model().points_per_element))
+        if (!done.model.is_absent(p / done.model.points_per_element))
             motion.points[p].epsilon_q = 0.05;
     const Reading reading =
-        read_monitors(done.model(), motion, distortion_of(done.model(), motion, 0.1), 0, 0.1);
+        read_monitors(done.model, motion, distortion_of(done.model, motion, 0.1), 0, 0.1);
     EXPECT_NEAR(reading.softened_share, 1.0, 1e-12);
 }
 
@@ -277,14 +276,14 @@ class BesideAPit : public testing::Test {
     static std::size_t bank(std::size_t column, std::size_t row) { return 16 + 4 * row + column; }
 
     bench::Run run_{scene()};
-    const Analysis& done_ = run_.go();
-    const Model& model_ = done_.model();
+    const Course& done_ = run_.go();
+    const Model& model_ = done_.model;
     const Watch watch_{scene::fem_of(run_.session().scene()), model_};
 };
 
 TEST_F(BesideAPit, WhatIsGoneHasNoPartInTheStressBeforeTheMotion) {
-    const Beginning beginning = beginning_of(model_, done_.motion());
-    const auto sigma_v = [&](std::size_t e) { return -done_.motion().points.at(e).sigma[1]; };
+    const Beginning beginning = beginning_of(model_, done_.motion);
+    const auto sigma_v = [&](std::size_t e) { return -done_.motion.points.at(e).sigma[1]; };
     const auto at = [&](const Vec2& x) {
         return beginning.sigma_v0.at(nearest_node(model_.mesh, x));
     };
@@ -294,8 +293,8 @@ TEST_F(BesideAPit, WhatIsGoneHasNoPartInTheStressBeforeTheMotion) {
 }
 
 TEST_F(BesideAPit, TheExcessPressureIsThatOfASnapshotsReader) {
-    const Beginning beginning = beginning_of(model_, done_.motion());
-    Motion motion = done_.motion();
+    const Beginning beginning = beginning_of(model_, done_.motion);
+    Motion motion = done_.motion;
     for (Eigen::Index i = 0; i < motion.p.size(); ++i)
         motion.p[i] += 1e3 * static_cast<double>(i % 7);
     const auto snapshot =
@@ -353,14 +352,14 @@ TEST(Stages, NorSandAnswersAPhreaticRiseDrained) {
     scene["materials"]["soil"]["law"] = bench::cj1(0.03);
     scene["fem"]["force_tolerance"] = 1e-8;
     bench::Run run(scene);
-    const Analysis& done = run.go();
+    const Course& done = run.go();
     for (const std::size_t e : {0u, 3u}) {
         const double y = 0.5 + static_cast<double>(e);
         const double expected = -(rho * g * (6.0 - y) - 1000.0 * g * (5.0 - y));
         expect_error("sigma'_yy in NorSand after the rise, row " + std::to_string(e),
-                     std::abs(done.motion().points.at(e).sigma[1] / expected - 1.0), 1e-5);
+                     std::abs(done.motion.points.at(e).sigma[1] / expected - 1.0), 1e-5);
     }
-    ASSERT_EQ(done.motion().memory.size(), 2u);
+    ASSERT_EQ(done.motion.memory.size(), 2u);
 }
 
 /// A free-standing column of clay (c = 20 kPa, phi = 0) that carries 2 c = 40 kPa, under `pressure`.
@@ -388,21 +387,21 @@ json clay_column(double pressure_kPa, double ramp) {
 
 TEST(Stages, AStaticLimitPointIsAnEventAndTheFailureRunsInMotion) {
     bench::Run failing(clay_column(80.0, 0.01));
-    const Analysis& failed = failing.go();
+    const Course& failed = failing.go();
     const json limit = failing.session().result()["geostatic"]["load"]["limit_point"];
     ASSERT_TRUE(limit.is_number());
     expect_error("load at the limit point, over 2 c / q", std::abs(limit.get<double>() / 0.5 - 1.0),
                  2e-3);
     // Failure is growing kinetic energy: 40 kPa push what nothing carries.
-    const auto& rows = failed.history();
+    const auto& rows = failed.history;
     ASSERT_GT(rows.size(), 4u);
     EXPECT_GT(rows.back().kinetic_energy, 4.0 * rows.at(rows.size() / 2).kinetic_energy);
     EXPECT_GT(rows.back().kinetic_energy, 1.0);
 
     bench::Run standing(clay_column(30.0, 0.01));
-    const Analysis& stood = standing.go();
+    const Course& stood = standing.go();
     EXPECT_FALSE(standing.session().result()["geostatic"]["load"].contains("limit_point"));
-    EXPECT_LT(stood.history().back().kinetic_energy, 1e-6 * rows.back().kinetic_energy);
+    EXPECT_LT(stood.history.back().kinetic_energy, 1e-6 * rows.back().kinetic_energy);
 }
 
 /// A column of clay, elastic, that a load sets in motion; `later` follows after 0.1 s.
@@ -434,9 +433,9 @@ TEST(Stages, ARampWithholdsNothingOfAMotionThatGoesOn) {
     const auto end_of = [](json scene, const json& damping) {
         scene["fem"].update(damping);
         bench::Run run(scene);
-        const Analysis& done = run.go();
-        EXPECT_GT(done.motion().v.lpNorm<Eigen::Infinity>(), 0.01) << "it moves";
-        return done.motion().u;
+        const Course& done = run.go();
+        EXPECT_GT(done.motion.v.lpNorm<Eigen::Infinity>(), 0.01) << "it moves";
+        return done.motion.u;
     };
     for (const json& damping : {json::object(), json{{"rayleigh_mass", 2.0}},
                                 json{{"rayleigh_mass", 1.0}, {"rayleigh_stiffness", 2e-3}}}) {
@@ -454,7 +453,7 @@ TEST(Stages, ARampWithholdsNothingOfAMotionThatGoesOn) {
 TEST(Stages, ARampOfALoadInAMotionIsTheSumOfBoth) {
     const auto end_of = [](const json& scene) {
         bench::Run run(scene);
-        return run.go().motion().u;
+        return run.go().motion.u;
     };
     const auto load = [](double pressure_kPa) {
         return json{{"ramp", 0.1},
@@ -474,9 +473,9 @@ TEST(Stages, ARampOfALoadInAMotionIsTheSumOfBoth) {
 TEST(Stages, NodesOfSoilRemovedInMotionStayAndAreNotReported) {
     bench::Run run(falling_column(
         0.05, later_stage(0.3, {{"remove", {"top"}}, {"surcharge", json::array()}})));
-    const Analysis& done = run.go();
-    const std::size_t gone = nearest_node(done.model().mesh, {1, 6});
-    EXPECT_EQ(done.motion().v.segment<2>(static_cast<Eigen::Index>(2 * gone)).norm(), 0.0);
+    const Course& done = run.go();
+    const std::size_t gone = nearest_node(done.model.mesh, {1, 6});
+    EXPECT_EQ(done.motion.v.segment<2>(static_cast<Eigen::Index>(2 * gone)).norm(), 0.0);
     double largest = 0.0;
     for (const double y : {1.0, 2.0, 3.0, 4.0})
         for (const double x : {0.0, 1.0}) largest = std::max(largest, u_at(done, {x, y}).norm());
@@ -486,7 +485,7 @@ TEST(Stages, NodesOfSoilRemovedInMotionStayAndAreNotReported) {
 
 TEST(Stages, AnUnchangedSceneHasNothingAbsent) {
     bench::Run run(column(json::array({static_stage("gravity")})));
-    EXPECT_TRUE(run.go().model().absent.empty());
+    EXPECT_TRUE(run.go().model.absent.empty());
 }
 
 TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {

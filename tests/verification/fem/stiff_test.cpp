@@ -14,10 +14,10 @@ json dynamic_stage(double duration, double time_step) {
         {"type", "dynamic"}, {"name", "wait"}, {"duration", duration}, {"time_step", time_step}};
 }
 
-double settlement_error(const Analysis& a, double H, double M) {
+double settlement_error(const Course& a, double H, double M) {
     const double exact = -2000.0 * 9.81 * H * H / (2.0 * M);
-    const auto top = static_cast<Eigen::Index>(2 * nearest_node(a.model().mesh, {0.0, H}) + 1);
-    return std::abs(a.motion().u[top] / exact - 1.0);
+    const auto top = static_cast<Eigen::Index>(2 * nearest_node(a.model.mesh, {0.0, H}) + 1);
+    return std::abs(a.motion.u[top] / exact - 1.0);
 }
 
 TEST(Extreme, PoissonsRatioOf04999GivesTheExactColumn) {
@@ -31,7 +31,7 @@ TEST(Extreme, PoissonsRatioOf04999GivesTheExactColumn) {
 TEST(Extreme, AspectRatioOfAHundredGivesTheExactColumn) {
     bench::Run run(bench::scene_of({.width = 100.0, .height = 10.0, .columns = 5, .rows = 50}));
     const double M = mechanics::Elasticity{20e6, 0.3}.constrained_modulus();
-    const Quality quality = quality_of(run.analysis().model().mesh);
+    const Quality quality = quality_of(run.course().model.mesh);
     EXPECT_NEAR(quality.largest_aspect, 100.0, 1e-6);
     expect_error("settlement at aspect ratio 1:100", settlement_error(run.go(), 10.0, M), 1e-9);
 }
@@ -79,12 +79,12 @@ TEST(Extreme, ASlidingSlopeWithHugeStepsCutsThemOrStopsClearly) {
     try {
         run.go();
         std::printf("    reached the end with %lld cut steps\n",
-                    static_cast<long long>(run.analysis().position().cut_steps));
+                    static_cast<long long>(run.course().position.cut_steps));
     } catch (const fault::Breakdown& breakdown) {
         std::printf("    %s\n", breakdown.what());
     }
-    EXPECT_TRUE(run.analysis().motion().u.allFinite());
-    EXPECT_LT(run.analysis().motion().u.lpNorm<Eigen::Infinity>(), 5.0);
+    EXPECT_TRUE(run.course().motion.u.allFinite());
+    EXPECT_LT(run.course().motion.u.lpNorm<Eigen::Infinity>(), 5.0);
 }
 
 TEST(Extreme, NothingDriftsInALongRest) {
@@ -93,15 +93,15 @@ TEST(Extreme, NothingDriftsInALongRest) {
         {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 1}, {"phi_deg", 30}};
     block.stages.push_back(dynamic_stage(100.0, 0.1));
     bench::Run run(bench::scene_of(block));
-    const Analysis& a = run.go();
-    expect_error("displacement after 100 s without gravity [m]", a.motion().u.norm(), 0.0);
+    const Course& a = run.go();
+    expect_error("displacement after 100 s without gravity [m]", a.motion.u.norm(), 0.0);
     block.gravity = 9.81;
     block.law["phi_deg"] = 35;
     bench::Run heavy(bench::scene_of(block));
     // Newton may leave 1e-6 of the weight out of balance, which is worth 1e-6 of the settlement of
     // 4 cm.
     expect_error("displacement after 100 s in equilibrium [m]",
-                 heavy.go().motion().u.lpNorm<Eigen::Infinity>(), 4e-8);
+                 heavy.go().motion.u.lpNorm<Eigen::Infinity>(), 4e-8);
 }
 
 TEST(Extreme, AHeapThatCannotStandUnderStaticPlasticityStopsClearly) {

@@ -47,20 +47,20 @@ TEST(Undrained, AnElasticColumnIsHeldByItsWaterAndSettlesWhenItDrains) {
                                                         {"surcharge", surcharge(q / 1e3)}})}},
                       element);
         scene["fem"]["force_tolerance"] = 1e-10;
-        const auto settled = [&](const Analysis& done) { return -u_at(done, {1, H}).y(); };
+        const auto settled = [&](const Course& done) { return -u_at(done, {1, H}).y(); };
         bench::Run held(scene);
-        const Analysis& undrained = held.go();
+        const Course& undrained = held.go();
         expect_error(element + ": undrained settlement",
                      std::abs(settled(undrained) / (q * H / (M + K_w)) - 1.0), 1e-6);
         expect_error(element + ": excess pore pressure",
-                     (undrained.motion().p.array() / (q * K_w / (M + K_w)) - 1.0).abs().maxCoeff(),
+                     (undrained.motion.p.array() / (q * K_w / (M + K_w)) - 1.0).abs().maxCoeff(),
                      1e-6);
         scene["fem"]["stages"].push_back(static_stage("drain", {{"load_steps", 2}}));
         bench::Run drained(scene);
-        const Analysis& settles = drained.go();
+        const Course& settles = drained.go();
         expect_error(element + ": settlement once it has drained",
                      std::abs(settled(settles) / (q * H / M) - 1.0), 1e-6);
-        EXPECT_EQ(settles.motion().p.cwiseAbs().maxCoeff(), 0.0);
+        EXPECT_EQ(settles.motion.p.cwiseAbs().maxCoeff(), 0.0);
     }
 }
 
@@ -83,12 +83,12 @@ Model endless(const scene::Scene& scene) {
 struct EndlessRun {
     bench::Folder folder;
     process::Session session;
-    Analysis analysis;
+    Course course;
 
     explicit EndlessRun(const json& scene)
         : session(bench::settings_for(folder.path()), bench::parse(scene)),
-          analysis(session, endless(session.scene())) {
-        analysis.run();
+          course(session, endless(session.scene())) {
+        analyse(course);
     }
 };
 
@@ -117,10 +117,10 @@ TEST(Undrained, ACoupledQuadOfNorSandShearsAsThePointDoes) {
         scene["fem"]["force_tolerance"] = 1e-9;
         scene["fem"]["largest_iterations"] = 100;
         EndlessRun before(scene);
-        const auto& zone = std::get<materials::ZoneMemory<materials::NorSand>>(
-            before.analysis.motion().memory.at(0));
+        const auto& zone =
+            std::get<materials::ZoneMemory<materials::NorSand>>(before.course.motion.memory.at(0));
         const auto law = std::get<materials::NorSand>(
-            materials::with_S(before.analysis.model().zones.at(0).law, 1.0));
+            materials::with_S(before.course.model.zones.at(0).law, 1.0));
         norsand::State point = zone.points.at(0);
         for (int i = 0; i < steps; ++i)
             point = norsand::integrate(law.ready, point, Voigt(0, 0, 0, gamma / steps), law.options)
@@ -128,7 +128,7 @@ TEST(Undrained, ACoupledQuadOfNorSandShearsAsThePointDoes) {
         scene["fem"]["stages"].push_back(shear);
         EndlessRun sheared(scene);
         const Voigt expected = norsand::stress(point);
-        const Voigt reached = sheared.analysis.motion().points.at(0).sigma;
+        const Voigt reached = sheared.course.motion.points.at(0).sigma;
         expect_error(element + ": stress of the coupled quad against the point",
                      (reached - expected).cwiseAbs().maxCoeff() / 50e3, 5e-3);
         EXPECT_LT(-expected[1], 0.6 * -norsand::stress(zone.points.at(0))[1]) << "past its peak";
@@ -178,7 +178,7 @@ TEST(Undrained, AShearColumnOfNorSandCollapsesAtTheElementTestsPeak) {
 
 TEST(Undrained, BehindItsPeakAShearColumnOfNorSandRuns) {
     EndlessRun run(shear_column(1.25 * k_peak, 8, 0.0, 0.2));
-    const auto& rows = run.analysis.history();
+    const auto& rows = run.course.history;
     EXPECT_GT(rows.back().kinetic_energy, 4.0 * rows.at(rows.size() / 2).kinetic_energy);
 }
 
@@ -255,7 +255,7 @@ TEST(StageLoads, PressureOnASideAndADisplacedEdgeGiveTheClosedForms) {
         static_stage("hold", {{"surcharge", surcharge(20)}})};
     bench::Run run(moved);
     expect_error("stress under a displaced edge, which then stays",
-                 std::abs(run.go().motion().points.at(0).sigma[1] / (-M * 1e-3) - 1.0), 1e-8);
+                 std::abs(run.go().motion.points.at(0).sigma[1] / (-M * 1e-3) - 1.0), 1e-8);
     const json& path = run.session().result()["geostatic"]["drive"]["displaced"]["top"];
     ASSERT_EQ(path.size(), 3u);
     expect_error("what pushes it",
@@ -271,7 +271,7 @@ TEST(StageLoads, ALocalOverpressureComesAndGoes) {
     json scene = wet_block(
         {.height = H, .rows = 6, .stages = {static_stage("gravity"), static_stage("over", over)}},
         "ssp");
-    const auto settled = [H](const Analysis& done) { return -u_at(done, {1, H}).y(); };
+    const auto settled = [H](const Course& done) { return -u_at(done, {1, H}).y(); };
     const double own = (rho - rho_w) * g * H * H / (2.0 * M);
     bench::Run run(scene);  // the excess falls along a straight line from the base to the ground
     expect_error("settlement under an overpressure of 4 m of water at the base",
@@ -286,10 +286,10 @@ TEST(StageLoads, PsiOverDepthBeginsEachPointWithItsOwn) {
     json law = cj1(0.0, 0.7);
     law.erase("psi_0");
     law["psi_0_profile"] = {{"points", {{1, 0.05}, {3, -0.03}}}};
-    const auto psi_at = [&](const Analysis& done, std::size_t point) {
+    const auto psi_at = [&](const Course& done, std::size_t point) {
         const auto& zone =
-            std::get<materials::ZoneMemory<materials::NorSand>>(done.motion().memory.at(0));
-        return norsand::read(std::get<materials::NorSand>(done.model().zones.at(0).law).ready,
+            std::get<materials::ZoneMemory<materials::NorSand>>(done.motion.memory.at(0));
+        return norsand::read(std::get<materials::NorSand>(done.model.zones.at(0).law).ready,
                              zone.points.at(point))
             .psi;
     };
@@ -303,7 +303,7 @@ TEST(StageLoads, PsiOverDepthBeginsEachPointWithItsOwn) {
         scene["fem"]["element"] = "ssp";
         scene["fem"]["force_tolerance"] = 1e-9;
         bench::Run run(scene);
-        const Analysis& done = run.go();
+        const Course& done = run.go();
         // Rows at 0.5, 1.5, 2.5, 3.5 m from the base; held beyond the table, straight within.
         const std::vector<double> from_first{0.05, 0.03, -0.01, -0.03};
         for (std::size_t e = 0; e < 4; ++e)

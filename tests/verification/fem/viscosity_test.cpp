@@ -62,7 +62,7 @@ double settlement(double t, double eta) {
 double course_error(const char* element, double eta, double duration, double dt) {
     bench::Run run(column(element, eta, duration, dt));
     double worst = 0.0, largest = 0.0;
-    for (const Reading& r : run.go().history()) {
+    for (const Reading& r : run.go().history) {
         const double exact = settlement(r.time, eta);
         worst = std::max(worst, std::abs(-r.crest_dy - exact));
         largest = std::max(largest, std::abs(exact));
@@ -94,7 +94,7 @@ TEST(Viscosity, StepsAThousandTimesTooLargeEndAtTheStaticSettlement) {
     bench::Run run(scene);
     const double M = mechanics::Elasticity{E, nu}.constrained_modulus();
     expect_error("settlement after 40 steps",
-                 std::abs(-run.go().history().back().crest_dy * 2.0 * M / (rho * g * H * H) - 1.0),
+                 std::abs(-run.go().history.back().crest_dy * 2.0 * M / (rho * g * H * H) - 1.0),
                  1e-3);
 }
 
@@ -135,11 +135,11 @@ double steady(double x) {
 }
 
 /// Largest difference of a node's velocity from it, over the fastest.
-double velocity_error(const Analysis& a) {
-    const Mesh& mesh = a.model().mesh;
+double velocity_error(const Course& a) {
+    const Mesh& mesh = a.model.mesh;
     double worst = 0.0;
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
-        const double v = -a.motion().v[static_cast<Eigen::Index>(2 * i + 1)];
+        const double v = -a.motion.v[static_cast<Eigen::Index>(2 * i + 1)];
         worst = std::max(worst, std::abs(v - steady(mesh.nodes[i].x() - half_width)));
     }
     return worst / steady(0.0);
@@ -159,23 +159,23 @@ TEST(Viscosity, FlowsOnTheMovingMeshAsOnTheOtherOne) {
 TEST(Viscosity, SoilOfYieldStrengthFallsAsBinghamSays) {
     for (const char* element : {"bbar", "ssp"}) {
         bench::Run run(channel(element));
-        const Analysis& a = run.go();
+        const Course& a = run.go();
         // Nodes of the exact parabola are exact, and the plug's edge is a node.
         expect_error(std::string(element) + ", velocities over the fastest", velocity_error(a),
                      1e-6);
         double open = 0.0;
-        for (const Reading& r : a.history()) {
+        for (const Reading& r : a.history) {
             open = std::max(open, std::abs(r.external_work - r.kinetic_energy - r.internal_work -
                                            r.viscous_dissipation));
         }
-        const Reading& last = a.history().back();
+        const Reading& last = a.history.back();
         std::printf("    of %.2f J viscosity took %.2f, the stresses %.2f\n", last.external_work,
                     last.viscous_dissipation, last.internal_work);
         expect_error(std::string(element) + ", energy unaccounted for over the work of gravity",
                      open / last.external_work, 1e-6);
         // In the sheared soil tau = c + eta gamma', at the middle of elements of the width h: the
         // viscous power of each side is (rho g)^2 (s^3 / 3 - s h^2 / 12) / eta per height.
-        const Reading& before = a.history().at(600);
+        const Reading& before = a.history.at(600);
         const double s = half_width - c / (density * gravity), h = 0.1;
         const double power = 2.0 * 0.1 * std::pow(density * gravity, 2) *
                              (s * s * s / 3.0 - s * h * h / 12.0) / eta_of_flow;

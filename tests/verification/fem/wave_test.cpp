@@ -75,12 +75,12 @@ Histories shake(const char* at, double V_base, double rho_base) {
         json scene = column(file, at, V_base, rho_base);
         scene["fem"]["crest"] = {0, level};
         bench::Run run(scene);
-        const Analysis& a = run.go();
+        const Course& a = run.go();
         // Displacement history by the trapezoidal rule's inverse: the scheme's own velocity.
         std::vector<double> v{0.0};
         double before = 0.0;
-        for (std::size_t n = 1; n < a.history().size(); ++n) {
-            const double u = a.history()[n].crest_dx;
+        for (std::size_t n = 1; n < a.history.size(); ++n) {
+            const double u = a.history[n].crest_dx;
             v.push_back(2.0 * (u - before) / dt - v.back());
             before = u;
         }
@@ -141,8 +141,8 @@ TEST(RickerPulse, PassesAStageWithARampThatBringsNothing) {
     stages[1]["name"] = "on";
     stages[1]["ramp"] = 1.0;
     bench::Run split(scene);
-    const auto& one = whole.go().history();
-    const auto& two = split.go().history();
+    const auto& one = whole.go().history;
+    const auto& two = split.go().history;
     double apart = 0.0, largest = 0.0;
     for (const Reading& each : two) {
         const auto same = std::ranges::find_if(

@@ -38,11 +38,11 @@ Consolidated consolidated(WetColumn column, double T_v, int steps) {
     scene["fem"]["newmark_gamma"] = 5.0 / 6;
     scene["fem"]["surcharge"] = {{{"from", 0}, {"to", 1}, {"pressure_kPa", q / 1e3}}};
     bench::Run run(scene);
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     double largest = 0.0;
-    for (std::size_t i = 0; i < a.model().mesh.nodes.size(); ++i) {
-        const double y = a.model().mesh.nodes[i].y();
-        const double p = a.motion().p[static_cast<Eigen::Index>(i)] / (q * column.share());
+    for (std::size_t i = 0; i < a.model.mesh.nodes.size(); ++i) {
+        const double y = a.model.mesh.nodes[i].y();
+        const double p = a.motion.p[static_cast<Eigen::Index>(i)] / (q * column.share());
         largest = std::max(largest, std::abs(p - terzaghi(y, column.H, T_v)));
     }
     return {largest, bench::u_at(a, {0.0, column.H}).y() / (-q * column.H / column.modulus())};
@@ -110,10 +110,10 @@ Consolidated behind_a_ramp(WetColumn column, const Newmarks& newmark) {
     scene["fem"]["newmark_beta"] = newmark.beta;
     scene["fem"]["newmark_gamma"] = newmark.gamma;
     bench::Run run(scene);
-    const Analysis& a = run.go();
-    std::printf("    %lld steps\n", static_cast<long long>(a.position().step));
-    const auto base = static_cast<Eigen::Index>(nearest_node(a.model().mesh, {0.0, 0.0}));
-    const double p = (a.motion().p[base] - a.beginning().p[base]) / (q * column.share());
+    const Course& a = run.go();
+    std::printf("    %lld steps\n", static_cast<long long>(a.position.step));
+    const auto base = static_cast<Eigen::Index>(nearest_node(a.model.mesh, {0.0, 0.0}));
+    const double p = (a.motion.p[base] - a.beginning.p[base]) / (q * column.share());
     // Settlement: 1 - mean p / p_0 of the drained one, sqrt(4 T_v / pi) while T_v < 0.2.
     const double settled = bench::u_at(a, {0.0, column.H}).y() / (-q * column.H / column.modulus());
     return {std::abs(p - terzaghi(0.0, column.H, 0.1)),
@@ -146,10 +146,10 @@ Consolidated with_snapshot(WetColumn column, const Newmarks& newmark, std::optio
     scene["fem"]["surcharge"] = {{{"from", 0}, {"to", 1}, {"pressure_kPa", q / 1e3}}};
     if (at) scene["fem"]["snapshot_times"] = {*at * step};
     bench::Run run(scene);
-    const Analysis& a = run.go();
-    std::printf("    %lld steps\n", static_cast<long long>(a.position().step));
-    const auto base = static_cast<Eigen::Index>(nearest_node(a.model().mesh, {0.0, 0.0}));
-    return {a.motion().p[base] / (q * column.share()),
+    const Course& a = run.go();
+    std::printf("    %lld steps\n", static_cast<long long>(a.position.step));
+    const auto base = static_cast<Eigen::Index>(nearest_node(a.model.mesh, {0.0, 0.0}));
+    return {a.motion.p[base] / (q * column.share()),
             bench::u_at(a, {0.0, column.H}).y() / (-q * column.H / column.modulus())};
 }
 
@@ -201,19 +201,19 @@ json gravity(const char* element) {
 TEST(Hydrostatics, OfASceneAreExact) {
     for (const char* element : {"ssp", "bbar"}) {
         bench::Run run(gravity(element));
-        const Analysis& a = run.go();
+        const Course& a = run.go();
         double p_error = 0.0, s_error = 0.0;
-        for (std::size_t i = 0; i < a.model().mesh.nodes.size(); ++i) {
-            const double depth = 10.0 - a.model().mesh.nodes[i].y();
-            const double p = a.motion().p[static_cast<Eigen::Index>(i)];
+        for (std::size_t i = 0; i < a.model.mesh.nodes.size(); ++i) {
+            const double depth = 10.0 - a.model.mesh.nodes[i].y();
+            const double p = a.motion.p[static_cast<Eigen::Index>(i)];
             p_error = std::max(p_error, std::abs(p - 9810.0 * depth) / 98100.0);
         }
-        const std::size_t points = a.model().points_per_element;
-        for (std::size_t e = 0; e < a.model().mesh.quads.size(); ++e) {
-            const double depth = 10.0 - corners_of(a.model().mesh, e).row(1).mean();
+        const std::size_t points = a.model.points_per_element;
+        for (std::size_t e = 0; e < a.model.mesh.quads.size(); ++e) {
+            const double depth = 10.0 - corners_of(a.model.mesh, e).row(1).mean();
             double sigma = 0.0;
             for (std::size_t g = 0; g < points; ++g) {
-                sigma += a.motion().points[e * points + g].sigma[1] / static_cast<double>(points);
+                sigma += a.motion.points[e * points + g].sigma[1] / static_cast<double>(points);
             }
             s_error = std::max(s_error, std::abs(sigma + 9810.0 * depth) / 98100.0);
         }
@@ -241,21 +241,21 @@ struct Drawn {
 Drawn drawn_and_computed(const json& scene, const std::function<double(double)>& level,
                          double margin = 0.0) {
     bench::Run run(scene);
-    const Analysis& a = run.go();
-    const Mesh& mesh = a.model().mesh;
+    const Course& a = run.go();
+    const Mesh& mesh = a.model.mesh;
     const exchange::MeshSnapshot told =
-        snapshot_of(run.session().scene(), a.model(), a.motion(), a.beginning(), {}, 0.0, 0);
+        snapshot_of(run.session().scene(), a.model, a.motion, a.beginning, {}, 0.0, 0);
     Drawn largest{0.0, 0.0};
     const auto water = [&](const Vec2& x) { return 9810.0 * std::max(0.0, level(x.x()) - x.y()); };
     for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
         largest.p = std::max(largest.p, std::abs(told.pore_pressure[i] - water(mesh.nodes[i])));
-    const std::size_t points = a.model().points_per_element;
+    const std::size_t points = a.model.points_per_element;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         const Corners x = corners_of(mesh, e);
         if (std::abs(x.row(0).mean() - 10.0) > 10.0 - margin) continue;
         double sigma = 0.0, u = 0.0;
         for (std::size_t g = 0; g < points; ++g)
-            sigma -= a.motion().points[e * points + g].sigma[1] / static_cast<double>(points);
+            sigma -= a.motion.points[e * points + g].sigma[1] / static_cast<double>(points);
         constexpr int n = 200;  // mean of the water's pressure over the element
         for (int i = 0; i < n; ++i)
             u += water({x.row(0).mean(), x(1, 0) + 2.0 * (i + 0.5) / n}) / n;
@@ -297,24 +297,24 @@ TEST(PhreaticLine, BetweenRowsLeavesAColumnAtRest) {
     json scene = drawn_line("ssp", "drained", {{0, 8.5}, {20, 6.5}});
     scene["fem"]["stages"].push_back(dynamic_stage("wait", 1e4, 100.0));
     bench::Run run(scene);
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     expect_error("change of pressure [Pa] in 1e4 s",
-                 (a.motion().p - a.beginning().p).lpNorm<Eigen::Infinity>(), 1e-2);
+                 (a.motion.p - a.beginning.p).lpNorm<Eigen::Infinity>(), 1e-2);
 }
 
 TEST(Pond, LoadsTheGroundAndLeavesTheEffectiveStress) {
     json dry_top = gravity("ssp"), ponded = dry_top;
     ponded["fem"]["water"]["line"] = {{0, 13}};
     bench::Run one(dry_top), two(ponded);
-    const Analysis &a = one.go(), &b = two.go();
+    const Course &a = one.go(), &b = two.go();
     double p_error = 0.0, s_error = 0.0;
-    for (Eigen::Index i = 0; i < a.motion().p.size(); ++i) {
-        const double more = b.motion().p[i] - a.motion().p[i];
+    for (Eigen::Index i = 0; i < a.motion.p.size(); ++i) {
+        const double more = b.motion.p[i] - a.motion.p[i];
         p_error = std::max(p_error, std::abs(more - 3.0 * 9810.0) / 29430.0);
     }
-    for (std::size_t e = 0; e < a.motion().points.size(); ++e) {
-        s_error = std::max(s_error,
-                           (b.motion().points[e].sigma - a.motion().points[e].sigma).norm() / 1e5);
+    for (std::size_t e = 0; e < a.motion.points.size(); ++e) {
+        s_error =
+            std::max(s_error, (b.motion.points[e].sigma - a.motion.points[e].sigma).norm() / 1e5);
     }
     expect_error("3 m of water above: pressure grows by its weight everywhere", p_error, 1e-8);
     expect_error("... and the effective stress does not change", s_error, 1e-9);
@@ -362,22 +362,22 @@ TEST(FreeField, TheColumnsAloneMoveTheBaseOfLevelGroundAsTheMeshDoes) {
     const bench::Folder folder;
     json scene = level_ground(1e4, pulse(folder));
     bench::Run run(scene);
-    const Analysis& a = run.go();
-    const exchange::BaseMotion& ground = a.beginning().base_motion;
+    const Course& a = run.go();
+    const exchange::BaseMotion& ground = a.beginning.base_motion;
     ASSERT_TRUE(ground.any());
     const motion::Series velocity{ground.time_step, ground.velocity};
     double apart = 0.0;
-    for (const Reading& each : a.history()) {
+    for (const Reading& each : a.history) {
         apart =
             std::max(apart, std::abs(each.base_velocity - motion::value_at(velocity, each.time)));
     }
     const double peak = motion::peak(velocity);
     EXPECT_GT(peak, 0.05);
     expect_error("largest difference over the peak velocity", apart / peak, 1e-7);
-    EXPECT_NEAR(velocity.duration(), std::max(1.0, a.position().time), 1e-9)
+    EXPECT_NEAR(velocity.duration(), std::max(1.0, a.position.time), 1e-9)
         << "to the end of the earthquake or of the stages";
     const exchange::MeshSnapshot last =
-        exchange::read_mesh_snapshot(run.folder() / phases::files::snapshot_name(a.position().time))
+        exchange::read_mesh_snapshot(run.folder() / phases::files::snapshot_name(a.position.time))
             .snapshot;
     EXPECT_EQ(last.base_motion.velocity, ground.velocity);
     EXPECT_EQ(last.base_motion.time_step, ground.time_step);
@@ -389,7 +389,7 @@ TEST(FreeField, WithoutColumnsNothingIsKnownOfTheFreeGround) {
     json scene = level_ground(1e4, pulse(folder));
     scene["fem"].erase("free_field");
     bench::Run run(scene);
-    EXPECT_FALSE(run.go().beginning().base_motion.any());
+    EXPECT_FALSE(run.go().beginning.base_motion.any());
     const auto& flags = run.session().flags();
     EXPECT_TRUE(std::ranges::any_of(
         flags, [](const fault::Flag& each) { return each.code == "no_base_motion"; }));
@@ -408,12 +408,12 @@ TEST(FreeField, LevelGroundMovesAlikeAtTheColumnAndInTheMiddle) {
         scene["fem"]["force_tolerance"] = 1e-12;
         scene["fem"]["largest_iterations"] = 200;  // a thin column's share is not in the matrix
         bench::Run run(scene);
-        const Analysis& a = run.go();
-        for (const Reading& reading : a.history()) histories[k].push_back(reading.crest_dx);
+        const Course& a = run.go();
+        for (const Reading& reading : a.history) histories[k].push_back(reading.crest_dx);
         const auto at = [&](const Vec2& x) {
-            return a.motion().u[2 * static_cast<Eigen::Index>(nearest_node(a.model().mesh, x))];
+            return a.motion.u[2 * static_cast<Eigen::Index>(nearest_node(a.model.mesh, x))];
         };
-        const double largest = a.motion().u.lpNorm<Eigen::Infinity>();
+        const double largest = a.motion.u.lpNorm<Eigen::Infinity>();
         expect_error("u_x in the middle less u_x at the column, over the largest",
                      std::abs(at({4.0, 10.0}) - at({-1.5, 10.0})) / largest, 1e-10);
         std::printf("    thickness factor %g: %lld iterations\n", factors[k],
@@ -439,7 +439,7 @@ TEST(FreeField, ASurchargeToTheSidesLiesOnTheColumnsToo) {
         scene["fem"]["stages"].erase(1);
         scene["fem"]["surcharge"] = {{{"from", from}, {"to", to}, {"pressure_kPa", 200}}};
         bench::Run run(scene);
-        return run.go().motion().u;
+        return run.go().motion.u;
     };
     const Eigen::VectorXd everywhere = loaded(-1e3, 1e3);
     EXPECT_EQ(loaded(0.0, 8.0), everywhere);
@@ -461,7 +461,7 @@ TEST(FreeField, TheWorksAreThoseOfTheBody) {
         scene["fem"]["largest_iterations"] = 200;
         scene["fem"]["stages"][1]["surcharge"] = {{{"from", 0}, {"to", 8}, {"pressure_kPa", 20}}};
         bench::Run run(scene);
-        const Reading last = run.go().history().back();
+        const Reading last = run.go().history.back();
         hourglass = run.session().result()["hourglass"];
         return last;
     };
@@ -491,7 +491,7 @@ TEST(FreeField, TheColumnsAloneSoftenAsTheStageSays) {
         stages.insert(stages.begin() + 1, bench::static_stage("law", {{"laws", "scene"}}));
         if (!S_of_stage.is_null()) stages[2]["S"] = S_of_stage;
         bench::Run run(scene);
-        return run.go().beginning().base_motion.velocity;
+        return run.go().beginning.base_motion.velocity;
     };
     const auto own = base_of(0.0, nullptr);
     EXPECT_EQ(base_of(1.0, 0.0), own);
@@ -504,13 +504,13 @@ TEST(Rest, WithoutMotionNothingDrifts) {
     scene["fem"]["stages"][1]["duration"] = 10.0;
     scene["fem"]["stages"][1]["time_step"] = 0.01;
     bench::Run run(scene);
-    const Analysis& a = run.go();
+    const Course& a = run.go();
     double drift = 0.0;
-    for (Eigen::Index i = 0; i < a.motion().p.size(); ++i) {
-        drift = std::max(drift, std::abs(a.motion().p[i] - a.beginning().p[i]));
+    for (Eigen::Index i = 0; i < a.motion.p.size(); ++i) {
+        drift = std::max(drift, std::abs(a.motion.p[i] - a.beginning.p[i]));
     }
     expect_error("displacement after 10 s of rest over rock [m]",
-                 a.motion().u.lpNorm<Eigen::Infinity>(), 1e-8);
+                 a.motion.u.lpNorm<Eigen::Infinity>(), 1e-8);
     expect_error("change of pressure [Pa] (largest 8e4)", drift, 1e-3);
 }
 

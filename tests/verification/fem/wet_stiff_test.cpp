@@ -45,10 +45,9 @@ TEST(WetExtreme, PermeabilityOf1e12And1SideBySideStayApart) {
                                {"duration", 100},
                                {"time_step", 1}}};
     bench::Run run(scene);
-    const Analysis& analysis = run.go();
+    const Course& done = run.go();
     const auto p = [&](double y) {
-        return analysis.motion()
-            .p[static_cast<Eigen::Index>(nearest_node(analysis.model().mesh, {0.0, y}))];
+        return done.motion.p[static_cast<Eigen::Index>(nearest_node(done.model.mesh, {0.0, y}))];
     };
     const double p_0 = 1e5 * WetColumn{}.share();
     expect_error("tight below: base pressure against undrained", std::abs(p(0.0) / p_0 - 1), 5e-3);
@@ -115,12 +114,12 @@ TEST(WetExtreme, ThreeGEndsClearly) {
     try {
         run.go();
         std::printf("    reached the end with %lld cut steps\n",
-                    static_cast<long long>(run.analysis().position().cut_steps));
+                    static_cast<long long>(run.course().position.cut_steps));
     } catch (const fault::Breakdown& breakdown) {
         std::printf("    %s\n", breakdown.what());
     }
-    EXPECT_TRUE(run.analysis().motion().u.allFinite());
-    EXPECT_TRUE(run.analysis().motion().p.allFinite());
+    EXPECT_TRUE(run.course().motion.u.allFinite());
+    EXPECT_TRUE(run.course().motion.p.allFinite());
 }
 
 }  // namespace

@@ -95,13 +95,13 @@ TEST(LimitScene, CutsARegionIntoItsLayersAndKeepsItsArea) {
     const scene::Scene cut = limit_scene(whole);
     EXPECT_EQ(cut.section.regions.size(), whole.section.regions.size() + 4);
     double before = 0.0, after = 0.0;
-    for (const auto& region : whole.section.regions) before += scene::area(region.polygon);
-    for (const auto& region : cut.section.regions) after += scene::area(region.polygon);
+    for (const auto& region : whole.section.regions) before += geometry::area(region.polygon);
+    for (const auto& region : cut.section.regions) after += geometry::area(region.polygon);
     EXPECT_NEAR(after / before, 1.0, 1e-14);
     ASSERT_EQ(cut.lem->liquefaction.size(), 5u);
     for (std::size_t i = 0; i < 5; ++i) {
         const auto box =
-            scene::bounding_box(cut.section.regions[cut.lem->liquefaction[i].region].polygon);
+            geometry::bounding_box(cut.section.regions[cut.lem->liquefaction[i].region].polygon);
         EXPECT_NEAR(box.low.y(), 29.4 - 5.88 * static_cast<double>(i + 1), 1e-12);
     }
 }

@@ -32,8 +32,8 @@ scene::Scene block_on(const Slope& slope, double mu, double way) {
     const double h = 0.5;
     const double width = std::ceil((2.0 + (length + way) * std::cos(slope.theta) + height) / h) * h;
     const double drop = std::ceil(((length + way + 2.0) * std::sin(slope.theta) + 2.0) / h) * h;
-    const scene::Polygon block{slope.at(0, 0), slope.at(length, 0), slope.at(length, height),
-                               slope.at(0, height)};
+    const geometry::Polygon block{slope.at(0, 0), slope.at(length, 0), slope.at(length, height),
+                                  slope.at(0, height)};
     scene::Scene scene = one_soil(elastic(100e6, nu), rho, block, h, width, 20.0);
     scene.gravity = g;
     scene.mpm->domain_y = {-drop, 8.0};
@@ -118,9 +118,9 @@ Vec2 on_arc(const Vec2& centre, double radius, double angle, double side) {
 }
 
 /// A sector of a ring, `from` to `to`, that lies on the arc of radius R; side as above.
-scene::Polygon sector(const Vec2& centre, double from, double to, double side) {
+geometry::Polygon sector(const Vec2& centre, double from, double to, double side) {
     const double far = R + side * thick;
-    scene::Polygon ring;
+    geometry::Polygon ring;
     constexpr int parts = 12;
     for (int k = 0; k <= parts; ++k) {
         ring.push_back(on_arc(centre, R, from + (to - from) * k / parts, side));

@@ -6,8 +6,8 @@
 namespace breach::mpm::test::two_discs_test {
 namespace {
 
-scene::Polygon disc(const mechanics::Vec2& centre, double radius) {
-    scene::Polygon ring;
+geometry::Polygon disc(const mechanics::Vec2& centre, double radius) {
+    geometry::Polygon ring;
     for (int k = 0; k < 90; ++k) {
         const double angle = 2.0 * std::numbers::pi * k / 90.0;
         ring.push_back(centre + radius * mechanics::Vec2{std::cos(angle), std::sin(angle)});

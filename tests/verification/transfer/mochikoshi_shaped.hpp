@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 #include "tests/verification/transfer/meshes.hpp"
 
 namespace breach::transfer::mochikoshi {
@@ -35,7 +35,7 @@ inline std::int32_t region_at(const scene::Scene& scene, const Vec2& x, int mate
     if (material == 1) return named("tailings");
     if (material == 3) return named("foundation");
     const auto& upper = scene.section.regions[named("upper_dam")].polygon;
-    return named(scene::contains(upper, x) ? "upper_dam" : "lower_dam");
+    return named(geometry::contains(upper, x) ? "upper_dam" : "lower_dam");
 }
 
 /// Reads the mesh without its free-field columns, and sets the nodal fields.

@@ -7,16 +7,23 @@
 
 #include "core/mechanics/tensor.hpp"
 
-namespace breach::scene {
+namespace breach::geometry {
 
 using mechanics::Vec2;
 using Polygon = std::vector<Vec2>;
+
+/// Two points of a ring that follow each other.
+struct Side {
+    Vec2 a, b;
+};
+std::vector<Side> sides_of(const Polygon& polygon);
 
 /// Signed area [m2], positive when counter-clockwise.
 double signed_area(const Polygon& polygon);
 double area(const Polygon& polygon);
 /// True inside or on the border (within `tolerance` [m]).
 bool contains(const Polygon& polygon, const Vec2& point, double tolerance = 0.0);
+double squared_distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 
 /// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it
@@ -34,4 +41,4 @@ struct Box {
 };
 Box bounding_box(const Polygon& polygon);
 
-}  // namespace breach::scene
+}  // namespace breach::geometry

@@ -1,4 +1,4 @@
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,7 @@
 
 #include "core/geometry/polyline.hpp"
 
-namespace breach::scene {
-
-using geometry::cross;
+namespace breach::geometry {
 
 namespace {
 
@@ -73,6 +71,13 @@ std::vector<Triangle> triangles(Polygon polygon) {
 
 }  // namespace
 
+std::vector<Side> sides_of(const Polygon& polygon) {
+    std::vector<Side> sides;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+        sides.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+    return sides;
+}
+
 double signed_area(const Polygon& polygon) {
     double twice = 0.0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -83,11 +88,15 @@ double signed_area(const Polygon& polygon) {
 
 double area(const Polygon& polygon) { return std::abs(signed_area(polygon)); }
 
-double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to) {
+double squared_distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to) {
     const Vec2 along = to - from;
     const double length2 = along.squaredNorm();
     const double s = length2 > 0 ? std::clamp((point - from).dot(along) / length2, 0.0, 1.0) : 0.0;
-    return (point - from - s * along).norm();
+    return (point - from - s * along).squaredNorm();
+}
+
+double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to) {
+    return std::sqrt(squared_distance_to_segment(point, from, to));
 }
 
 bool contains(const Polygon& polygon, const Vec2& point, double tolerance) {
@@ -167,4 +176,4 @@ Box bounding_box(const Polygon& polygon) {
     return box;
 }
 
-}  // namespace breach::scene
+}  // namespace breach::geometry

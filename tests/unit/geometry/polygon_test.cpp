@@ -1,10 +1,10 @@
-#include "core/scene/polygon.hpp"
+#include "core/geometry/polygon.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using namespace breach::scene;
+using namespace breach::geometry;
 
 const Polygon square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
 const Polygon notched{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}};  // not convex, area 10

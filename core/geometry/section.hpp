@@ -1,0 +1,63 @@
+// Questions to a cross-section as it is drawn: where soil is, how high it stands, what lies over a place.
+#pragma once
+
+#include "core/geometry/polygon.hpp"
+#include "core/geometry/polyline.hpp"
+
+namespace breach::geometry {
+
+/// The polygons of a section's regions, in their order; one that is empty is no soil. They are looked
+/// at where they are.
+using Outlines = std::vector<const Polygon*>;
+
+template <class Regions, class Polygon>
+Outlines outlines_of(const Regions& regions, Polygon polygon) {
+    Outlines outlines;
+    for (const auto& each : regions) outlines.push_back(&(each.*polygon));
+    return outlines;
+}
+
+/// Box around all; inside out without soil.
+Box extent(const Outlines& outlines);
+
+bool in_soil(const Outlines& outlines, const Vec2& place, double tolerance = 0.0);
+/// From a place to the nearest soil; 0 inside [m].
+double distance_to_soil(const Outlines& outlines, const Vec2& place);
+
+/// Heights at which the border crosses the upright through x, ascending. Edges count at their left
+/// end only, so a vertex on the upright is met once, or not at all where the border turns back.
+std::vector<double> crossings(const Polygon& polygon, double x);
+
+/// Levels of the soil over x, from the top down: [top, bottom] of each region that lies there.
+struct Stratum {
+    double top, bottom;
+    std::size_t region;
+};
+std::vector<Stratum> strata_at(const Outlines& outlines, double x);
+
+/// Highest soil at x; -infinity: there is none [m].
+double ground_at(const Outlines& outlines, double x);
+
+/// Greatest height of a line over a point of the soil, and where. The line's level beyond its ends is
+/// what `level` says.
+struct Depth {
+    double below;  ///< positive: the soil reaches below the line [m]
+    Vec2 place;
+};
+Depth deepest_below(const Polygon& polygon, const std::vector<Vec2>& line, Level level);
+Depth deepest_below(const Outlines& outlines, const std::vector<Vec2>& line, Level level);
+
+/// Abscissae between which all borders are straight, ascending.
+std::vector<double> abscissae(const Outlines& outlines);
+
+/// The ground's levels over a range, lowest and highest; infinite, inside out, where there is none.
+struct Levels {
+    double lowest, highest;
+};
+Levels ground_over(const Outlines& outlines, double from, double to);
+
+/// The upper border of the soil between two abscissae, from left to right: a line for each piece
+/// without gap or step.
+std::vector<std::vector<Vec2>> ground_between(const Outlines& outlines, double from, double to);
+
+}  // namespace breach::geometry

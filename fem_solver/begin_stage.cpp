@@ -1,0 +1,219 @@
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "core/exchange/publish.hpp"
+#include "core/motion/read_motion.hpp"
+#include "core/phases/files.hpp"
+#include "core/words/number.hpp"
+#include "fem_solver/model/ground_water.hpp"
+#include "fem_solver/model/pore_water.hpp"
+#include "fem_solver/model/stages.hpp"
+#include "fem_solver/solve/base_motion.hpp"
+#include "fem_solver/solve/plastic_gravity.hpp"
+#include "fem_solver/solve/trial.hpp"
+#include "fem_solver/stage.hpp"
+
+namespace breach::fem {
+
+namespace {
+
+/// Loads and pore pressure, without the reactions of supports [N].
+Eigen::VectorXd loads_on(const Model& model, const Motion& motion) {
+    Eigen::VectorXd loads = model.external_force;
+    add_pressure_force(model, motion.p, loads);
+    return loads;
+}
+
+/// That of steady seepage; where no water flows the pressure stays what it was.
+void set_steady_pressure(const Model& model, Motion& motion) {
+    Eigen::VectorXd p = model.water.any() ? steady_pressure(model) : model.water.prescribed;
+    for (std::size_t i = 0; i < model.undrained.size(); ++i)
+        if (model.undrained[i])
+            p[static_cast<Eigen::Index>(i)] = motion.p[static_cast<Eigen::Index>(i)];
+    motion.p = std::move(p);
+    motion.p_rate = Eigen::VectorXd::Zero(motion.p.size());
+}
+
+/// What is out of balance when the stage begins comes to bear along its ramp; a motion that there is
+/// goes on.
+void withhold_along_ramp(Course& course) {
+    course.model.withheld = course.stage_force;
+    course.model.withheld_from = course.stage_begin();
+    course.model.withheld_for = course.stage().ramp;
+}
+
+void flag_no_base_motion(Course& course, const std::string& why) {
+    course.session.flag({"no_base_motion", fault::Severity::warning,
+                         "no runout can be shaken on after the transfer: " + why,
+                         "/fem/free_field"});
+}
+
+/// Now, and not at the end: every snapshot then knows how the ground will move after it.
+void note_free_ground(Course& course) {
+    process::Session& session = course.session;
+    if (session.settings().switches.contains(trial_switch)) return;  // ten steps want no earthquake
+    if (!course.decided.free_ground.value) {
+        if (course.model.base.any() && course.fem.motion)
+            flag_no_base_motion(course, "the scene has no free-field columns (/fem/free_field)");
+        return;
+    }
+    const double began = course.seconds.clock();
+    FreeGround ground = free_ground(session.scene(), course.model, course.motion);
+    course.seconds_for_free_ground = course.seconds.clock() - began;
+    if (!ground.why_not.empty()) {
+        flag_no_base_motion(course, ground.why_not);
+        return;
+    }
+    course.beginning.base_motion = std::move(ground.motion);
+    const motion::Series velocity{course.beginning.base_motion.time_step,
+                                  course.beginning.base_motion.velocity};
+    std::ostringstream csv;
+    motion::write_csv(csv, {motion::Quantity::velocity, velocity, {}},
+                      "velocity of the base beneath the free-field columns alone");
+    exchange::publish_text(session.output(phases::files::base_motion), csv.str());
+    spdlog::info("  the free ground's base moves with at most {:.3g} m/s until {:.4g} s",
+                 motion::peak(velocity), velocity.duration());
+}
+
+/// Clocks, displacements and strains start at zero: gravity's settlement belongs to the past of the
+/// slope, not to its failure.
+void begin_motion(Course& course) {
+    course.position.moving = true;
+    course.motion.u.setZero();
+    std::ranges::fill(course.motion.strain, Voigt::Zero());
+    for (Hourglass& each : course.motion.hourglass) each.energy = 0.0;
+    course.beginning = beginning_of(course.model, course.motion);
+    set_skeleton_modulus(course.beginning, course.model);
+    evaluate_pore_water(course.model, course.motion.u, course.model.water);
+    note_free_ground(course);
+}
+
+/// Brings the stresses inside the surfaces of laws with memory.
+void find_frictional_rest(Course& course) {
+    Newton newton(
+        course.model, Solved::displacement,
+        {.tolerance = course.fem.force_tolerance,
+         .largest_iterations = std::max(course.fem.largest_iterations, iterations_to_rest),
+         .threads = course.session.settings().threads,
+         .patience = patience_to_rest},
+        Symmetry::general, course.seconds);
+    const FrictionalRest rest =
+        rest_with_friction(newton, course.model, course.motion, course.prediction, course.trial);
+    if (rest.converged) {
+        spdlog::info("  {}", in_words(rest));
+    } else {
+        course.session.flag({"no_frictional_rest", fault::Severity::warning, in_words(rest),
+                             course.pointer_of_stage()});
+    }
+    course.session.result()["geostatic"][course.stage().name]["friction"] = {
+        {"converged", rest.converged},
+        {"cohesion", rest.cohesion},
+        {"iterations", rest.iterations},
+        {"out_of_balance", rest.residual}};
+}
+
+/// The switch from elastic stages to the scene's laws.
+void begin_laws(Course& course) {
+    if (course.position.stage != course.decided.memory.value) return;
+    if (course.decided.memory_start.value == MemoryStart::at_rest_with_friction)
+        find_frictional_rest(course);
+    const StressBias bias = begin_memory(course.model, course.motion);
+    spdlog::info(
+        "  {} begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} kPa",
+        names_of_laws_with_memory(course.model), points_with_memory(course.model, course.motion),
+        bias.points, bias.largest / 1e3);
+    if (bias.cut_down == 0) return;
+    course.session.flag(
+        {"stress_cut_down", fault::Severity::warning,
+         std::to_string(bias.cut_down) +
+             " points began with a stress that their law cannot hold; its deviator was cut down, "
+             "by "
+             "at most " +
+             words::text_of(bias.largest_cut / 1e3) +
+             " kPa, and what is missing is out of balance in this stage: look at K_0 and psi_0",
+         course.pointer_of_stage()});
+    // A static stage makes up for it over its load, from these forces on.
+    settle_stresses(*course.newton, course.laws, course.motion, course.trial);
+}
+
+void begin_static(Course& course, const Eigen::VectorXd& loads_before) {
+    const Model& model = course.model;
+    course.position.load_step = 1.0 / course.stage().load_steps;
+    course.position.at_limit = false;
+    course.stage_force = course.motion.force;
+    // What a support gave an edge that now moves is part of the edge's own force from the start.
+    if (course.position.stage > 0)
+        for (const Model::Driven& each : model.driven)
+            course.stage_force[each.dof] = loads_before[each.dof];
+    if (course.stage().undrained.empty()) return;
+    Eigen::VectorXd of_water = Eigen::VectorXd::Zero(model.dofs());
+    add_pressure_force(model, course.motion.p, of_water);
+    course.stage_force -= of_water;
+}
+
+void begin_dynamic(Course& course) {
+    const scene::Stage& stage = course.stage();
+    Position& position = course.position;
+    Model& model = course.model;
+    Motion& motion = course.motion;
+    // A motion that goes on does so with the step before: over a longer one the velocities at a
+    // ramp's end would count as if they lasted.
+    position.dt = position.dt > 0.0 ? std::min(position.dt, stage.time_step) : stage.time_step;
+    position.easy_steps = 0;
+    for (std::size_t i = 0; i < model.water.is_unknown.size(); ++i)
+        if (const auto n = static_cast<Eigen::Index>(i); !model.water.is_unknown[i])
+            motion.p[n] = model.water.prescribed[n];  // it drains again
+    settle_stresses(*course.newton, course.laws, motion, course.trial);
+    if (!position.moving) begin_motion(course);
+    model.withheld.resize(0);
+    if (stage.ramp > 0.0) {
+        course.stage_force =
+            unbalanced_force(*course.newton, model, course.beginning, position.time, motion);
+        withhold_along_ramp(course);
+    }
+    set_acceleration(*course.newton, model, course.beginning, position.time, course.prediction,
+                     motion);
+    // A step that cannot resolve this acceleration would throw the mesh: it starts without, and
+    // what is suddenly unbalanced counts from its end.
+    constexpr double resolved = 0.01;  // of the shortest edge
+    const double thrown =
+        0.5 * stage.time_step * stage.time_step * motion.a.lpNorm<Eigen::Infinity>();
+    if (thrown > resolved * quality_of(model.mesh).shortest_edge) motion.a.setZero();
+    course.distortion = distortion_of(model, motion, course.fem.strain_threshold);
+}
+
+}  // namespace
+
+void begin_stage(Course& course) {
+    const scene::Stage& stage = course.stage();
+    Model& model = course.model;
+    const bool is_static = stage.kind == scene::StageKind::static_equilibrium;
+    const bool drains = stage.undrained.empty();
+    const bool changes = course.fem.changes_the_body();
+    course.laws = laws_for(model, stage.laws);
+    const Eigen::VectorXd loads_before = loads_on(model, course.motion);
+    set_softening(stage, model, course.laws);
+    if (!course.newton) course.make_newton();
+    set_permeability(course.session.scene(), stage.permeability, model);
+    if (course.position.stage_begun) {
+        if (!drains) close_to_flow(model);
+        if (stage.ramp > 0.0) withhold_along_ramp(course);
+        return;
+    }
+    course.position.stage_begun = true;
+    spdlog::info("stage {}", stage.name);
+    if (is_static) set_steady_pressure(model, course.motion);
+    if (!drains) close_to_flow(model);
+    if (changes) forget_absent(model, course.motion);
+    if (stage.laws == scene::StageLaws::scene) begin_laws(course);
+    // What is gone holds nothing any more: the stage releases what it held, from these forces on.
+    if (changes) settle_stresses(*course.newton, course.laws, course.motion, course.trial);
+    if (is_static)
+        begin_static(course, loads_before);
+    else
+        begin_dynamic(course);
+}
+
+}  // namespace breach::fem

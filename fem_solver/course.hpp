@@ -1,0 +1,49 @@
+// An analysis under way: all that changes from stage to stage and from step to step.
+#pragma once
+
+#include "core/process/session.hpp"
+#include "fem_solver/checkpoint.hpp"
+#include "fem_solver/choose.hpp"
+#include "fem_solver/monitors/entanglement.hpp"
+#include "fem_solver/monitors/watch.hpp"
+#include "fem_solver/solve/step.hpp"
+
+namespace breach::fem {
+
+struct Course : Kept {
+    /// Goes on from the session's checkpoint when it is resumed and there is one.
+    Course(process::Session& its_session, Model its_model);
+
+    const scene::Stage& stage() const;
+    std::string pointer_of_stage() const;
+    double stage_begin() const;  ///< [s]
+
+    /// Puts body, supports, loads and water of the stage in force and sets out to solve it.
+    void make_newton();
+    void write_checkpoint();
+
+    process::Session& session;
+    const scene::Fem& fem;
+    const RunDecisions decided;
+    Model model;
+    Seconds seconds;
+    double seconds_for_free_ground = 0.0;
+    Motion trial;
+    Prediction prediction;
+    std::vector<materials::Law> laws;
+    std::optional<Newton> newton;  ///< within a stage
+    Work before;                   ///< of the run that is resumed
+    Distortion distortion;
+    std::optional<Entanglement> entanglement;
+    Watch watch;
+    std::size_t crest_node;
+    double span = 0.0;  ///< all dynamic stages [s]
+
+  private:
+    void check_changes() const;
+    void place_stage();
+    void resume();
+    void raise_again(const std::vector<fault::Flag>& flags);
+};
+
+}  // namespace breach::fem
