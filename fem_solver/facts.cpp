@@ -12,6 +12,7 @@
 #include "core/phases/files.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/monitors/upstream_wall.hpp"
+#include "fem_solver/monitors/viscous_share.hpp"
 
 namespace breach::fem {
 
@@ -73,6 +74,14 @@ std::optional<fault::Flag> still_liquefying(const std::vector<Reading>& history)
             " kPa at " + shown(then->time) + " s to " + shown(at_end / 1e3) + " kPa at " +
             shown(end) + " s: runouts from its last states are too short; lengthen the last stage",
         "/fem/stages"};
+}
+
+fault::Flag viscous_band(double share) {
+    return {"viscous_band", fault::Severity::warning,
+            "in soil that fails, damping carries " + shown(100.0 * share) +
+                " % of what the soil itself carries in shear (at most 33 % can be trusted): the "
+                "slide is slowed by it; halve /fem/damping/ratio and compare",
+            "/fem/damping"};
 }
 
 /// The course as events that need no mesh.
@@ -219,6 +228,12 @@ void report_end(Course& course) {
         first_time(course.history, &Reading::failure_surfaces, 1.0);
     facts["milestones"] = milestones_in(course.history);
     if (course.decided.liquefaction.value) facts["largest_liquefaction_depth"] = depth;
+    if (course.model.rayleigh.stiffness > 0.0) {
+        const double share =
+            std::ranges::max(course.history, {}, &Reading::viscous_share).viscous_share;
+        facts["viscous_share"] = share;
+        if (share > largest_viscous_share) session.flag(viscous_band(share));
+    }
     if (auto growing = still_liquefying(course.history); growing && course.fem.motion)
         session.flag(std::move(*growing));
     tell_end(course, last);

@@ -6,6 +6,7 @@
 #include "core/phases/files.hpp"
 #include "fem_solver/facts.hpp"
 #include "fem_solver/monitors/strength.hpp"
+#include "fem_solver/monitors/viscous_share.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "fem_solver/snapshot_request.hpp"
 
@@ -60,6 +61,8 @@ Reading Recorder::read(double dt, const NewtonOutcome& outcome) {
     reading.internal_work = position.internal_work;
     reading.viscous_dissipation = position.viscous_dissipation;
     read_strength(reading);
+    reading.viscous_share =
+        viscous_share(course_.model, course_.motion, course_.fem.failure_strain);
     peak_energy_ = std::max(peak_energy_, reading.kinetic_energy);
     reading.kinetic_energy_over_peak =  // 1 while nothing has moved
         peak_energy_ > 0.0 ? reading.kinetic_energy / peak_energy_ : 1.0;

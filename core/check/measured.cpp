@@ -33,6 +33,8 @@ std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry
     if (needs == looks_at_strength && !scene.fem->strength_interval)
         return NotMeasured{"nobody looks at the strength",
                            "say in /fem/strength_interval how often"};
+    if (needs == damping && !(scene.fem->rayleigh_stiffness > 0.0))
+        return NotMeasured{"the FEM is not damped", "give /fem/damping, or ask for another column"};
     if (needs == water && !scene.fem->water)
         return NotMeasured{"the scene has no pore water",
                            "give /fem/water, or ask for another column"};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <variant>
@@ -58,15 +59,39 @@ std::vector<Polygon> attached_to(const Region& region, const Scene& scene) {
     return attached;
 }
 
+/// Something that cells have to resolve.
+struct Across {
+    std::string what;  ///< "the thickness of region \"dam\""
+    double length;     ///< [m]
+};
+
+/// Of every mobile region, with mobile regions of the same strength that touch it, and of the slope from
+/// the toe to the highest mobile soil, the one with the fewest cells; nothing: all have those wanted.
+std::optional<Across> coarsest_place(const Scene& scene) {
+    const Mpm& mpm = *scene.mpm;
+    Across coarsest{"", cells_wanted * mpm.cell_size};
+    double top = std::numeric_limits<double>::lowest();
+    for (const Region& region : scene.section.regions) {
+        if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
+        if (const auto thickness = geometry::thickness_below(coarsest.length, region.polygon,
+                                                             attached_to(region, scene)))
+            coarsest = {"the thickness of region \"" + region.name + "\"", *thickness};
+        top = std::max(top, geometry::bounding_box(region.polygon).high.y());
+    }
+    const double height = top - mpm.runout.toe.y();
+    if (height > 0.0 && height < coarsest.length) coarsest = {"the height of the slope", height};
+    return coarsest.what.empty() ? std::nullopt : std::optional(coarsest);
+}
+
 void judge_cells(const Scene& scene, Resolved& resolved) {
-    const std::vector<Across> all = cells_across(scene, cells_wanted);
-    const auto coarsest = std::ranges::min_element(all, {}, &Across::number);
-    if (coarsest == all.end()) return;
+    const auto coarsest = coarsest_place(scene);
+    if (!coarsest) return;
     const double h = scene.mpm->cell_size;
-    const std::string found = text_of(coarsest->number) + " cells of " + text_of(h) + " m across " +
+    const double number = coarsest->length / h;
+    const std::string found = text_of(number) + " cells of " + text_of(h) + " m across " +
                               coarsest->what + ", " + text_of(coarsest->length) + " m";
     const std::string fine = rounded_down(coarsest->length / cells_wanted) + " m";
-    const bool refused = coarsest->number < least_cells;
+    const bool refused = number < least_cells;
     if (refused && !scene.mpm->allow_coarse_cells) {
         resolved.faults.push_back(
             {"/mpm/cell_size", "gives " + found + ": it could not shear within itself",
@@ -263,26 +288,6 @@ Levels mobile_levels(const Scene& scene, const Mpm& mpm) {
 double mobile_height(const Scene& scene, const Mpm& mpm) {
     const Levels levels = mobile_levels(scene, mpm);
     return std::max(levels.high - levels.low, 0.0);
-}
-
-std::vector<Across> cells_across(const Scene& scene, double below) {
-    const Mpm& mpm = mpm_of(scene);
-    const double limit = below * mpm.cell_size;
-    std::vector<Across> all;
-    const auto add = [&](std::string what, double length) {
-        all.push_back({std::move(what), "/mpm/cell_size", length, length / mpm.cell_size});
-    };
-    double top = std::numeric_limits<double>::lowest();
-    for (const Region& region : scene.section.regions) {
-        if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
-        if (const auto thickness =
-                geometry::thickness_below(limit, region.polygon, attached_to(region, scene)))
-            add("the thickness of region \"" + region.name + "\"", *thickness);
-        top = std::max(top, geometry::bounding_box(region.polygon).high.y());
-    }
-    const double height = top - mpm.runout.toe.y();
-    if (height > 0.0 && height < limit) add("the height of the slope", height);
-    return all;
 }
 
 Resolved resolution_of(const Scene& scene) {

@@ -38,18 +38,6 @@ Levels mobile_levels(const Scene& scene, const Mpm& mpm);
 /// Between the two [m]; 0: none.
 double mobile_height(const Scene& scene, const Mpm& mpm);
 
-/// Something that cells have to resolve, and by how much they do.
-struct Across {
-    std::string what;  ///< "region \"dam\""
-    std::string pointer;
-    double length;  ///< [m]
-    double number;  ///< of cells across it [-]
-};
-
-/// Every mobile region, with mobile regions of the same strength that touch it, and the slope from the
-/// toe to the highest mobile soil: those with fewer cells than `below`.
-std::vector<Across> cells_across(const Scene& scene, double below);
-
 struct Resolved {
     std::vector<fault::Fault> faults;
     std::vector<fault::Flag> flags;

@@ -49,6 +49,11 @@ constexpr std::array fem_table{
            "look (/fem/strength_interval)",
            Needs::looks_at_strength},
     Column{"strength_ratio_min", "1", "the least of a point", Needs::looks_at_strength},
+    Column{
+        "viscous_share", "1",
+        "shear stress of the stiffness-proportional damping over the soil's own, in soil strained "
+        "beyond /fem/failure_surfaces/epsilon_q",
+        Needs::damping},
     Column{"excess_pressure_avg", "Pa", "excess pore pressure, averaged by mass", Needs::water},
     Column{"r_u_max", "1", "largest excess pore pressure ratio of the watched nodes",
            Needs::watched_ground},

@@ -8,7 +8,15 @@
 namespace breach::telemetry {
 
 /// What a scene must have for its FEM to measure a column.
-enum class Needs { nothing, softening, state_parameter, looks_at_strength, water, watched_ground };
+enum class Needs {
+    nothing,
+    softening,
+    state_parameter,
+    looks_at_strength,
+    damping,
+    water,
+    watched_ground
+};
 
 struct Column {
     const char* name;     ///< key of the line, name in a condition

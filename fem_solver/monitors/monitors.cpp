@@ -47,6 +47,7 @@ const std::vector<Column>& columns() {
         Named{"past_peak_share", &R::past_peak_share},
         Named{"strength_ratio_avg", &R::strength_ratio_avg},
         Named{"strength_ratio_min", &R::strength_ratio_min},
+        Named{"viscous_share", &R::viscous_share},
         Named{"excess_pressure_avg", &R::excess_pressure_avg},
         Named{"r_u_max", &R::r_u_max},
         Named{"liquefaction_depth", &R::liquefaction_depth},

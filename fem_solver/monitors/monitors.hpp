@@ -59,6 +59,7 @@ struct Reading {
     double past_peak_share = 0.0;        ///< of the volume with psi: undrained, q would fall [-]
     double strength_ratio_avg = 0.0;     ///< s_u over sigma'_v0, by volume [-]
     double strength_ratio_min = 0.0;     ///< its least [-]
+    double viscous_share = 0.0;          ///< of damping over the soil's stress in bands [-]
     double softened_share = 0.0;         ///< volume that has lost strength over volume that can [-]
 };
 
