@@ -25,8 +25,7 @@ std::filesystem::path with_schema(const std::filesystem::path& file) {
 
 Store::Store(const std::filesystem::path& file)
     : file_(with_schema(file)), writing_(file, Access::read_write) {
-    writing_.query("SELECT coalesce(max(seq), 0) FROM events", {},
-                   [&](const Row& row) { last_event_ = row.integer(0); });
+    last_event_ = writing_.integer("SELECT max(seq) FROM events").value_or(0);
     writer_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
@@ -110,19 +109,23 @@ void Store::commit(std::deque<Job>& jobs) {
     }
 }
 
-void Store::read(const std::function<void(Connection&)>& read) const {
-    std::unique_ptr<Connection> connection;
+Store::Reader Store::reader() const {
     {
         const std::lock_guard lock(readers_mutex_);
         if (!idle_readers_.empty()) {
-            connection = std::move(idle_readers_.back());
+            Reader idle(idle_readers_.back().release(), {this});
             idle_readers_.pop_back();
+            return idle;
         }
     }
-    if (!connection) connection = std::make_unique<Connection>(file_, Access::read_only);
-    read(*connection);
-    const std::lock_guard lock(readers_mutex_);
-    if (idle_readers_.size() < most_idle_readers) idle_readers_.push_back(std::move(connection));
+    return {new Connection(file_, Access::read_only), {this}};
+}
+
+void Store::GiveBack::operator()(Connection* connection) const {
+    std::unique_ptr<Connection> idle(connection);
+    const std::lock_guard lock(store->readers_mutex_);
+    if (store->idle_readers_.size() < most_idle_readers)
+        store->idle_readers_.push_back(std::move(idle));
 }
 
 bool Store::wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const {

@@ -174,8 +174,15 @@ class Store {
     };
     void serve(const std::stop_token& stop);
     void commit(std::deque<Job>& jobs);
-    /// A reading connection for the duration of `read`.
-    void read(const std::function<void(Connection&)>& read) const;
+    /// A reading connection, which is given back at its end.
+    struct GiveBack {
+        const Store* store;
+        void operator()(Connection* connection) const;
+    };
+    using Reader = std::unique_ptr<Connection, GiveBack>;
+    Reader reader() const;
+    /// With their facts; sql: of such rows.
+    std::vector<Run> whole_runs(const std::string& sql, const std::vector<Value>& values) const;
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
     static void gather_facts(Connection& database, std::vector<Run>& runs);

@@ -195,10 +195,8 @@ std::vector<Expression> views() {
 }
 
 bool is_there(Connection& database, const Expression& view) {
-    bool same = false;
-    database.query("SELECT sql FROM sqlite_master WHERE type='view' AND name=?", {view.name},
-                   [&](const Row& row) { same = row.text(0) == view.sql; });
-    return same;
+    return database.finds("SELECT 1 FROM sqlite_master WHERE type='view' AND name=? AND sql=?",
+                          {view.name, view.sql});
 }
 
 }  // namespace
@@ -254,9 +252,10 @@ std::string selected_means(const std::string& condition) {
 
 std::string selected_mean_columns() {
     std::string names;
-    for (const ResultColumn& each : mean_columns()) {
-        names.append(names.empty() ? "" : ", ").append(is_in_view(each) ? each.name : "NULL");
-    }
+    for (const ResultColumn& each : mean_columns())
+        names.append(names.empty() ? "" : ", ")
+            .append(is_in_view(each) ? "" : "NULL AS ")
+            .append(each.name);
     return names;
 }
 
@@ -264,9 +263,10 @@ std::string selected_result_columns() {
     std::string names;
     for (const ResultColumn& each : result_columns())
         names.append(names.empty() ? "" : ", ")
-            .append(!is_in_view(each)                ? "NULL"
-                    : each.kind == ColumnKind::flags ? "flag_list"
-                                                     : each.name);
+            .append(!is_in_view(each)                ? "NULL AS "
+                    : each.kind == ColumnKind::flags ? "flag_list AS "
+                                                     : "")
+            .append(each.name);
     return names;
 }
 
