@@ -84,7 +84,7 @@ Capacity Attempts::capacity() const {
 void Attempts::start(const std::vector<Task>& tasks) {
     std::vector<std::int64_t> numbers;
     for (const Task& task : tasks) drop_placed_outputs(data_, task);
-    reach(Failpoint::claim_before);
+    pass_failpoint("claim_before");
     store_.write([&](Transaction& transaction) {
         numbers.clear();
         for (const Task& task : tasks) {
@@ -92,7 +92,7 @@ void Attempts::start(const std::vector<Task>& tasks) {
             numbers.push_back(claimed ? transaction.add_attempt(task.id) : 0);  // 0: cancelled
         }
     });
-    reach(Failpoint::claim_after);
+    pass_failpoint("claim_after");
     std::vector<LiveAttempt*> started;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         if (numbers[i] == 0) continue;
@@ -101,7 +101,7 @@ void Attempts::start(const std::vector<Task>& tasks) {
         const Life life = executor_.probe(live.folder).life;
         if (life == Life::alive || life == Life::ended) started.push_back(&live);
     }
-    reach(Failpoint::start_after);
+    pass_failpoint("start_after");
     note_starts(started);
     forget_the_ended();
 }
@@ -228,7 +228,7 @@ void Attempts::note_exit(LiveAttempt& live) {
                          .cpu_seconds = record.cpu_seconds,
                          .reason = record.stopped ? std::string(name_of(*record.stopped)) : ""};
     const TaskFault fault = verdict == Verdict::well ? TaskFault{} : fault_of(live, record, data_);
-    reach(Failpoint::exit_before);
+    pass_failpoint("exit_before");
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(task, live.number, AttemptEvent::exit, end);
         if (transaction.try_move_task(task, TaskEvent::stopped)) return;
@@ -248,7 +248,7 @@ void Attempts::note_exit(LiveAttempt& live) {
                 break;
         }
     });
-    reach(Failpoint::exit_after);
+    pass_failpoint("exit_after");
     spdlog::info("{} ({}): attempt {} ended, {}", task, live.task.label, live.number,
                  in_words(record));
     settle(live);

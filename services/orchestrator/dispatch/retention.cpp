@@ -69,15 +69,15 @@ bool Retention::is_being_backed_up() const {
 
 void Retention::remove_folders(const std::stop_token& stop) {
     for (const std::string& run : store_.removals()) {
-        reach(Failpoint::removal_rows_gone);
+        pass_failpoint("removal_rows_gone");
         std::error_code none_left;
         for (const auto& entry : fs::directory_iterator(data_.run(run), none_left)) {
             if (stop.stop_requested()) return;
             fs::remove_all(entry.path());
-            reach(Failpoint::removal_half_way);
+            pass_failpoint("removal_half_way");
         }
         fs::remove_all(data_.run(run));
-        reach(Failpoint::removal_files_gone);
+        pass_failpoint("removal_files_gone");
         store_.write([&](Transaction& transaction) { transaction.forget_removal(run); });
         spdlog::info("{}: removed", run);
     }

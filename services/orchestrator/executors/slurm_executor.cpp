@@ -329,7 +329,7 @@ void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& ro
     const Batch batch = open_round(roots);
     if (batch.folders.empty()) return;
     const Submitted answer = ask(batch);
-    reach(Failpoint::sbatch_after);
+    pass_failpoint("sbatch_after");
     if (answer.reply != Reply::accepted) spdlog::warn("slurm: {}: {}", batch.name, answer.said);
     close_round(batch, answer);
 }
@@ -365,7 +365,7 @@ Submitted SlurmExecutor::ask(const Batch& batch) const {
     try {
         for (std::size_t i = 0; i < batch.folders.size(); ++i)
             write_job_name(batch.folders[i], {batch.name, static_cast<std::int64_t>(i)});
-        reach(Failpoint::sbatch_before);
+        pass_failpoint("sbatch_before");
         return slurm_.submit(batch);
     } catch (const fault::IoError& error) {  // sbatch could not be started: there is no job
         return {Reply::refused, error.what()};

@@ -130,12 +130,12 @@ bool is_whole(const Service& service, const StoredFile& file) {
 }
 
 void keep(Service& service, const ArrivingFile& arriving, const StoredFile& file) {
-    reach(Failpoint::upload_before);
+    pass_failpoint("upload_before");
     service.store.write([&](Transaction& transaction) {
         transaction.keep_file(file, [&] {
             fs::rename(arriving.path(), service.data.files() / file.file);
             sync_folder(service.data.files());
-            reach(Failpoint::upload_after);
+            pass_failpoint("upload_after");
         });
     });
 }

@@ -75,9 +75,9 @@ void Store::commit(std::deque<Job>& jobs) {
             }
             writing_.change("RELEASE job", {});
         }
-        reach(Failpoint::store_before_commit);
+        pass_failpoint("store_before_commit");
         writing_.script("COMMIT");
-        reach(Failpoint::store_after_commit);
+        pass_failpoint("store_after_commit");
     } catch (const StoreError&) {
         const std::exception_ptr failure = std::current_exception();
         try {

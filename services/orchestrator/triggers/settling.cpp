@@ -225,13 +225,13 @@ void Settling::take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& sna
                           " s allows; give snapshot_interval_s",
                       WasMet::yes);
     const Firing firing = firing_of(fem, armed, snapshot, wanted);
-    reach(Failpoint::firing_before);
+    pass_failpoint("firing_before");
     store_.write([&](Transaction& transaction) {
         if (!transaction.add_firing(armed.trigger, firing)) return;
         transaction.move_trigger(armed.trigger, TriggerEvent::fire,
                                  {{"transfer_time", firing.transfer_time}});
     });
-    reach(Failpoint::firing_after);
+    pass_failpoint("firing_after");
     armed.trigger.state = TriggerState::fired;
     spdlog::info("{}: trigger {} fired, {} for {:.6f} s", fem.task.id, armed.trigger.name,
                  snapshot.name, wanted);
