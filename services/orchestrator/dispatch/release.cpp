@@ -3,19 +3,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
+#include "core/words/number.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
-
-std::string in_seconds(double time) {
-    std::ostringstream text;
-    text << time << " s";
-    return text.str();
-}
 
 /// Why a child's time was not reached; nothing: the parent did not end regularly before it.
 /// A FEM whose mesh entangles has done its work, and so has a run without what lies beyond.
@@ -23,8 +17,8 @@ std::optional<std::string> why_not_reached(const Task& parent, const BlockedTask
     if (parent.not_reached && parent.fault) return parent.fault->summary;
     if (!has_output(parent.state) || !parent.result || !child.transfer_time) return std::nullopt;
     if (parent.result->value("ended", "") != "entangled") return std::nullopt;
-    return "the FEM ended entangled at " + in_seconds(parent.result->value("end_time", 0.0)) +
-           ", before " + in_seconds(*child.transfer_time);
+    return "the FEM ended entangled at " + words::text_of(parent.result->value("end_time", 0.0)) +
+           " s, before " + words::text_of(*child.transfer_time) + " s";
 }
 
 /// What is placed and not taken may go again before its task runs (dispatch/cache.cpp): nothing of
