@@ -202,10 +202,9 @@ void remove_file(Service& service, Call& call) {
     const std::string& sha256 = call.parts[0];
     const auto file = service.store.file(sha256);
     if (!file) throw not_found("file " + sha256);
-    Removal outcome = Removal::unknown;
-    service.store.write([&](Transaction& transaction) {
-        outcome =
-            transaction.forget_file(sha256, [&] { fs::remove(service.data.files() / file->file); });
+    const Removal outcome = service.store.write([&](Transaction& transaction) {
+        return transaction.forget_file(sha256,
+                                       [&] { fs::remove(service.data.files() / file->file); });
     });
     if (outcome == Removal::needed)
         throw Problem{409, "/problems/needed", "Needed",

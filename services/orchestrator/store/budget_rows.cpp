@@ -16,8 +16,7 @@ void Transaction::set_budget(const std::string& run, std::optional<double> cpu_s
     study=CASE WHEN ?2 IS NULL THEN json_remove(study, '$.budget')
         ELSE json_set(study, '$.budget', json_object('cpu_seconds', ?2)) END WHERE id=?1)",
         {run, value_or_null(cpu_seconds)});
-    add_event(run, std::nullopt, "run",
-              {{"event", "set_budget"}, {"cpu_seconds", or_null(cpu_seconds)}});
+    add_run_event(run, {{"event", "set_budget"}, {"cpu_seconds", or_null(cpu_seconds)}});
 }
 
 bool Transaction::is_exhausted(const std::string& run) const {

@@ -45,8 +45,7 @@ std::optional<std::string> Store::equal_in_flight(const Task& task) const {
         R"(SELECT other.id FROM tasks AS other INDEXED BY tasks_by_state
 LEFT JOIN tasks AS theirs ON theirs.id=other.parent LEFT JOIN tasks AS mine ON mine.id=?1
 WHERE other.state IN ('starting', 'running', 'finalizing') AND other.recipe=?2 AND other.input=?3
-    AND other.id<>?4
-    AND coalesce(theirs.same_as, theirs.id, '')=coalesce(mine.same_as, mine.id, '') LIMIT 1)",
+    AND other.id<>?4 AND coalesce(theirs.same_as, theirs.id, '')=coalesce(mine.same_as, mine.id, '') LIMIT 1)",
         {task.parent.value_or(""), *task.recipe, task.input, task.id});
 }
 
@@ -57,8 +56,7 @@ std::optional<Recipe> Store::recipe(const std::string& hash) const {
 
 std::optional<Task> Store::earlier_equal_recipe(const Task& wanted) const {
     const auto id = reader()->text(
-        R"(SELECT id FROM tasks WHERE phase=?1 AND recipe=?2 AND id<?3
-    AND (parent IS NULL OR parent<>?4)
+        R"(SELECT id FROM tasks WHERE phase=?1 AND recipe=?2 AND id<?3 AND (parent IS NULL OR parent<>?4)
 ORDER BY (input=?5) DESC, (state='succeeded') DESC, id DESC LIMIT 1)",
         {wanted.phase, *wanted.recipe, wanted.id, wanted.parent.value_or(""), wanted.input});
     return id ? task(*id) : std::nullopt;

@@ -35,15 +35,14 @@ Value value_or_null(const std::optional<T>& value) {
     return *value;
 }
 
-/// A row of a result while it is being read; columns by the names that the statement gives them.
-/// Throws std::logic_error for a name that it lacks.
+/// The row that a statement stands at; columns by the names that the statement gives them. Throws
+/// std::logic_error for a name that it lacks.
 class Row {
   public:
-    bool is_null(std::string_view column) const { return is_null_at(place_of(column)); }
     std::string text(std::string_view column) const { return text_at(place_of(column)); }
     std::int64_t integer(std::string_view column) const { return integer_at(place_of(column)); }
     double real(std::string_view column) const { return real_at(place_of(column)); }
-    bool yes(std::string_view column) const { return integer(column) != 0; }
+    bool yes(std::string_view column) const { return yes_at(place_of(column)); }
     nlohmann::json document(std::string_view column) const;
     std::optional<std::string> optional_text(std::string_view column) const {
         return unless_null(place_of(column), &Row::text_at);
@@ -53,6 +52,9 @@ class Row {
     }
     std::optional<double> optional_real(std::string_view column) const {
         return unless_null(place_of(column), &Row::real_at);
+    }
+    std::optional<bool> optional_yes(std::string_view column) const {
+        return unless_null(place_of(column), &Row::yes_at);
     }
     std::optional<nlohmann::json> optional_document(std::string_view column) const;
 
@@ -66,6 +68,7 @@ class Row {
     std::string text_at(int place) const;
     std::int64_t integer_at(int place) const;
     double real_at(int place) const;
+    bool yes_at(int place) const { return integer_at(place) != 0; }
     template <class T>
     std::optional<T> unless_null(int place, T (Row::*read)(int) const) const {
         if (is_null_at(place)) return std::nullopt;

@@ -5,6 +5,7 @@
 #include "services/findings/flags.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
+#include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/store/views.hpp"
 
@@ -26,9 +27,8 @@ std::string sweep_state() {
     WHEN NOT EXISTS (SELECT 1 FROM tasks AS t WHERE t.run=r.id AND )" +
            makes_a_row("t") + R"() THEN 'planning'
     WHEN EXISTS (SELECT 1 FROM triggers AS g WHERE g.run=r.id AND g.state IN ('armed', 'holding')
-        AND (g.kind='bisect' AND (SELECT count(*) FROM firings WHERE firings.trigger=g.id)
-                > json_extract(g.spec, '$.seeds')
-            OR )" +
+        AND (g.kind='bisect' AND json_extract(g.spec, '$.seeds') <
+            (SELECT count(*) FROM firings WHERE firings.trigger=g.id) OR )" +
            draws_samples("g.spec") + R"( AND (SELECT last_task FROM runs WHERE runs.id=r.id)
                 > (SELECT json_extract(detail, '$.tasks') FROM events WHERE events.run=r.id
                    AND json_extract(detail, '$.event')='submit' ORDER BY seq LIMIT 1)))
@@ -220,9 +220,8 @@ std::vector<Task> Store::tasks_to_start(const std::vector<std::string>& full_que
                                         std::size_t most) const {
     return reader()->select(selected_tasks + R"(INDEXED BY tasks_to_start WHERE state='ready'
     AND phase NOT IN (SELECT value FROM json_each(?))
-    AND run NOT IN (SELECT id FROM runs WHERE paused=1 UNION ALL
-        SELECT id FROM runs JOIN spendings ON spendings.run=id
-        WHERE spendings.cpu_seconds>=budget_cpu_seconds)
+    AND run NOT IN (SELECT id FROM runs WHERE paused=1 UNION ALL SELECT id FROM runs
+        JOIN spendings ON spendings.run=id WHERE spendings.cpu_seconds>=budget_cpu_seconds)
 ORDER BY priority DESC, id LIMIT ?)",
                             {json(full_queues).dump(), as_value(most)}, task_from);
 }
@@ -361,19 +360,41 @@ FROM tasks WHERE run=? AND )" +
     return *counts;
 }
 
+/// What waits in a cluster's queue does not run yet; what runs has run as long as its attempts did.
+/// The pace is of the last eight: a sweep goes from what stays to what flows, and its first say
+/// little of its last.
+std::vector<PhaseLeft> Store::left_of(const std::string& run) const {
+    return reader()->select(
+        R"(SELECT sum(NOT runs) AS waiting, sum(runs) AS running,
+    total(iif(runs, ran_for, 0.0)) AS running_for,
+    (SELECT avg(seconds) FROM (SELECT (SELECT sum(wall_seconds) FROM attempts
+         WHERE attempts.task=tasks.id) AS seconds FROM tasks
+     WHERE run=?1 AND state='succeeded' AND phase=open.phase ORDER BY started DESC LIMIT 8)) AS pace
+FROM (SELECT phase, state IN ('running', 'finalizing', 'cancelling') AS runs,
+    (SELECT total(coalesce(wall_seconds, iif(finished IS NULL,
+         (julianday('now') - julianday(started)) * 86400.0, NULL)))
+     FROM attempts WHERE attempts.task=tasks.id) AS ran_for
+    FROM tasks WHERE run=?1 AND finished IS NULL) AS open GROUP BY phase)",
+        {run}, [](const Row& row) {
+            return PhaseLeft{.waiting = row.integer("waiting"),
+                             .running = row.integer("running"),
+                             .running_for = row.real("running_for"),
+                             .pace = row.optional_real("pace")};
+        });
+}
+
 namespace {
 
 json value_from(const Row& row, const ResultColumn& column) {
-    if (row.is_null(column.name)) return nullptr;
     switch (column.kind) {
         case ColumnKind::number:
-            return row.real(column.name);
+            return or_null(row.optional_real(column.name));
         case ColumnKind::yes_no:
-            return row.yes(column.name);
+            return or_null(row.optional_yes(column.name));
         case ColumnKind::word:
-            return row.text(column.name);
+            return or_null(row.optional_text(column.name));
         case ColumnKind::flags:
-            return row.document(column.name);
+            return or_null(row.optional_document(column.name));
     }
     return nullptr;
 }

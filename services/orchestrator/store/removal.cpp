@@ -46,12 +46,12 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
     for (const char* each : rows_of_run) database_.change(each, {run});
     for (const std::string& each : recipes)
         database_.change(
-            R"(DELETE FROM recipes WHERE hash=?1
-    AND NOT EXISTS (SELECT 1 FROM tasks WHERE recipe=?1))",
+            "DELETE FROM recipes WHERE hash=?1 AND NOT EXISTS (SELECT 1 FROM tasks WHERE "
+            "recipe=?1)",
             {each});
     removes_events_ = true;
     database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
-    add_event(run, std::nullopt, "run", {{"event", "remove"}, {"why", why}});
+    add_run_event(run, {{"event", "remove"}, {"why", why}});
     return Removal::done;
 }
 

@@ -77,8 +77,7 @@ void add_broken(Connection& database, const std::string& ids, std::vector<Run>& 
     database.query(
         R"(SELECT run, phase, count(*) AS tasks,
     (SELECT count(*) FROM tasks AS every WHERE every.run = tasks.run AND every.phase = tasks.phase)
-        AS of_tasks,
-    coalesce(fault_summary, state) AS why, min(label)
+        AS of_tasks, coalesce(fault_summary, state) AS why, min(label)
 FROM tasks WHERE run IN (SELECT value FROM json_each(?))
     AND state IN ('failed', 'skipped', 'cancelled') AND NOT not_reached
 GROUP BY run, phase ORDER BY phase)",

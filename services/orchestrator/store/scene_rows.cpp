@@ -13,10 +13,6 @@ SceneName name_from(const Row& row) {
     return {row.text("name"), row.integer("version"), row.text("created"), row.text("sha256")};
 }
 
-constexpr const char* drop_scene = R"(DELETE FROM scenes WHERE sha256=?1
-    AND NOT EXISTS (SELECT 1 FROM scene_names WHERE scene_names.sha256=?1)
-    AND NOT EXISTS (SELECT 1 FROM scenes_of_runs WHERE scenes_of_runs.sha256=?1))";
-
 StoredScene scene_from(const Row& row) {
     return {.sha256 = row.text("sha256"),
             .document = row.text("document"),
@@ -76,7 +72,7 @@ UNION ALL SELECT 1 FROM scenes_of_runs WHERE sha256=?1)",
                         {sha256}))
         return Removal::needed;
     database_.change("DELETE FROM files_of_scenes WHERE scene=?", {sha256});
-    database_.change(drop_scene, {sha256});
+    database_.change("DELETE FROM scenes WHERE sha256=?", {sha256});
     return Removal::done;
 }
 

@@ -31,8 +31,8 @@ Store::Store(const std::filesystem::path& file)
 
 Store::~Store() = default;
 
-void Store::write(std::function<void(Transaction&)> change, std::string by) {
-    Job job{std::move(change), std::move(by), {}, nullptr};
+void Store::wait_for(std::function<void(Transaction&)> change, const std::string& by) {
+    Job job{std::move(change), by, {}, nullptr};
     std::future<void> done = job.done.get_future();
     {
         const std::lock_guard lock(jobs_mutex_);

@@ -23,6 +23,17 @@ const std::string is_a_run = "SELECT 1 FROM runs WHERE id=?";
 
 std::string run_of(const std::string& task) { return task.substr(0, task.find('-')); }
 
+/// In place of what it had.
+void keep_artifacts(Connection& database, const std::string& task,
+                    const std::vector<Artifact>& artifacts) {
+    database.change("DELETE FROM artifacts WHERE task=?", {task});
+    for (const Artifact& each : artifacts) {
+        database.change(
+            "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) VALUES (?,?,?,?)",
+            {each.task, each.name, each.sha256, each.bytes});
+    }
+}
+
 }  // namespace
 
 void Transaction::add_run(const NewRun& run) {
@@ -35,7 +46,7 @@ void Transaction::add_run(const NewRun& run) {
     add_recipes(run.recipes);
     add_files(run);
     add_scene_source(run);
-    add_event(run.id, std::nullopt, "run", {{"event", "submit"}, {"tasks", run.tasks.size()}});
+    add_run_event(run.id, {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
         std::optional<std::string> parent;
@@ -69,7 +80,7 @@ std::int64_t Transaction::next_ordinal(const std::string& run) {
 void Transaction::extend_run(const std::string& run, const Extension& extension) {
     add_recipes(extension.recipes);
     database_.change("UPDATE runs SET study=?, sweep=1 WHERE id=?", {extension.study.dump(), run});
-    add_event(run, std::nullopt, "run", {{"event", "extend"}, {"tasks", extension.tasks.size()}});
+    add_run_event(run, {{"event", "extend"}, {"tasks", extension.tasks.size()}});
     const std::int64_t priority =
         database_.integer("SELECT max(priority) FROM tasks WHERE run=?", {run}).value_or(0);
     std::vector<std::string> ids;
@@ -98,10 +109,6 @@ void Transaction::keep_idempotency_key(const std::string& key, const std::string
     database_.change(
         "INSERT INTO idempotency_keys (key, body_sha256, run, created) VALUES (?,?,?,?)",
         {key, body_sha256, run, utc_now()});
-}
-
-bool Transaction::holds(const std::string& task) const {
-    return database_.finds("SELECT 1 FROM tasks WHERE id=?", {task});
 }
 
 TaskState Transaction::state_of(const std::string& task) const {
@@ -176,7 +183,7 @@ void Transaction::pass_over_task(const std::string& task, const std::string& why
 void Transaction::finish_task(const std::string& task, const json& result,
                               const std::vector<Artifact>& artifacts,
                               const std::string& input_sha256) {
-    keep_artifacts(task, artifacts);
+    keep_artifacts(database_, task, artifacts);
     database_.change("UPDATE tasks SET result=?, input_sha256=? WHERE id=?",
                      {text_of(result), input_sha256, task});
     move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
@@ -184,27 +191,19 @@ void Transaction::finish_task(const std::string& task, const json& result,
 
 void Transaction::keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
                                const std::string& input_sha256) {
-    if (!holds(task)) return;  // its run was removed
-    const TaskState state = state_of(task);
-    if (state != TaskState::failed && state != TaskState::cancelled) return;  // tried again
-    keep_artifacts(task, artifacts);
+    const bool has_ended = database_.finds(
+        "SELECT 1 FROM tasks WHERE id=? AND state IN ('failed', 'cancelled')", {task});
+    if (!has_ended) return;  // tried again, or its run was removed
+    keep_artifacts(database_, task, artifacts);
     database_.change("UPDATE tasks SET input_sha256=? WHERE id=?", {input_sha256, task});
 }
 
-/// In place of what it had.
-void Transaction::keep_artifacts(const std::string& task, const std::vector<Artifact>& artifacts) {
-    database_.change("DELETE FROM artifacts WHERE task=?", {task});
-    for (const Artifact& each : artifacts) {
-        database_.change(
-            "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) VALUES (?,?,?,?)",
-            {each.task, each.name, each.sha256, each.bytes});
-    }
-}
-
 bool Transaction::reuse_task(const std::string& task, const Task& earlier) {
-    const bool is_as_read = database_.finds("SELECT 1 FROM tasks WHERE id=? AND state=?",
-                                            {earlier.id, std::string(name_of(earlier.state))});
-    if (!is_as_read || !holds(task)) return false;
+    const bool are_as_read = database_.finds(
+        R"(SELECT 1 FROM tasks AS earlier JOIN tasks AS task ON task.id=?
+WHERE earlier.id=? AND earlier.state=?)",
+        {task, earlier.id, std::string(name_of(earlier.state))});
+    if (!are_as_read) return false;
     const TaskEvent event =
         earlier.state == TaskState::failed ? TaskEvent::reuse_breakdown : TaskEvent::reuse;
     const std::string first = earlier.same_as.value_or(earlier.id);
@@ -266,7 +265,7 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     if (!end.reason.empty()) detail["stopped_for"] = end.reason;
     add_event(run_of(task), task, "attempt", detail);
     if (!was_exhausted && is_exhausted(run_of(task)))
-        add_event(run_of(task), std::nullopt, "run", {{"event", "budget_exhausted"}});
+        add_run_event(run_of(task), {{"event", "budget_exhausted"}});
 }
 
 std::int64_t Transaction::count_try(const std::string& task) {
@@ -281,7 +280,7 @@ bool Transaction::cancel_run(const std::string& run, const std::string& why) {
     const bool known = database_.finds(is_a_run, {run});
     disarm_triggers(run, why);
     for (const std::string& task : tasks) try_move_task(task, TaskEvent::cancel, {{"why", why}});
-    if (!tasks.empty()) add_event(run, std::nullopt, "run", {{"event", "cancel"}, {"why", why}});
+    if (!tasks.empty()) add_run_event(run, {{"event", "cancel"}, {"why", why}});
     return known;
 }
 
@@ -290,7 +289,7 @@ bool Transaction::mark_run(const std::string& run, const char* column, std::int6
     const std::string is(column);
     if (database_.change("UPDATE runs SET " + is + "=?1 WHERE id=?2 AND " + is + "<>?1",
                          {value, run}) > 0)
-        add_event(run, std::nullopt, "run", {{"event", event}});
+        add_run_event(run, {{"event", event}});
     return database_.finds(is_a_run, {run});
 }
 
@@ -305,8 +304,7 @@ bool Transaction::rename_run(const std::string& run, const std::string& title) {
     const auto before = database_.text("SELECT title FROM runs WHERE id=?", {run});
     if (before && *before != title) {
         database_.change("UPDATE runs SET title=? WHERE id=?", {title, run});
-        add_event(run, std::nullopt, "run",
-                  {{"event", "rename"}, {"from", *before}, {"title", title}});
+        add_run_event(run, {{"event", "rename"}, {"from", *before}, {"title", title}});
     }
     return before.has_value();
 }
@@ -314,8 +312,7 @@ bool Transaction::rename_run(const std::string& run, const std::string& title) {
 bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
     const bool known =
         database_.change("UPDATE tasks SET priority=? WHERE run=?", {priority, run}) > 0;
-    if (known)
-        add_event(run, std::nullopt, "run", {{"event", "set_priority"}, {"priority", priority}});
+    if (known) add_run_event(run, {{"event", "set_priority"}, {"priority", priority}});
     return known;
 }
 
@@ -334,8 +331,8 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
     for (const auto& [task, release] : tasks) ids.insert(task);
     const std::vector<Trigger> triggers = triggers_to_rearm(run, ids);
     if (!tasks.empty() || !triggers.empty())
-        add_event(run, std::nullopt, "run",
-                  {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
+        add_run_event(run,
+                      {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
     for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
     for (const auto& [task, release] : tasks) {
         // What broke down is wanted again, not answered by its like: it loses its recipe.

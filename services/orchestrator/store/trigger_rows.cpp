@@ -48,6 +48,25 @@ std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> 
     return summary.value_or(std::string(name_of(state)));
 }
 
+/// What it decides by: its FEM, that one's stability analysis (as Store::stability_of has it), and for
+/// a bisect the runouts.
+bool hangs_on(Connection& database, const Trigger& trigger, const std::set<std::string>& tasks) {
+    const auto has = [&](const std::string& task) { return tasks.contains(task); };
+    if (has(trigger.fem_task)) return true;
+    const auto lem = database.text(
+        R"(SELECT id FROM tasks WHERE run=?1 AND phase=?2
+ORDER BY variant=(SELECT variant FROM tasks WHERE id=?3) DESC, variant='' DESC, id LIMIT 1)",
+        {trigger.run, phases::lem.program, trigger.fem_task});
+    if (lem && has(*lem)) return true;
+    return trigger.kind == "bisect" &&
+           std::ranges::any_of(
+               database.texts(R"(SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm
+ON mpm.parent=transfer.id WHERE transfer.parent IN )" +
+                                  fems_alike("?"),
+                              {trigger.fem_task}),
+               has);
+}
+
 struct FemOfPlan {
     std::string label;
     std::string variant;
@@ -173,19 +192,17 @@ void Transaction::add_transfer(const std::string& run, const std::string& fem_ta
         const std::string& parent = ids[*plan[i].parent];
         if (parent.empty()) continue;
         const TaskPlan task = at_time(plan[i], time);
-        const auto known =
-            database_.text("SELECT id FROM tasks WHERE run=? AND label=?", {run, task.label});
-        ids[i] = known ? *known : add_fired_task(run, task, parent, fem.priority);
+        if (const auto known =
+                database_.text("SELECT id FROM tasks WHERE run=? AND label=?", {run, task.label})) {
+            ids[i] = *known;
+            continue;
+        }
+        ids[i] = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
+        // Its snapshot exists: a transfer has nothing to wait for.
+        const bool ready = task.release == Release::file_exists;
+        insert_task(run, ids[i], task, parent, fem.priority,
+                    ready ? TaskState::ready : TaskState::blocked);
     }
-}
-
-std::string Transaction::add_fired_task(const std::string& run, const TaskPlan& task,
-                                        const std::string& parent, std::int64_t priority) {
-    std::string id = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
-    // Its snapshot exists: a transfer has nothing to wait for.
-    const bool ready = task.release == Release::file_exists;
-    insert_task(run, id, task, parent, priority, ready ? TaskState::ready : TaskState::blocked);
-    return id;
 }
 
 void Transaction::keep_trigger_result(const std::string& trigger, const json& result) {
@@ -204,28 +221,9 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
         database_.select(selected_triggers + "WHERE run=? AND state IN ('disarmed', 'expired')",
                          {run}, trigger_from);
     std::erase_if(found, [&](const Trigger& each) {
-        return each.state == TriggerState::expired && !hangs_on(each, tasks_tried_again);
+        return each.state == TriggerState::expired && !hangs_on(database_, each, tasks_tried_again);
     });
     return found;
-}
-
-/// What it decides by: its FEM, that one's stability analysis (as Store::stability_of has it), and for
-/// a bisect the runouts.
-bool Transaction::hangs_on(const Trigger& trigger, const std::set<std::string>& tasks) const {
-    const auto has = [&](const std::string& task) { return tasks.contains(task); };
-    if (has(trigger.fem_task)) return true;
-    const auto lem = database_.text(
-        R"(SELECT id FROM tasks WHERE run=?1 AND phase=?2
-ORDER BY variant=(SELECT variant FROM tasks WHERE id=?3) DESC, variant='' DESC, id LIMIT 1)",
-        {trigger.run, phases::lem.program, trigger.fem_task});
-    if (lem && has(*lem)) return true;
-    return trigger.kind == "bisect" &&
-           std::ranges::any_of(
-               database_.texts(R"(SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm
-ON mpm.parent=transfer.id WHERE transfer.parent IN )" +
-                                   fems_alike("?"),
-                               {trigger.fem_task}),
-               has);
 }
 
 // ---------------------------------------------------------------- reading
