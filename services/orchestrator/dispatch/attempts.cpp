@@ -45,6 +45,8 @@ void Attempts::adopt() {
     }
 }
 
+/// One whose files cannot be read must not hold up the others: it says why it is stuck, and is
+/// looked at again.
 void Attempts::look() {
     const std::vector<int> changed = watch_.changes();
     stop_cancelled();
@@ -53,7 +55,14 @@ void Attempts::look() {
     for (LiveAttempt& live : live_) {
         if (all || std::ranges::find(changed, live.output_watch) != changed.end())
             live.outputs_changed = true;
-        observe_alone(live);
+        try {
+            observe(live);
+        } catch (const std::filesystem::filesystem_error& error) {
+            const std::string why = std::string("cannot be observed: ") + error.what();
+            if (board_.of(live.task.id).message != why)
+                spdlog::error("{} ({}): {}", live.task.id, live.task.label, why);
+            board_.set(live.task.id, {0.0, why});
+        }
     }
     forget_the_ended();
 }
@@ -82,15 +91,15 @@ Capacity Attempts::capacity() const {
 // ---------------------------------------------------------------- starting
 
 void Attempts::start(const std::vector<Task>& tasks) {
-    std::vector<std::int64_t> numbers;
     for (const Task& task : tasks) drop_placed_outputs(data_, task);
     pass_failpoint("claim_before");
-    store_.write([&](Transaction& transaction) {
-        numbers.clear();
+    const auto numbers = store_.write([&](Transaction& transaction) {
+        std::vector<std::int64_t> made;
         for (const Task& task : tasks) {
             const bool claimed = transaction.try_move_task(task.id, TaskEvent::claim).has_value();
-            numbers.push_back(claimed ? transaction.add_attempt(task.id) : 0);  // 0: cancelled
+            made.push_back(claimed ? transaction.add_attempt(task.id) : 0);  // 0: cancelled
         }
+        return made;
     });
     pass_failpoint("claim_after");
     std::vector<LiveAttempt*> started;
@@ -129,25 +138,26 @@ bool Attempts::hand_over(LiveAttempt& live) {
         note_loss(live, std::string("it cannot be started: ") + error.what());
         return false;
     }
-    latency_.note(store_, data_, live.task);
+    note_latency(live.task);
     spdlog::info("{} ({}): attempt {} started", live.task.id, live.task.label, live.number);
     return true;
 }
 
-// ---------------------------------------------------------------- watching
-
-/// One whose files cannot be read must not hold up the others: it says why it is stuck, and is
-/// looked at again.
-void Attempts::observe_alone(LiveAttempt& live) {
-    try {
-        observe(live);
-    } catch (const std::filesystem::filesystem_error& error) {
-        const std::string why = std::string("cannot be observed: ") + error.what();
-        if (board_.of(live.task.id).message != why)
-            spdlog::error("{} ({}): {}", live.task.id, live.task.label, why);
-        board_.set(live.task.id, {0.0, why});
-    }
+void Attempts::note_latency(const Task& task) {
+    const auto note = [&](Histogram& in, std::int64_t since) {
+        if (const auto waited = clock_.seconds_since(since)) in.add(*waited);
+    };
+    if (const auto ready_at = store_.ready_at(task.id)) note(queue_wait_, *ready_at);
+    if (task.release != Release::file_exists) return;
+    std::error_code error;
+    const auto appeared = std::filesystem::last_write_time(
+        data_.input(task, store_.task(*task.parent).value()), error);
+    if (error) return;
+    const auto since = std::chrono::file_clock::to_sys(appeared).time_since_epoch();
+    note(snapshot_to_start_, std::chrono::duration_cast<std::chrono::milliseconds>(since).count());
 }
+
+// ---------------------------------------------------------------- watching
 
 void Attempts::observe(LiveAttempt& live) {
     if (live.outputs_changed) settle_children(store_, data_, live.task.id);

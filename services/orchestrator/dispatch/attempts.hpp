@@ -7,10 +7,9 @@
 #include <functional>
 #include <list>
 
-#include "services/orchestrator/dispatch/capacity.hpp"
+#include "services/orchestrator/dispatch/clock_of_day.hpp"
 #include "services/orchestrator/dispatch/live_attempt.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
-#include "services/orchestrator/dispatch/start_latency.hpp"
 #include "services/orchestrator/executors/executor.hpp"
 #include "services/orchestrator/files/folder_watch.hpp"
 
@@ -42,13 +41,16 @@ class Attempts {
     Capacity capacity() const;
     /// Readable when a folder of theirs has changed.
     int descriptor() const { return watch_.descriptor(); }
-    const StartLatency& latency() const { return latency_; }
+    /// Seconds from ready to given to the executor; from the snapshot's appearance on its disk to
+    /// the start of what waited for it.
+    const Histogram& queue_wait() const { return queue_wait_; }
+    const Histogram& snapshot_to_start() const { return snapshot_to_start_; }
 
   private:
     LiveAttempt& attach(const Task& task, std::int64_t number);
     bool hand_over(LiveAttempt& live);
+    void note_latency(const Task& task);
     void stop_cancelled();
-    void observe_alone(LiveAttempt& live);
     void observe(LiveAttempt& live);
     void read_lines(LiveAttempt& live);
     void note(LiveAttempt& live, AttemptEvent event, bool LiveAttempt::*noted);
@@ -70,7 +72,9 @@ class Attempts {
     FolderWatch watch_;
     std::list<LiveAttempt> live_;
     std::chrono::steady_clock::time_point looked_at_all_{};
-    StartLatency latency_;
+    ClockOfDay clock_;
+    Histogram queue_wait_{{0.01, 0.03, 0.1, 0.3, 1, 3, 10, 60, 600, 3600}};
+    Histogram snapshot_to_start_{{0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 5, 30}};
 };
 
 }  // namespace breach::orchestrator

@@ -1,6 +1,9 @@
 // What other threads ring the dispatcher's with, and leave for it until it looks.
 #pragma once
 
+#include <sys/eventfd.h>
+#include <unistd.h>
+
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -10,12 +13,15 @@ namespace breach::orchestrator {
 /// Wakes the dispatcher's thread out of its poll; may be rung by any thread.
 class Bell {
   public:
-    Bell();
-    ~Bell();
+    Bell() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+    ~Bell() { close(descriptor_); }
     Bell(const Bell&) = delete;
     Bell& operator=(const Bell&) = delete;
-    void ring() const;
-    void silence() const;
+    void ring() const { eventfd_write(descriptor_, 1); }
+    void silence() const {
+        eventfd_t count = 0;
+        eventfd_read(descriptor_, &count);
+    }
     int descriptor() const { return descriptor_; }
 
   private:

@@ -31,7 +31,8 @@ class Dispatcher {
     const DispatchSettings& settings() const { return settings_; }
     /// Of the executor; nothing: it has no queue of its own.
     std::optional<std::vector<QueuedJob>> jobs() const { return executor_.jobs(); }
-    const StartLatency& latency() const { return attempts_.latency(); }
+    const Histogram& queue_wait() const { return attempts_.queue_wait(); }
+    const Histogram& snapshot_to_start() const { return attempts_.snapshot_to_start(); }
 
   private:
     void serve(const std::stop_token& stop);

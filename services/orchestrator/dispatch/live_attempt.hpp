@@ -1,7 +1,7 @@
 // An attempt that may have a process: with what it is started, and how its fault is told.
 #pragma once
 
-#include "services/orchestrator/dispatch/settings.hpp"
+#include "services/orchestrator/dispatch/capacity.hpp"
 #include "services/orchestrator/executors/order.hpp"
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/store/store.hpp"

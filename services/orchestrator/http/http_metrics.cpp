@@ -22,9 +22,9 @@ std::string metrics(const Router& router, const Service& service) {
     const auto answers = router.answers();
     for (std::size_t i = 1; i < answers.size(); ++i)
         text << "breachline_http_requests_total{status=\"" << i << "xx\"} " << answers[i] << "\n";
-    text << service.dispatcher.latency().queue_wait().as_text(
-                "breachline_queue_wait_seconds", "From ready to given to the executor.")
-         << service.dispatcher.latency().snapshot_to_start().as_text(
+    text << service.dispatcher.queue_wait().as_text("breachline_queue_wait_seconds",
+                                                    "From ready to given to the executor.")
+         << service.dispatcher.snapshot_to_start().as_text(
                 "breachline_dispatch_latency_seconds",
                 "From the snapshot on the disk to the start of its transfer.")
          << service.store.commit_sizes().as_text("breachline_store_commit_size",
