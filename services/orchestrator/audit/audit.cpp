@@ -1,5 +1,6 @@
 #include "services/orchestrator/audit/audit.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <set>
@@ -42,32 +43,25 @@ class Auditor {
   private:
     void find(Finding finding) { audit_.findings.push_back(std::move(finding)); }
 
-    std::int64_t count(const std::string& table) {
-        std::int64_t rows = 0;
-        database_.query("SELECT count(*) FROM " + table, {},
-                        [&](const Row& row) { rows = row.integer(0); });
-        return rows;
-    }
-
     void look_at_database() {
         const std::string file = data_.database().string();
         if (const auto refusal = refusal_of(audit_.version))
             find({"database", file, *refusal, "check it with the program that made it"});
-        database_.query("PRAGMA integrity_check(20)", {}, [&](const Row& row) {
-            if (row.text(0) != "ok")
+        for (const std::string& each : database_.texts("PRAGMA integrity_check(20)"))
+            if (each != "ok")
                 find(
-                    {"database", file, row.text(0),
+                    {"database", file, each,
                      "restore a backup (breachline-restore); SQLite's .recover saves what it can"});
-        });
         database_.query("PRAGMA foreign_key_check", {}, [&](const Row& row) {
-            find({"database", row.text(0) + " row " + std::to_string(row.integer(1)),
-                  "names a row of " + row.text(2) + " that is not there",
+            find({"database", row.text("table") + " row " + std::to_string(row.integer("rowid")),
+                  "names a row of " + row.text("parent") + " that is not there",
                   "restore a backup (breachline-restore)"});
         });
         for (const auto& [table, counted] : {std::pair{"runs", &audit_.runs},
                                              {"tasks", &audit_.tasks},
                                              {"events", &audit_.events}})
-            if (audit_.version > 0) *counted = count(table);
+            if (audit_.version > 0)
+                *counted = database_.integer(std::string("SELECT count(*) FROM ") + table).value();
     }
 
     void look_at_history() {
@@ -75,59 +69,60 @@ class Auditor {
         database_.query(
             "SELECT seq, time, run, task, kind, detail FROM events ORDER BY seq", {},
             [&](const Row& row) {
-                history.take({row.integer(0), row.text(1), row.text(2), row.optional_text(3),
-                              row.text(4), nlohmann::json::parse(row.text(5), nullptr, false)});
+                history.take({row.integer("seq"), row.text("time"), row.text("run"),
+                              row.optional_text("task"), row.text("kind"),
+                              nlohmann::json::parse(row.text("detail"), nullptr, false)});
             });
         const std::string remedy = "report it with the database: a program wrote what it must not";
         for (const std::string& each : history.violations())
             find({"history", "events", each, remedy});
         database_.query("SELECT id, state FROM tasks", {}, [&](const Row& row) {
-            const auto told = history.state_of(row.text(0));
-            if (told && name_of(*told) != row.text(1))
-                find({"history", "task " + row.text(0),
-                      "is " + row.text(1) + ", its last event says " + std::string(name_of(*told)),
+            const auto told = history.state_of(row.text("id"));
+            const std::string state = row.text("state");
+            if (told && name_of(*told) != state)
+                find({"history", "task " + row.text("id"),
+                      "is " + state + ", its last event says " + std::string(name_of(*told)),
                       remedy});
         });
     }
 
     void look_at_counts() {
-        database_.query(
-            "SELECT run FROM (SELECT run, count(*) AS total, count(finished) AS ended, "
-            "sum(state IN ('succeeded', 'cached')) AS reached, sum(state='cancelled') AS cancelled "
-            "FROM tasks GROUP BY run) AS now JOIN run_counts AS kept USING (run) WHERE "
-            "(now.total, now.ended, now.reached, now.cancelled) <> "
-            "(kept.total, kept.ended, kept.reached, kept.cancelled)",
-            {}, [&](const Row& row) {
-                find({"counts", "run " + row.text(0), "its counts are not those of its tasks",
-                      "--repair counts them anew", true});
-            });
-        database_.query(
-            "SELECT run FROM (SELECT run, total(attempts.cpu_seconds) AS now, (SELECT cpu_seconds "
-            "FROM spendings WHERE spendings.run=tasks.run) AS kept FROM tasks LEFT JOIN attempts "
-            "ON attempts.task=tasks.id GROUP BY run) WHERE abs(now - coalesce(kept, 0)) > 1e-6 * "
-            "max(1, now)",
-            {}, [&](const Row& row) {
-                find({"counts", "run " + row.text(0),
-                      "the CPU time that it has spent is not that of its attempts",
-                      "--repair counts it anew", true});
-            });
+        for (const std::string& run : database_.texts(R"(SELECT run
+FROM (SELECT run, count(*) AS total, count(finished) AS ended,
+      sum(state IN ('succeeded', 'cached')) AS reached, sum(state='cancelled') AS cancelled
+      FROM tasks GROUP BY run) AS now JOIN run_counts AS kept USING (run)
+WHERE (now.total, now.ended, now.reached, now.cancelled) <>
+    (kept.total, kept.ended, kept.reached, kept.cancelled))"))
+            find({"counts", "run " + run, "its counts are not those of its tasks",
+                  "--repair counts them anew", true});
+        for (const std::string& run : database_.texts(R"(SELECT run
+FROM (SELECT run, total(attempts.cpu_seconds) AS now,
+      (SELECT cpu_seconds FROM spendings WHERE spendings.run=tasks.run) AS kept
+      FROM tasks LEFT JOIN attempts ON attempts.task=tasks.id GROUP BY run)
+WHERE abs(now - coalesce(kept, 0)) > 1e-6 * max(1, now))"))
+            find({"counts", "run " + run,
+                  "the CPU time that it has spent is not that of its attempts",
+                  "--repair counts it anew", true});
     }
 
     void look_at_outputs() {
         database_.query(
-            "SELECT tasks.run, tasks.label, artifacts.name, artifacts.bytes, artifacts.sha256 FROM "
-            "artifacts JOIN tasks ON tasks.id=artifacts.task WHERE tasks.finished IS NOT NULL",
+            R"(SELECT run, label, name, bytes, sha256 FROM artifacts JOIN tasks ON tasks.id=task
+WHERE finished IS NOT NULL)",
             {}, [&](const Row& row) {
                 ++audit_.outputs;
-                const fs::path file = data_.output(row.text(0), row.text(1)) / row.text(2);
-                if (const auto damage = damage_of(file, row.integer(3), row.text(4), look_))
+                const fs::path file =
+                    data_.output(row.text("run"), row.text("label")) / row.text("name");
+                if (const auto damage =
+                        damage_of(file, row.integer("bytes"), row.text("sha256"), look_))
                     find({"output", file.string(), *damage, from_backup});
             });
         database_.query(
-            "SELECT id, state FROM tasks WHERE state IN ('succeeded', 'cached') AND NOT EXISTS "
-            "(SELECT 1 FROM artifacts WHERE task=tasks.id)",
+            R"(SELECT id, state FROM tasks WHERE state IN ('succeeded', 'cached')
+    AND NOT EXISTS (SELECT 1 FROM artifacts WHERE task=tasks.id))",
             {}, [&](const Row& row) {
-                find({"output", "task " + row.text(0), "is " + row.text(1) + " without any output",
+                find({"output", "task " + row.text("id"),
+                      "is " + row.text("state") + " without any output",
                       "report it with the database: a program wrote what it must not"});
             });
     }
@@ -135,11 +130,12 @@ class Auditor {
     void look_at_files() {
         database_.query("SELECT file, bytes, sha256, name FROM files", {}, [&](const Row& row) {
             ++audit_.files;
-            known_files_.insert(row.text(0));
-            const fs::path file = data_.files() / row.text(0);
-            if (const auto damage = damage_of(file, row.integer(1), row.text(2), look_))
+            known_files_.insert(row.text("file"));
+            const fs::path file = data_.files() / row.text("file");
+            if (const auto damage =
+                    damage_of(file, row.integer("bytes"), row.text("sha256"), look_))
                 find({"file", file.string(), *damage,
-                      "send " + row.text(3) + " again (breach files FILE)"});
+                      "send " + row.text("name") + " again (breach files FILE)"});
         });
     }
 
@@ -161,16 +157,14 @@ class Auditor {
     }
 
     void look_for_strays() {
-        std::set<std::string> leaving;
         std::map<std::string, std::set<std::string>> labels;
-        database_.query("SELECT run FROM removals", {},
-                        [&](const Row& row) { leaving.insert(row.text(0)); });
-        database_.query("SELECT id FROM runs", {}, [&](const Row& row) { labels[row.text(0)]; });
+        const std::vector<std::string> leaving = database_.texts("SELECT run FROM removals");
+        for (const std::string& run : database_.texts("SELECT id FROM runs")) labels[run];
         database_.query("SELECT run, label FROM tasks", {},
-                        [&](const Row& row) { labels[row.text(0)].insert(row.text(1)); });
+                        [&](const Row& row) { labels[row.text("run")].insert(row.text("label")); });
         each_in(data_.runs(), [&](const fs::path& folder) {
             const std::string run = folder.filename();
-            if (leaving.contains(run)) return;
+            if (std::ranges::find(leaving, run) != leaving.end()) return;
             if (!labels.contains(run)) return stray(folder, "belongs to no run");
             each_in(folder, [&](const fs::path& inside) {
                 if (fs::is_directory(inside) && inside.filename() != "files" &&

@@ -74,7 +74,7 @@ void Cache::look_up(const Task& task, LookedUp& found) {
         spdlog::info("{} ({}): the same as {}", task.id, task.label, earlier.id);
         return;
     }
-    reach(Failpoint::reuse_none);
+    pass_failpoint("reuse_none");
     if (!refusal) return;
     spdlog::warn("{} ({}): {}", task.id, task.label, *refusal);
     store_.write(
@@ -87,7 +87,7 @@ bool Cache::take(const Task& earlier, const Task& task) const {
     bool taken = false;
     try {
         place_outputs(earlier, task);
-        reach(Failpoint::reuse_placed);
+        pass_failpoint("reuse_placed");
         store_.write(
             [&](Transaction& transaction) { taken = transaction.reuse_task(task.id, earlier); });
     } catch (const std::exception&) {

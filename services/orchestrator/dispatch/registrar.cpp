@@ -104,7 +104,7 @@ void Registrar::finalize(const Task& task) {
     } catch (const std::exception& error) {
         trouble = std::string("the outputs cannot be read: ") + error.what();
     }
-    reach(Failpoint::outputs_before);
+    pass_failpoint("outputs_before");
     store_.write([&](Transaction& transaction) {
         if (trouble.empty()) {
             transaction.finish_task(task.id, result, artifacts, input);
@@ -112,7 +112,7 @@ void Registrar::finalize(const Task& task) {
             transaction.fail_task(task.id, TaskEvent::refuse_outputs, {std::nullopt, trouble});
         }
     });
-    reach(Failpoint::outputs_after);
+    pass_failpoint("outputs_after");
 }
 
 }  // namespace breach::orchestrator

@@ -69,23 +69,23 @@ bool Retention::is_being_backed_up() const {
 
 void Retention::remove_folders(const std::stop_token& stop) {
     for (const std::string& run : store_.removals()) {
-        reach(Failpoint::removal_rows_gone);
+        pass_failpoint("removal_rows_gone");
         std::error_code none_left;
         for (const auto& entry : fs::directory_iterator(data_.run(run), none_left)) {
             if (stop.stop_requested()) return;
             fs::remove_all(entry.path());
-            reach(Failpoint::removal_half_way);
+            pass_failpoint("removal_half_way");
         }
         fs::remove_all(data_.run(run));
-        reach(Failpoint::removal_files_gone);
+        pass_failpoint("removal_files_gone");
         store_.write([&](Transaction& transaction) { transaction.forget_removal(run); });
         spdlog::info("{}: removed", run);
     }
 }
 
 bool Retention::remove(const Run& run, const std::string& why) {
-    Removal outcome = Removal::unknown;
-    store_.write([&](Transaction& transaction) { outcome = transaction.remove_run(run.id, why); });
+    const Removal outcome =
+        store_.write([&](Transaction& transaction) { return transaction.remove_run(run.id, why); });
     if (outcome != Removal::done) return false;  // pinned or tried again meanwhile
     spdlog::info("{} ({}): is removed, {}", run.id, run.name, why);
     return true;
@@ -124,10 +124,9 @@ void Retention::remove_for_room() {
 void Retention::forget_unused_files() {
     const std::string limit = utc_days_ago(file_grace_days);
     for (const StoredFile& each : store_.unused_files(limit)) {
-        bool forgotten = false;
-        store_.write([&](Transaction& transaction) {
-            forgotten = transaction.forget_unused_file(
-                each.sha256, limit, [&] { fs::remove(data_.files() / each.file); });
+        const bool forgotten = store_.write([&](Transaction& transaction) {
+            return transaction.forget_unused_file(each.sha256, limit,
+                                                  [&] { fs::remove(data_.files() / each.file); });
         });
         if (forgotten) spdlog::info("file {} ({}): removed, no run names it", each.file, each.name);
     }

@@ -35,6 +35,27 @@ std::vector<double> results_of(const Store& store, const std::string& run,
     return values;
 }
 
+/// How well a percentile is known.
+struct Narrowness {
+    std::size_t samples;                 ///< with a result
+    std::optional<double> value;         ///< of the percentile; nothing: too few samples
+    std::optional<double> half_width{};  ///< of its interval, over its value
+    bool reached = false;
+};
+/// spec: of the trigger.
+Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
+    Narrowness narrowness{.samples = results.size(), .value = {}};
+    const double p = spec.at("percentile");
+    if (results.size() < statistics::samples_needed(p)) return narrowness;
+    const statistics::Interval interval = statistics::percentile(results, p);
+    narrowness.value = interval.value;
+    if (interval.value != 0.0)
+        narrowness.half_width = 0.5 * (interval.high - interval.low) / std::abs(interval.value);
+    narrowness.reached =
+        narrowness.half_width && *narrowness.half_width <= spec.at("half_width").get<double>();
+    return narrowness;
+}
+
 json as_json(const Narrowness& narrowness, const json& spec) {
     return {{"quantity", spec.at("quantity")},
             {"percentile", spec.at("percentile")},
@@ -63,19 +84,6 @@ std::optional<TriggerPlan> batches_of(const Study& study) {
                         {"percentile", until.percentile},
                         {"half_width", until.half_width},
                         {"batch", until.batch}}};
-}
-
-Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
-    Narrowness narrowness{.samples = results.size(), .value = {}};
-    const double p = spec.at("percentile");
-    if (results.size() < statistics::samples_needed(p)) return narrowness;
-    const statistics::Interval interval = statistics::percentile(results, p);
-    narrowness.value = interval.value;
-    if (interval.value != 0.0)
-        narrowness.half_width = 0.5 * (interval.high - interval.low) / std::abs(interval.value);
-    narrowness.reached =
-        narrowness.half_width && *narrowness.half_width <= spec.at("half_width").get<double>();
-    return narrowness;
 }
 
 bool BatchWatch::look() {
@@ -162,9 +170,10 @@ bool BatchWatch::extend(const Trigger& trigger, const json& study, const json& e
                               .scene = still(store_.scene_of(trigger.run)),
                               .tasks = store_.tasks_of(trigger.run)};
         const Extension extension = plan_more_variants(so_far, data_, numerics_, entry);
-        store_.write([&](Transaction& transaction) {
-            added = transaction.is_open(trigger.id);
-            if (added) transaction.extend_run(trigger.run, extension);
+        added = store_.write([&](Transaction& transaction) {
+            const bool open = transaction.is_open(trigger.id);
+            if (open) transaction.extend_run(trigger.run, extension);
+            return open;
         });
         if (added) spdlog::info("{}: {} more variants", trigger.run, extension.samples.size());
     } catch (const fault::BadInput& error) {

@@ -19,16 +19,6 @@ namespace breach::orchestrator {
 /// The trigger of a study with "until" or "target"; nothing for others.
 std::optional<TriggerPlan> batches_of(const Study& study);
 
-/// How well a percentile is known.
-struct Narrowness {
-    std::size_t samples;                 ///< with a result
-    std::optional<double> value;         ///< of the percentile; nothing: too few samples
-    std::optional<double> half_width{};  ///< of its interval, over its value
-    bool reached = false;
-};
-/// spec: of the trigger.
-Narrowness narrowness_of(const std::vector<double>& results, const nlohmann::json& spec);
-
 class BatchWatch {
   public:
     BatchWatch(Store& store, const DataFolder& data, const Numerics& numerics)

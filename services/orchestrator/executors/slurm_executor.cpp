@@ -94,6 +94,11 @@ SlurmExecutor::SlurmExecutor(SlurmSettings settings, const std::filesystem::path
 
 SlurmExecutor::~SlurmExecutor() = default;
 
+void SlurmExecutor::press() {
+    pressing_ = true;
+    news_.notify_all();
+}
+
 SlurmExecutor::Clock::duration SlurmExecutor::grace() const {
     return in_milliseconds(settings_.grace_seconds);
 }
@@ -119,8 +124,7 @@ void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
     write_order(folder, order);
     const std::lock_guard lock(mutex_);
     jobs_[folder.root] = {.folder = folder, .order = order, .since = Clock::now()};
-    pressing_ = true;
-    news_.notify_all();
+    press();
 }
 
 Vitals SlurmExecutor::probe(const AttemptFolder& folder) {
@@ -131,7 +135,7 @@ Vitals SlurmExecutor::probe(const AttemptFolder& folder) {
     }
     Job* const job = find_or_adopt(folder);
     if (job == nullptr) return {Life::gone, "it was not submitted before the service ended"};
-    if (is_held(folder.lock()) || heart_beats(*job)) {
+    if (is_held(folder.lock()) || job->heart_beats()) {
         job->silent_since.reset();
         return {Life::alive};
     }
@@ -159,36 +163,35 @@ SlurmExecutor::Job* SlurmExecutor::find_or_adopt(const AttemptFolder& folder) {
     const bool began = std::filesystem::exists(folder.heartbeat());
     job.stage = began ? Stage::submitted : Stage::doubtful;
     job.since = Clock::now();
-    pressing_ = true;
-    news_.notify_all();
+    press();
     return &jobs_.emplace(folder.root, std::move(job)).first->second;
 }
 
 /// A sign of life that needs no locks across machines and no common clock: the file's time moves.
-bool SlurmExecutor::heart_beats(Job& job) const {
+bool SlurmExecutor::Job::heart_beats() {
     constexpr auto fresh = std::chrono::seconds(10);
     std::error_code error;
-    const auto time = std::filesystem::last_write_time(job.folder.heartbeat(), error);
+    const auto time = std::filesystem::last_write_time(folder.heartbeat(), error);
     if (error) return false;
-    if (job.heartbeat != time) {
+    if (heartbeat != time) {
         // The first time seen may be an old one: it proves nothing yet.
-        if (job.heartbeat) job.heart_beat_at = Clock::now();
-        job.heartbeat = time;
+        if (heartbeat) heart_beat_at = Clock::now();
+        heartbeat = time;
     }
-    return job.heart_beat_at != Clock::time_point{} && Clock::now() - job.heart_beat_at < fresh;
+    return heart_beat_at != Clock::time_point{} && Clock::now() - heart_beat_at < fresh;
 }
 
 /// Why a job that was handed over is not in the queue.
-std::string SlurmExecutor::what_keeps(const Job& job) {
+std::string SlurmExecutor::Job::what_keeps() const {
     const auto seconds =
-        std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - job.since).count();
-    switch (job.stage) {
+        std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - since).count();
+    switch (stage) {
         case Stage::waiting:
-            return job.asked == 0 ? "is being handed to Slurm" : "is handed to Slurm again";
+            return asked == 0 ? "is being handed to Slurm" : "is handed to Slurm again";
         case Stage::asking:
             return "sbatch was called " + std::to_string(seconds) + " s ago and has not answered";
         case Stage::doubtful:
-            return "in doubt for " + std::to_string(seconds) + " s: " + job.why +
+            return "in doubt for " + std::to_string(seconds) + " s: " + why +
                    "; looking for it in Slurm's queue";
         case Stage::submitted:
         case Stage::refused:
@@ -202,7 +205,7 @@ Vitals SlurmExecutor::vitals_of(Job& job) const {
         case Stage::waiting:
         case Stage::asking:
         case Stage::doubtful:
-            return {Life::handed_over, what_keeps(job)};
+            return {Life::handed_over, job.what_keeps()};
         case Stage::refused:
             return {Life::gone, job.why};
         case Stage::submitted:
@@ -232,8 +235,7 @@ void SlurmExecutor::stop(const AttemptFolder& folder, StopReason reason) {
         job->why = "stopped before it was submitted";
     }
     if (!job->unwanted_since) job->unwanted_since = Clock::now();
-    pressing_ = true;
-    news_.notify_all();
+    press();
 }
 
 void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) {
@@ -252,8 +254,7 @@ void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) 
     }
     if (!job.unwanted_since) job.unwanted_since = Clock::now();
     job.given_up = true;
-    pressing_ = true;
-    news_.notify_all();
+    press();
 }
 
 // ---------------------------------------------------------------- the clerk
@@ -329,7 +330,7 @@ void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& ro
     const Batch batch = open_round(roots);
     if (batch.folders.empty()) return;
     const Submitted answer = ask(batch);
-    reach(Failpoint::sbatch_after);
+    pass_failpoint("sbatch_after");
     if (answer.reply != Reply::accepted) spdlog::warn("slurm: {}: {}", batch.name, answer.said);
     close_round(batch, answer);
 }
@@ -365,7 +366,7 @@ Submitted SlurmExecutor::ask(const Batch& batch) const {
     try {
         for (std::size_t i = 0; i < batch.folders.size(); ++i)
             write_job_name(batch.folders[i], {batch.name, static_cast<std::int64_t>(i)});
-        reach(Failpoint::sbatch_before);
+        pass_failpoint("sbatch_before");
         return slurm_.submit(batch);
     } catch (const fault::IoError& error) {  // sbatch could not be started: there is no job
         return {Reply::refused, error.what()};
@@ -451,12 +452,12 @@ void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed
 }
 
 /// In the queue: at once. Running: its supervisor was told; when that has not helped, Slurm must.
-bool SlurmExecutor::is_due_for_scancel(const Job& job) const {
-    if (!job.unwanted_since || job.number.empty()) return false;
-    if (waits_its_turn(job.state)) return true;
-    if (!runs(job.state)) return false;
-    const auto patience = in_milliseconds(job.order.grace_seconds) + margin_after_grace;
-    return job.given_up || Clock::now() - *job.unwanted_since > patience;
+bool SlurmExecutor::Job::is_due_for_scancel() const {
+    if (!unwanted_since || number.empty()) return false;
+    if (waits_its_turn(state)) return true;
+    if (!runs(state)) return false;
+    const auto patience = in_milliseconds(order.grace_seconds) + margin_after_grace;
+    return given_up || Clock::now() - *unwanted_since > patience;
 }
 
 /// True: something was cancelled.
@@ -472,7 +473,7 @@ bool SlurmExecutor::cancel_the_unwanted() {
             return job.given_up && over;
         });
         for (const auto& [root, job] : jobs_)
-            if (is_due_for_scancel(job)) unwanted.emplace_back(job.name, job.number);
+            if (job.is_due_for_scancel()) unwanted.emplace_back(job.name, job.number);
     }
     for (const auto& [job, number] : unwanted) slurm_.cancel(job, number);
     return !unwanted.empty();

@@ -70,6 +70,10 @@ class SlurmExecutor final : public Executor {
         Clock::time_point heart_beat_at{};
         std::optional<Clock::time_point> unwanted_since = {};
         bool given_up = false;  ///< nobody asks for it any more
+
+        std::string what_keeps() const;
+        bool heart_beats();
+        bool is_due_for_scancel() const;
     };
     using Jobs = std::map<std::filesystem::path, Job>;
 
@@ -84,12 +88,10 @@ class SlurmExecutor final : public Executor {
     void take_in(Job& job, const std::map<JobName, ListedJob>& listed, Clock::time_point asked);
     bool must_be_found();
     bool cancel_the_unwanted();
-    bool is_due_for_scancel(const Job& job) const;
-
+    /// With the lock held: something should not wait for the next look.
+    void press();
     Job* find_or_adopt(const AttemptFolder& folder);
     Vitals vitals_of(Job& job) const;
-    static std::string what_keeps(const Job& job);
-    bool heart_beats(Job& job) const;
     Clock::duration grace() const;
 
     SlurmSettings settings_;

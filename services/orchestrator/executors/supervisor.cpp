@@ -55,7 +55,7 @@ class Supervision {
 
     void run() {
         if (!wait_for_fence()) return give_back();
-        reach(Failpoint::supervisor_before_phase);
+        pass_failpoint("supervisor_before_phase");
         start();
         while (!phase_ended_) {
             beat();
@@ -65,9 +65,9 @@ class Supervision {
             reap();
         }
         kill_the_rest();
-        reach(Failpoint::supervisor_after_phase);
+        pass_failpoint("supervisor_after_phase");
         record_exit();
-        reach(Failpoint::supervisor_after_record);
+        pass_failpoint("supervisor_after_record");
     }
 
   private:

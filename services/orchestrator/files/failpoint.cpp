@@ -45,16 +45,15 @@ class Wish {
 
 }  // namespace
 
-void reach(Failpoint point) {
+void pass_failpoint(Failpoint point) {
     static Wish to_die("BREACHLINE_FAILPOINT");
     static Wish to_throw("BREACHLINE_TROUBLE");
     static Wish to_wait("BREACHLINE_HOLD");
-    const std::string_view place = failpoint_names[static_cast<std::size_t>(point)];
-    if (to_wait.is_due(place))
+    if (to_wait.is_due(point.name))
         while (to_wait.has_the_file()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    if (to_die.is_due(place) && to_die.takes_the_file()) kill(getpid(), SIGKILL);
-    if (to_throw.is_due(place) && to_throw.takes_the_file())
-        throw fault::IoError("trouble at " + std::string(place) + ", asked for by a test");
+    if (to_die.is_due(point.name) && to_die.takes_the_file()) kill(getpid(), SIGKILL);
+    if (to_throw.is_due(point.name) && to_throw.takes_the_file())
+        throw fault::IoError("trouble at " + std::string(point.name) + ", asked for by a test");
 }
 
 }  // namespace breach::orchestrator

@@ -9,61 +9,46 @@
 // the variables nothing happens. Names that are not in the list do not compile.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <string_view>
 
 namespace breach::orchestrator {
 
-enum class Failpoint {
-    store_before_commit,
-    store_after_commit,
-    claim_before,    ///< a task is to be started, nothing is stored
-    claim_after,     ///< its attempt's row is stored, nothing is started
-    start_after,     ///< its process is started, which is not stored
-    exit_before,     ///< its exit record was read, nothing is stored
-    exit_after,      ///< its end is stored, its outputs are not registered
-    outputs_before,  ///< its outputs are hashed, nothing is stored
-    outputs_after,   ///< they are stored, no reader is notified
-    firing_before,   ///< a trigger was met, nothing is stored
-    firing_after,    ///< the firing is stored
-    supervisor_before_phase,
-    supervisor_after_phase,   ///< the phase has ended, there is no record
-    supervisor_after_record,  ///< there is
-    sbatch_before,            ///< the job's name is noted, sbatch is not called
-    sbatch_after,             ///< it has answered, which is not noted
-    reuse_placed,             ///< the cache's files are in the task's folder, which is not stored
-    reuse_none,               ///< the cache looked and found no answer, nobody was told
-    removal_rows_gone,        ///< a run's rows are gone, its files are there
-    removal_half_way,         ///< some of its files are gone
-    removal_files_gone,       ///< all are, which is not noted
-    upload_before,            ///< a file that was sent is on the disk under a temporary name
-    upload_after,             ///< it has its name, which is not committed
+inline constexpr std::string_view failpoint_names[]{
+    "store_before_commit",
+    "store_after_commit",
+    "claim_before",    ///< a task is to be started, nothing is stored
+    "claim_after",     ///< its attempt's row is stored, nothing is started
+    "start_after",     ///< its process is started, which is not stored
+    "exit_before",     ///< its exit record was read, nothing is stored
+    "exit_after",      ///< its end is stored, its outputs are not registered
+    "outputs_before",  ///< its outputs are hashed, nothing is stored
+    "outputs_after",   ///< they are stored, no reader is notified
+    "firing_before",   ///< a trigger was met, nothing is stored
+    "firing_after",    ///< the firing is stored
+    "supervisor_before_phase",
+    "supervisor_after_phase",   ///< the phase has ended, there is no record
+    "supervisor_after_record",  ///< there is
+    "sbatch_before",            ///< the job's name is noted, sbatch is not called
+    "sbatch_after",             ///< it has answered, which is not noted
+    "reuse_placed",             ///< the cache's files are in the task's folder, which is not stored
+    "reuse_none",               ///< the cache looked and found no answer, nobody was told
+    "removal_rows_gone",        ///< a run's rows are gone, its files are there
+    "removal_half_way",         ///< some of its files are gone
+    "removal_files_gone",       ///< all are, which is not noted
+    "upload_before",            ///< a file that was sent is on the disk under a temporary name
+    "upload_after",             ///< it has its name, which is not committed
 };
 
-constexpr std::array<std::string_view, 23> failpoint_names{"store_before_commit",
-                                                           "store_after_commit",
-                                                           "claim_before",
-                                                           "claim_after",
-                                                           "start_after",
-                                                           "exit_before",
-                                                           "exit_after",
-                                                           "outputs_before",
-                                                           "outputs_after",
-                                                           "firing_before",
-                                                           "firing_after",
-                                                           "supervisor_before_phase",
-                                                           "supervisor_after_phase",
-                                                           "supervisor_after_record",
-                                                           "sbatch_before",
-                                                           "sbatch_after",
-                                                           "reuse_placed",
-                                                           "reuse_none",
-                                                           "removal_rows_gone",
-                                                           "removal_half_way",
-                                                           "removal_files_gone",
-                                                           "upload_before",
-                                                           "upload_after"};
+/// One of these names.
+struct Failpoint {
+    consteval Failpoint(const char* given) : name(given) {
+        if (std::ranges::find(failpoint_names, name) == std::end(failpoint_names))
+            throw "no such failpoint";
+    }
+    std::string_view name;
+};
 
-void reach(Failpoint point);
+void pass_failpoint(Failpoint point);
 
 }  // namespace breach::orchestrator

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "core/scene/file_paths.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
@@ -11,21 +9,14 @@ using nlohmann::json;
 
 namespace {
 
-std::string text_of(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 /// The study with its scene inside, as POST /v1/runs takes it; nothing when a file does not fit.
 std::optional<json> example_in(const std::filesystem::path& file) {
-    json study = json::parse(text_of(file), nullptr, false);
+    json study = json::parse(whole_text(file), nullptr, false);
     if (!study.is_object() || !study.contains("name")) return std::nullopt;
     if (study.contains("scene") && study["scene"].is_string()) {
         const auto scene_file = file.parent_path() / study["scene"].get<std::string>();
         const auto folder = scene_file.parent_path();
-        study["scene"] = json::parse(text_of(scene_file), nullptr, false);
+        study["scene"] = json::parse(whole_text(scene_file), nullptr, false);
         scene::make_files_absolute(study["scene"], folder);
         scene::make_override_files_absolute(study, folder);
     }

@@ -130,12 +130,12 @@ bool is_whole(const Service& service, const StoredFile& file) {
 }
 
 void keep(Service& service, const ArrivingFile& arriving, const StoredFile& file) {
-    reach(Failpoint::upload_before);
+    pass_failpoint("upload_before");
     service.store.write([&](Transaction& transaction) {
         transaction.keep_file(file, [&] {
             fs::rename(arriving.path(), service.data.files() / file.file);
             sync_folder(service.data.files());
-            reach(Failpoint::upload_after);
+            pass_failpoint("upload_after");
         });
     });
 }
@@ -202,10 +202,9 @@ void remove_file(Service& service, Call& call) {
     const std::string& sha256 = call.parts[0];
     const auto file = service.store.file(sha256);
     if (!file) throw not_found("file " + sha256);
-    Removal outcome = Removal::unknown;
-    service.store.write([&](Transaction& transaction) {
-        outcome =
-            transaction.forget_file(sha256, [&] { fs::remove(service.data.files() / file->file); });
+    const Removal outcome = service.store.write([&](Transaction& transaction) {
+        return transaction.forget_file(sha256,
+                                       [&] { fs::remove(service.data.files() / file->file); });
     });
     if (outcome == Removal::needed)
         throw Problem{409, "/problems/needed", "Needed",

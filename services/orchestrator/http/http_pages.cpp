@@ -63,15 +63,12 @@ void send_file(const Service& service, Call& call, const std::string& name) {
     const bool inside = !error && std::ranges::mismatch(root, file).in1 == root.end();
     if (!inside || type == content_types.end() || !std::filesystem::is_regular_file(file))
         throw not_found("such page");
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
     call.response.set_header("Cache-Control", "no-cache");
     call.response.set_header(
         "Content-Security-Policy",
         "default-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
         "object-src 'none'; base-uri 'none'; frame-ancestors 'none'");
-    call.response.set_content(text.str(), type->second);
+    call.response.set_content(whole_text(file), type->second);
 }
 
 /// openapi.json; what a row of results holds is said by the table of its columns, what right an operation takes by

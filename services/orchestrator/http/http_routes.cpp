@@ -1,8 +1,15 @@
 #include "services/orchestrator/http/http_routes.hpp"
 
+#include <fstream>
+
 #include "services/orchestrator/http/http_drawing.hpp"
 
 namespace breach::orchestrator {
+
+std::string whole_text(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 void add_all_routes(Router& router, Service& service, const std::atomic<bool>& stopping) {
     add_run_routes(router, service);

@@ -58,6 +58,8 @@ nlohmann::json files_json(const Service& service, const std::string& run);
 /// it was stored.
 void send_content(Call& call, const std::filesystem::path& file, const std::string& sha256,
                   std::int64_t bytes, const std::string& name);
+/// Empty: it cannot be read.
+std::string whole_text(const std::filesystem::path& file);
 /// The task, or 404.
 Task wanted_task(const Service& service, const std::string& id);
 Run wanted_run(const Service& service, const std::string& id);

@@ -1,6 +1,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -56,12 +57,33 @@ void submit(Service& service, Call& call) {
     reply(call.response, answer, 202);
 }
 
-void list_runs(const Service& service, Call& call) {
+constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
+                                "questionable", "partial", "failed",           "cancelled"};
+constexpr std::array sweep_states{"planning", "refining"};  // besides those
+
+void list_runs(const Service& service, Call& call, Ask ask) {
     call.allow_parameters({"limit", "cursor", "state", "name", "search"});
-    const RunPage page = wanted_page(service, call, RunFilter{});
-    json runs = json::array();
-    for (const Run& each : page.runs) runs.push_back(as_json(each, service.store, service.board));
-    reply(call.response, {{"runs", runs}, {"next", page.next}});
+    const std::size_t length = wanted_length(call);
+    RunFilter filter{.state = call.parameter("state"),
+                     .name = call.parameter("name"),
+                     .search = call.parameter("search"),
+                     .before = std::nullopt,
+                     .sweeps_only = ask == Ask::sweep};
+    const auto is_one_of = [&](const auto& states) {
+        return std::ranges::find(states, *filter.state) != states.end();
+    };
+    if (filter.state && !is_one_of(run_states) && !(filter.sweeps_only && is_one_of(sweep_states)))
+        throw bad_request(
+            std::string("state must be queued, ") +
+            (filter.sweeps_only ? "planning, refining, " : "") +
+            "running, budget_exhausted, succeeded, questionable, partial, failed or cancelled");
+    if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
+    std::vector<Run> runs = service.store.runs(filter, length + 1);
+    const json next =
+        cut_to(length, runs, [](const Run& last) { return last.created + "~" + last.id; });
+    json list = json::array();
+    for (const Run& each : runs) list.push_back(as_json(each, service.store, service.board));
+    reply(call.response, {{filter.sweeps_only ? "sweeps" : "runs", list}, {"next", next}});
 }
 
 /// The text of an object that goes on: "{...," instead of "{...}".
@@ -124,25 +146,18 @@ void show_run(const Service& service, Call& call) {
 void list_tasks(const Service& service, Call& call) {
     call.allow_parameters({"limit", "cursor"});
     wanted_run(service, call.parts[0]);
-    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, 500));
+    const std::size_t length = wanted_length(call);
     auto tasks =
-        service.store.tasks_of(call.parts[0], call.parameter("cursor").value_or(""), limit + 1);
-    json next = nullptr;
-    if (tasks.size() > limit) {
-        tasks.pop_back();
-        next = tasks.back().id;
-    }
+        service.store.tasks_of(call.parts[0], call.parameter("cursor").value_or(""), length + 1);
+    const json next = cut_to(length, tasks, &Task::id);
     reply(call.response, {{"tasks", tasks_json(service, tasks)}, {"next", next}});
 }
 
 void cancel(Service& service, Call& call) {
     call.allow_parameters({});
-    bool known = false;
-    service.store.write(
-        [&](Transaction& transaction) {
-            known = transaction.cancel_run(call.parts[0], "asked for over the API");
-        },
-        call.caller.name);
+    const bool known = service.store.write(call.caller.name, [&](Transaction& transaction) {
+        return transaction.cancel_run(call.parts[0], "asked for over the API");
+    });
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.wake();
     reply(call.response, run_json(service, call.parts[0]), 202);
@@ -152,23 +167,26 @@ void cancel(Service& service, Call& call) {
 template <class Order>
 void command_run(Service& service, Call& call, Order order) {
     call.allow_parameters({});
-    bool known = false;
-    service.store.write(
-        [&](Transaction& transaction) { known = std::invoke(order, transaction, call.parts[0]); },
-        call.caller.name);
+    const bool known = service.store.write(call.caller.name, [&](Transaction& transaction) {
+        return std::invoke(order, transaction, call.parts[0]);
+    });
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.settle_all();
     reply(call.response, run_json(service, call.parts[0]), 202);
 }
 
-void set_priority(Service& service, Call& call) {
+/// Of the body, if it has no other; else null.
+json only_entry(const Call& call, const char* name) {
     const json body = json::parse(call.json_body(), nullptr, false);
-    const bool sound = body.is_object() && body.size() == 1 && body.contains("priority") &&
-                       body["priority"].is_number_integer() && body["priority"] >= -100 &&
-                       body["priority"] <= 100;
-    if (!sound) throw bad_request("the body must be {\"priority\": -100..100}");
+    return body.is_object() && body.size() == 1 ? body.value(name, json()) : json();
+}
+
+void set_priority(Service& service, Call& call) {
+    const json priority = only_entry(call, "priority");
+    if (!priority.is_number_integer() || priority < -100 || priority > 100)
+        throw bad_request("the body must be {\"priority\": -100..100}");
     command_run(service, call, [&](Transaction& transaction, const std::string& run) {
-        return transaction.set_priority(run, body["priority"].get<std::int64_t>());
+        return transaction.set_priority(run, priority.get<std::int64_t>());
     });
 }
 
@@ -182,15 +200,13 @@ bool is_title(const json& text) {
 }
 
 void rename(Service& service, Call& call) {
-    const json body = json::parse(call.json_body(), nullptr, false);
-    const bool sound =
-        body.is_object() && body.size() == 1 && body.contains("title") && is_title(body["title"]);
-    if (!sound)
+    const json title = only_entry(call, "title");
+    if (!is_title(title))
         throw bad_request(
             "the body must be {\"title\": \"...\"}: one line of at most 200 bytes that is not "
             "empty");
     command_run(service, call, [&](Transaction& transaction, const std::string& run) {
-        return transaction.rename_run(run, body["title"].get<std::string>());
+        return transaction.rename_run(run, title.get<std::string>());
     });
 }
 
@@ -324,8 +340,8 @@ void change_budget(Service& service, const Call& call, const Run& run, const jso
                 {{"/budget/cpu_seconds", words::text_of(run.spent) + " CPU s are spent already",
                   "give more than that, or null for no limit"}});
     }
-    service.store.write([&](Transaction& transaction) { transaction.set_budget(run.id, budget); },
-                        call.caller.name);
+    service.store.write(call.caller.name,
+                        [&](Transaction& transaction) { transaction.set_budget(run.id, budget); });
     service.dispatcher.wake();
 }
 
@@ -362,25 +378,15 @@ void extend_sweep(Service& service, Call& call) {
                                     body["samples"].get<std::size_t>())
                 : plan_extension(so_far, service.data, service.numerics, body["transfer_times"]);
     if (!extension.tasks.empty() || !extension.samples.empty()) {
-        service.store.write(
-            [&](Transaction& transaction) { transaction.extend_run(id, extension); },
-            call.caller.name);
+        service.store.write(call.caller.name, [&](Transaction& transaction) {
+            transaction.extend_run(id, extension);
+        });
         service.dispatcher.settle_all();
     }
     json answer = sweep_json(service, wanted_sweep(service, id));
     answer["added"] = extension.times;
     answer["added_samples"] = extension.samples;
     reply(call.response, answer, 202);
-}
-
-void list_sweeps(const Service& service, Call& call) {
-    call.allow_parameters({"limit", "cursor", "state", "name", "search"});
-    RunFilter filter;
-    filter.sweeps_only = true;
-    const RunPage page = wanted_page(service, call, filter);
-    json sweeps = json::array();
-    for (const Run& each : page.runs) sweeps.push_back(as_json(each, service.store, service.board));
-    reply(call.response, {{"sweeps", sweeps}, {"next", page.next}});
 }
 
 void show_sweep(const Service& service, Call& call) {
@@ -409,7 +415,7 @@ Run wanted_run(const Service& service, const std::string& id) {
 
 void add_run_routes(Router& router, Service& service) {
     router.post("/v1/sweeps", [&](Call& call) { submit_sweep(service, call); });
-    router.get("/v1/sweeps", [&](Call& call) { list_sweeps(service, call); });
+    router.get("/v1/sweeps", [&](Call& call) { list_runs(service, call, Ask::sweep); });
     router.get("/v1/sweeps/{id}", [&](Call& call) { show_sweep(service, call); });
     router.get("/v1/sweeps/{id}/results", [&](Call& call) {
         wanted_sweep(service, call.parts[0]);
@@ -421,20 +427,19 @@ void add_run_routes(Router& router, Service& service) {
         cancel(service, call);
     });
     router.post("/v1/runs", [&](Call& call) { submit(service, call); });
-    router.get("/v1/runs", [&](Call& call) { list_runs(service, call); });
+    router.get("/v1/runs", [&](Call& call) { list_runs(service, call, Ask::run); });
     router.get("/v1/runs/{id}/tasks", [&](Call& call) { list_tasks(service, call); });
     router.get("/v1/runs/{id}", [&](Call& call) { show_run(service, call); });
     router.post("/v1/runs/{id}/cancel", [&](Call& call) { cancel(service, call); });
-    router.post("/v1/runs/{id}/pause",
-                [&](Call& call) { command_run(service, call, &Transaction::pause_run); });
-    router.post("/v1/runs/{id}/resume",
-                [&](Call& call) { command_run(service, call, &Transaction::resume_run); });
-    router.post(
-        "/v1/runs/{id}/pin", [&](Call& call) { command_run(service, call, &Transaction::pin_run); },
-        Right::admin);
-    router.post(
-        "/v1/runs/{id}/unpin",
-        [&](Call& call) { command_run(service, call, &Transaction::unpin_run); }, Right::admin);
+    const auto add_command = [&](const std::string& word, auto order, Right right) {
+        router.post(
+            "/v1/runs/{id}/" + word,
+            [&service, order](Call& call) { command_run(service, call, order); }, right);
+    };
+    add_command("pause", &Transaction::pause_run, Right::submit);
+    add_command("resume", &Transaction::resume_run, Right::submit);
+    add_command("pin", &Transaction::pin_run, Right::admin);
+    add_command("unpin", &Transaction::unpin_run, Right::admin);
     router.post("/v1/runs/{id}/retry", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
             return transaction.retry_run(run).has_value();

@@ -51,10 +51,9 @@ void keep_scene(Service& service, Call& call) {
     NewScene kept{.sha256 = {}, .document = scene.dump(), .files = {}};
     kept.sha256 = exchange::sha256_of_text(kept.document);
     for (const auto& each : scene::references_in(scene)) kept.files.push_back(each.sha256);
-    bool is_new = false;
-    service.store.write(
-        [&](Transaction& transaction) { is_new = transaction.keep_scene(kept, name); },
-        call.caller.name);
+    const bool is_new = service.store.write(call.caller.name, [&](Transaction& transaction) {
+        return transaction.keep_scene(kept, name);
+    });
     call.response.set_header("Location", "/v1/scenes/" + kept.sha256);
     json answer = as_json(wanted_scene(service, kept.sha256).scene);
     answer["warnings"] = warnings_json(warnings);
@@ -63,18 +62,15 @@ void keep_scene(Service& service, Call& call) {
 
 void list_scenes(const Service& service, Call& call) {
     call.allow_parameters({"limit", "cursor", "name", "search"});
-    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
+    const std::size_t length = wanted_length(call);
     SceneFilter filter{.name = call.parameter("name"), .search = call.parameter("search")};
     if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
-    std::vector<StoredScene> scenes = service.store.scenes(filter, limit + 1);
-    json next = nullptr;
-    if (scenes.size() > limit) {
-        scenes.pop_back();
-        next = scenes.back().created + "~" + scenes.back().sha256;
-    }
+    std::vector<StoredScene> scenes = service.store.scenes(filter, length + 1);
+    const json next = cut_to(
+        length, scenes, [](const StoredScene& last) { return last.created + "~" + last.sha256; });
     json list = json::array();
     for (const StoredScene& each : scenes) list.push_back(as_json(each));
-    reply(call.response, {{"scenes", std::move(list)}, {"next", std::move(next)}});
+    reply(call.response, {{"scenes", std::move(list)}, {"next", next}});
 }
 
 void show_scene(const Service& service, Call& call) {
@@ -100,16 +96,12 @@ void remove_scene(Service& service, Call& call) {
             "whole "
             "name, or a content by its SHA-256");
     const bool content = exchange::is_sha256(address);
-    Removal outcome = Removal::unknown;
     std::int64_t bytes = 0;
     if (content)
         if (const auto scene = service.store.scene(address)) bytes = scene->bytes;
-    service.store.write(
-        [&](Transaction& transaction) {
-            outcome = content ? transaction.forget_scene(address)
-                              : transaction.forget_scene_name(address);
-        },
-        call.caller.name);
+    const Removal outcome = service.store.write(call.caller.name, [&](Transaction& transaction) {
+        return content ? transaction.forget_scene(address) : transaction.forget_scene_name(address);
+    });
     if (outcome == Removal::needed)
         throw Problem{409, "/problems/needed", "Needed",
                       content

@@ -16,12 +16,9 @@ void remove_run(Service& service, Call& call) {
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
     const std::int64_t freed = freed_without(service.data.run(id));
-    Removal outcome = Removal::unknown;
-    service.store.write(
-        [&](Transaction& transaction) {
-            outcome = transaction.remove_run(id, "asked for over the API");
-        },
-        call.caller.name);
+    const Removal outcome = service.store.write(call.caller.name, [&](Transaction& transaction) {
+        return transaction.remove_run(id, "asked for over the API");
+    });
     switch (outcome) {
         case Removal::going_on:
             throw Problem{409, "/problems/going-on", "Still going on",

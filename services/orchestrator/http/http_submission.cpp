@@ -18,10 +18,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
-                                "questionable", "partial", "failed",           "cancelled"};
-constexpr std::array sweep_states{"planning", "refining"};  // besides those
-
 class KeyInProgress {
   public:
     KeyInProgress(KeysInProgress& keys, std::string key, httplib::Response& response)
@@ -79,17 +75,20 @@ Accepted stored(Service& service, const Call& call, const std::string& body, Ask
     NewRun run = run_from(study, service.numerics);
     run.made_of = std::move(sent.made_of);
     if (ask == Ask::sweep) run.sweep = true;
-    service.store.write(
-        [&](Transaction& transaction) {
-            transaction.add_run(run);
-            besides(transaction, run.id);
-        },
-        call.caller.name);
+    service.store.write(call.caller.name, [&](Transaction& transaction) {
+        transaction.add_run(run);
+        besides(transaction, run.id);
+    });
     service.dispatcher.wake();
     return {run.id, std::move(study.warnings)};
 }
 
 }  // namespace
+
+std::size_t wanted_length(const Call& call) {
+    constexpr std::int64_t most = 500;
+    return static_cast<std::size_t>(call.whole_number("limit", 100, 1, most));
+}
 
 std::pair<std::string, std::string> place_of(const std::string& cursor) {
     const std::size_t split = cursor.find('~');
@@ -119,28 +118,6 @@ Accepted accept_study(Service& service, Call& call, Ask ask) {
 std::string accept_made_study(Service& service, const Call& call, const json& study) {
     return stored(service, call, study.dump(), Ask::run, [](Transaction&, const std::string&) {})
         .run;
-}
-
-RunPage wanted_page(const Service& service, const Call& call, RunFilter filter) {
-    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
-    filter.state = call.parameter("state");
-    filter.name = call.parameter("name");
-    filter.search = call.parameter("search");
-    const auto is_one_of = [&](const auto& states) {
-        return std::ranges::find(states, *filter.state) != states.end();
-    };
-    if (filter.state && !is_one_of(run_states) && !(filter.sweeps_only && is_one_of(sweep_states)))
-        throw bad_request(
-            std::string("state must be queued, ") +
-            (filter.sweeps_only ? "planning, refining, " : "") +
-            "running, budget_exhausted, succeeded, questionable, partial, failed or cancelled");
-    if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
-    RunPage page{service.store.runs(filter, limit + 1), nullptr};
-    if (page.runs.size() > limit) {
-        page.runs.pop_back();
-        page.next = page.runs.back().created + "~" + page.runs.back().id;
-    }
-    return page;
 }
 
 }  // namespace breach::orchestrator

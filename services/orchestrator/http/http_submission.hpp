@@ -1,11 +1,20 @@
-// What several routes share: taking a study in (once per Idempotency-Key), and a page of runs.
+// What several routes share: taking a study in (once per Idempotency-Key), and pages of lists.
 #pragma once
 
 #include "services/orchestrator/http/http_routes.hpp"
 
 namespace breach::orchestrator {
 
-constexpr std::int64_t longest_list = 500;  ///< entries of one page
+/// The parameter limit: entries of one page.
+std::size_t wanted_length(const Call& call);
+/// Of a list that was read with one entry more than its page has, the page; what the next one begins
+/// after, or null: this is the last.
+template <class Row, class Mark>
+nlohmann::json cut_to(std::size_t length, std::vector<Row>& rows, const Mark& mark) {
+    if (rows.size() <= length) return nullptr;
+    rows.pop_back();
+    return std::invoke(mark, rows.back());
+}
 /// (created, id) of a cursor "created~id", the "next" of an earlier page.
 std::pair<std::string, std::string> place_of(const std::string& cursor);
 
@@ -28,13 +37,5 @@ Accepted accept_study(Service& service, Call& call, Ask ask);
 
 /// Stores a study that the service itself has made; the run's id.
 std::string accept_made_study(Service& service, const Call& call, const nlohmann::json& study);
-
-struct RunPage {
-    std::vector<Run> runs;
-    nlohmann::json next;  ///< cursor of the next page, or null
-};
-
-/// The parameters limit, cursor, state and name on top of `filter`.
-RunPage wanted_page(const Service& service, const Call& call, RunFilter filter);
 
 }  // namespace breach::orchestrator

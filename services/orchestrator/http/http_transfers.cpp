@@ -56,7 +56,7 @@ json as_json(const TransferRow& row) {
 
 void list(const Service& service, Call& call, const std::optional<std::string>& run) {
     call.allow_parameters({"limit", "cursor", "why", "state"});
-    const auto limit = static_cast<std::size_t>(call.whole_number("limit", 100, 1, longest_list));
+    const std::size_t length = wanted_length(call);
     const TransferFilter filter{.run = run,
                                 .why = call.parameter("why"),
                                 .state = call.parameter("state"),
@@ -67,15 +67,11 @@ void list(const Service& service, Call& call, const std::optional<std::string>& 
             return name_of(each) == *filter.state;
         }))
         throw bad_request("state must be a state of a task");
-    std::vector<TransferRow> rows = service.store.transfers_of(filter, limit + 1);
-    json next = nullptr;
-    if (rows.size() > limit) {
-        rows.pop_back();
-        next = rows.back().task;
-    }
+    std::vector<TransferRow> rows = service.store.transfers_of(filter, length + 1);
+    const json next = cut_to(length, rows, &TransferRow::task);
     json transfers = json::array();
     for (const TransferRow& each : rows) transfers.push_back(as_json(each));
-    reply(call.response, {{"transfers", std::move(transfers)}, {"next", std::move(next)}});
+    reply(call.response, {{"transfers", std::move(transfers)}, {"next", next}});
 }
 
 }  // namespace

@@ -122,11 +122,9 @@ void add(Service& service, Call& call) {
         throw Problem{409, "/problems/no-fem", "No FEM to watch",
                       plan.kind == "manual" ? "the run's FEM does not run now"
                                             : "the run's FEM was cancelled"};
-    service.store.write(
-        [&](Transaction& transaction) {
-            for (const auto& [fem, each] : wanted) transaction.add_trigger(run, fem, each);
-        },
-        call.caller.name);
+    service.store.write(call.caller.name, [&](Transaction& transaction) {
+        for (const auto& [fem, each] : wanted) transaction.add_trigger(run, fem, each);
+    });
     service.dispatcher.wake();
     reply(call.response, all_of(service, run), 202);
 }

@@ -1,11 +1,11 @@
 #include "services/orchestrator/http/results_file.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
 #include <ranges>
 
 #include "core/exchange/archive.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
@@ -74,9 +74,7 @@ std::string as_hdf5(const ResultTable& table, const std::string& run, const std:
         provenance.scene = scene;
         exchange::write_archive(file, archive_of(table, run), provenance);
     });
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-    stream.close();
+    std::string bytes = whole_text(file);
     std::filesystem::remove(file);
     return bytes;
 }

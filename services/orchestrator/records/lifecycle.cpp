@@ -142,7 +142,6 @@ std::optional<State> look_up(const Rules& rules, State from, Event event) {
 }  // namespace
 
 std::span<const TaskRule> task_rules() { return task_table; }
-std::span<const AttemptRule> attempt_rules() { return attempt_table; }
 std::span<const TaskState> all_task_states() { return words::values<TaskState>; }
 std::span<const TaskEvent> all_task_events() { return words::values<TaskEvent>; }
 std::span<const AttemptState> all_attempt_states() { return words::values<AttemptState>; }

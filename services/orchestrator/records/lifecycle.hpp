@@ -90,7 +90,6 @@ struct AttemptRule {
 
 /// All that is allowed; every other pair is refused.
 std::span<const TaskRule> task_rules();
-std::span<const AttemptRule> attempt_rules();
 
 std::span<const TaskState> all_task_states();
 std::span<const TaskEvent> all_task_events();

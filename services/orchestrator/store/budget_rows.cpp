@@ -12,21 +12,17 @@ using nlohmann::json;
 
 void Transaction::set_budget(const std::string& run, std::optional<double> cpu_seconds) {
     database_.change(
-        "UPDATE runs SET budget_cpu_seconds=?2, study=CASE WHEN ?2 IS NULL THEN json_remove(study, "
-        "'$.budget') ELSE json_set(study, '$.budget', json_object('cpu_seconds', ?2)) END WHERE "
-        "id=?1",
+        R"(UPDATE runs SET budget_cpu_seconds=?2,
+    study=CASE WHEN ?2 IS NULL THEN json_remove(study, '$.budget')
+        ELSE json_set(study, '$.budget', json_object('cpu_seconds', ?2)) END WHERE id=?1)",
         {run, value_or_null(cpu_seconds)});
-    add_event(run, std::nullopt, "run",
-              {{"event", "set_budget"}, {"cpu_seconds", or_null(cpu_seconds)}});
+    add_run_event(run, {{"event", "set_budget"}, {"cpu_seconds", or_null(cpu_seconds)}});
 }
 
 bool Transaction::is_exhausted(const std::string& run) const {
-    bool exhausted = false;
-    database_.query(
-        "SELECT 1 FROM runs JOIN spendings ON spendings.run=id WHERE id=? AND "
-        "cpu_seconds>=budget_cpu_seconds",
-        {run}, [&](const Row&) { exhausted = true; });
-    return exhausted;
+    return database_.finds(R"(SELECT 1 FROM runs JOIN spendings ON spendings.run=id
+WHERE id=? AND cpu_seconds>=budget_cpu_seconds)",
+                           {run});
 }
 
 namespace {
@@ -40,12 +36,13 @@ struct MissingTasks {
 std::map<std::string, MissingTasks> missing_in(Connection& database, const std::string& run) {
     std::map<std::string, MissingTasks> missing;
     database.query(
-        "SELECT phase, sum(finished IS NULL), coalesce((SELECT sum(attempts.cpu_seconds) / "
-        "count(DISTINCT ran.id) FROM tasks AS ran JOIN attempts ON attempts.task=ran.id WHERE "
-        "ran.run=?1 AND ran.phase=tasks.phase AND attempts.cpu_seconds>0), 0.0) FROM tasks WHERE "
-        "run=?1 GROUP BY phase HAVING sum(finished IS NULL)>0",
+        R"(SELECT phase, sum(finished IS NULL) AS waiting,
+    coalesce((SELECT sum(attempts.cpu_seconds) / count(DISTINCT ran.id)
+        FROM tasks AS ran JOIN attempts ON attempts.task=ran.id
+        WHERE ran.run=?1 AND ran.phase=tasks.phase AND attempts.cpu_seconds>0), 0.0) AS mean
+FROM tasks WHERE run=?1 GROUP BY phase HAVING sum(finished IS NULL)>0)",
         {run}, [&](const Row& row) {
-            missing[row.text(0)] = {row.integer(1), row.real(2)};
+            missing[row.text("phase")] = {row.integer("waiting"), row.real("mean")};
         });
     return missing;
 }

@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 
 namespace breach::orchestrator {
@@ -36,32 +38,42 @@ int bind(sqlite3_stmt* statement, int index, const Value& value) {
 
 }  // namespace
 
-bool Row::is_null(int column) const {
-    return sqlite3_column_type(statement_, column) == SQLITE_NULL;
+void Row::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+
+int Row::place_of(std::string_view column) const {
+    if (turn_ == asked_.size()) asked_.push_back(0);
+    int& place = asked_[turn_++];
+    if (place < std::ssize(columns_) && columns_[place] == column) return place;
+    const auto found = std::ranges::find(columns_, column);
+    if (found == columns_.end())
+        throw std::logic_error("no column " + std::string(column) + " in " +
+                               sqlite3_sql(statement_.get()));
+    return place = static_cast<int>(found - columns_.begin());
 }
 
-std::string Row::text(int column) const {
-    const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_, column));
+bool Row::is_null_at(int place) const {
+    return sqlite3_column_type(statement_.get(), place) == SQLITE_NULL;
+}
+
+std::string Row::text_at(int place) const {
+    const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), place));
     if (data == nullptr) return {};
-    return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_, column))};
+    return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), place))};
 }
 
-std::int64_t Row::integer(int column) const { return sqlite3_column_int64(statement_, column); }
-double Row::real(int column) const { return sqlite3_column_double(statement_, column); }
-
-std::optional<std::string> Row::optional_text(int column) const {
-    if (is_null(column)) return std::nullopt;
-    return text(column);
+std::int64_t Row::integer_at(int place) const {
+    return sqlite3_column_int64(statement_.get(), place);
 }
 
-std::optional<std::int64_t> Row::optional_integer(int column) const {
-    if (is_null(column)) return std::nullopt;
-    return integer(column);
+double Row::real_at(int place) const { return sqlite3_column_double(statement_.get(), place); }
+
+nlohmann::json Row::document(std::string_view column) const {
+    return nlohmann::json::parse(text(column));
 }
 
-std::optional<double> Row::optional_real(int column) const {
-    if (is_null(column)) return std::nullopt;
-    return real(column);
+std::optional<nlohmann::json> Row::optional_document(std::string_view column) const {
+    const auto text = optional_text(column);
+    return text ? std::optional(nlohmann::json::parse(*text)) : std::nullopt;
 }
 
 namespace {
@@ -78,9 +90,6 @@ void set_memory_of_savepoints() {
 }  // namespace
 
 void Connection::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
-void Connection::Finalize::operator()(sqlite3_stmt* statement) const {
-    sqlite3_finalize(statement);
-}
 
 Connection::Connection(const std::filesystem::path& file, Access access) {
     const int flags = SQLITE_OPEN_NOMUTEX |
@@ -112,7 +121,7 @@ void Connection::script(const std::string& sql) {
 }
 
 std::int64_t Connection::change(const std::string& sql, const std::vector<Value>& values) {
-    sqlite3_stmt* statement = prepared(sql, values);
+    sqlite3_stmt* statement = prepared(sql, values).statement_.get();
     const Rewind rewind{statement};
     if (sqlite3_step(statement) != SQLITE_DONE) refuse(sql);
     return sqlite3_changes64(database_.get());
@@ -120,35 +129,57 @@ std::int64_t Connection::change(const std::string& sql, const std::vector<Value>
 
 void Connection::query(const std::string& sql, const std::vector<Value>& values,
                        const std::function<void(const Row&)>& visit) {
-    sqlite3_stmt* statement = prepared(sql, values);
-    const Rewind rewind{statement};
+    const Row& row = prepared(sql, values);
+    const Rewind rewind{row.statement_.get()};
     int code = SQLITE_ROW;
-    while ((code = sqlite3_step(statement)) == SQLITE_ROW) visit(Row(statement));
+    while ((code = sqlite3_step(rewind.statement)) == SQLITE_ROW) {
+        row.turn_ = 0;
+        visit(row);
+    }
     if (code != SQLITE_DONE) refuse(sql);
 }
 
-bool Connection::finds(const std::string& sql, const std::string& value) {
+std::vector<std::string> Connection::texts(const std::string& sql,
+                                           const std::vector<Value>& values) {
+    return select(sql, values, [](const Row& row) { return row.text_at(0); });
+}
+
+std::optional<std::string> Connection::text(const std::string& sql,
+                                            const std::vector<Value>& values) {
+    return first(sql, values, [](const Row& row) { return row.unless_null(0, &Row::text_at); })
+        .value_or(std::nullopt);
+}
+
+std::optional<std::int64_t> Connection::integer(const std::string& sql,
+                                                const std::vector<Value>& values) {
+    return first(sql, values, [](const Row& row) { return row.unless_null(0, &Row::integer_at); })
+        .value_or(std::nullopt);
+}
+
+bool Connection::finds(const std::string& sql, const std::vector<Value>& values) {
     bool found = false;
-    query(sql, {value}, [&](const Row&) { found = true; });
+    query(sql, values, [&](const Row&) { found = true; });
     return found;
 }
 
 std::int64_t Connection::last_row_id() const { return sqlite3_last_insert_rowid(database_.get()); }
 
-sqlite3_stmt* Connection::prepared(const std::string& sql, const std::vector<Value>& values) {
-    auto& kept = statements_[sql];
-    if (!kept) {
+Row& Connection::prepared(const std::string& sql, const std::vector<Value>& values) {
+    Row& kept = statements_[sql];
+    if (!kept.statement_) {
         sqlite3_stmt* statement = nullptr;
         if (sqlite3_prepare_v3(database_.get(), sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT,
                                &statement, nullptr) != SQLITE_OK)
             refuse(sql);
-        kept.reset(statement);
+        kept.statement_.reset(statement);
+        for (int i = 0; i < sqlite3_column_count(statement); ++i)
+            kept.columns_.emplace_back(sqlite3_column_name(statement, i));
     }
     int index = 0;
     for (const Value& value : values) {
-        if (bind(kept.get(), ++index, value) != SQLITE_OK) refuse(sql);
+        if (bind(kept.statement_.get(), ++index, value) != SQLITE_OK) refuse(sql);
     }
-    return kept.get();
+    return kept;
 }
 
 void Connection::refuse(const std::string& what) const {

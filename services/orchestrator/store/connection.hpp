@@ -7,9 +7,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -32,20 +35,52 @@ Value value_or_null(const std::optional<T>& value) {
     return *value;
 }
 
-/// A row of a result while it is being read; columns from 0.
+/// The row that a statement stands at; columns by the names that the statement gives them. Throws
+/// std::logic_error for a name that it lacks.
 class Row {
   public:
-    explicit Row(sqlite3_stmt* statement) : statement_(statement) {}
-    bool is_null(int column) const;
-    std::string text(int column) const;
-    std::int64_t integer(int column) const;
-    double real(int column) const;
-    std::optional<std::string> optional_text(int column) const;
-    std::optional<std::int64_t> optional_integer(int column) const;
-    std::optional<double> optional_real(int column) const;
+    std::string text(std::string_view column) const { return text_at(place_of(column)); }
+    std::int64_t integer(std::string_view column) const { return integer_at(place_of(column)); }
+    double real(std::string_view column) const { return real_at(place_of(column)); }
+    bool yes(std::string_view column) const { return yes_at(place_of(column)); }
+    nlohmann::json document(std::string_view column) const;
+    std::optional<std::string> optional_text(std::string_view column) const {
+        return unless_null(place_of(column), &Row::text_at);
+    }
+    std::optional<std::int64_t> optional_integer(std::string_view column) const {
+        return unless_null(place_of(column), &Row::integer_at);
+    }
+    std::optional<double> optional_real(std::string_view column) const {
+        return unless_null(place_of(column), &Row::real_at);
+    }
+    std::optional<bool> optional_yes(std::string_view column) const {
+        return unless_null(place_of(column), &Row::yes_at);
+    }
+    std::optional<nlohmann::json> optional_document(std::string_view column) const;
 
   private:
-    sqlite3_stmt* statement_;
+    friend class Connection;
+    struct Close {
+        void operator()(sqlite3_stmt* statement) const;
+    };
+    int place_of(std::string_view column) const;
+    bool is_null_at(int place) const;
+    std::string text_at(int place) const;
+    std::int64_t integer_at(int place) const;
+    double real_at(int place) const;
+    bool yes_at(int place) const { return integer_at(place) != 0; }
+    template <class T>
+    std::optional<T> unless_null(int place, T (Row::*read)(int) const) const {
+        if (is_null_at(place)) return std::nullopt;
+        return (this->*read)(place);
+    }
+
+    std::unique_ptr<sqlite3_stmt, Close> statement_;
+    std::vector<std::string> columns_;
+    /// Places of the columns in the order in which they were asked for in the last row: those of the
+    /// next are asked for alike.
+    mutable std::vector<int> asked_;
+    mutable std::size_t turn_ = 0;
 };
 
 enum class Access { read_only, read_write };
@@ -63,22 +98,41 @@ class Connection {
     std::int64_t change(const std::string& sql, const std::vector<Value>& values = {});
     void query(const std::string& sql, const std::vector<Value>& values,
                const std::function<void(const Row&)>& visit);
+    /// What `read` makes of each row.
+    template <class Read>
+    auto select(const std::string& sql, const std::vector<Value>& values, const Read& read) {
+        std::vector<std::invoke_result_t<const Read&, const Row&>> found;
+        query(sql, values, [&](const Row& row) { found.push_back(read(row)); });
+        return found;
+    }
+    /// The same of the first row; nothing: there is none.
+    template <class Read>
+    auto first(const std::string& sql, const std::vector<Value>& values, const Read& read) {
+        std::optional<std::invoke_result_t<const Read&, const Row&>> found;
+        query(sql, values, [&](const Row& row) {
+            if (!found) found = read(row);
+        });
+        return found;
+    }
+    /// Of a statement with one column.
+    std::vector<std::string> texts(const std::string& sql, const std::vector<Value>& values = {});
+    /// Of one with one column, its first row; nothing: there is none, or it is null.
+    std::optional<std::string> text(const std::string& sql, const std::vector<Value>& values = {});
+    std::optional<std::int64_t> integer(const std::string& sql,
+                                        const std::vector<Value>& values = {});
     /// Whether the query has any row.
-    bool finds(const std::string& sql, const std::string& value);
+    bool finds(const std::string& sql, const std::vector<Value>& values);
     std::int64_t last_row_id() const;
 
   private:
     struct Close {
         void operator()(sqlite3* database) const;
     };
-    struct Finalize {
-        void operator()(sqlite3_stmt* statement) const;
-    };
-    sqlite3_stmt* prepared(const std::string& sql, const std::vector<Value>& values);
+    Row& prepared(const std::string& sql, const std::vector<Value>& values);
     [[noreturn]] void refuse(const std::string& what) const;
 
     std::unique_ptr<sqlite3, Close> database_;
-    std::map<std::string, std::unique_ptr<sqlite3_stmt, Finalize>> statements_;
+    std::map<std::string, Row> statements_;
 };
 
 }  // namespace breach::orchestrator

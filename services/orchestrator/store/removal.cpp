@@ -33,16 +33,16 @@ constexpr std::array rows_of_run{
 }  // namespace
 
 Removal Transaction::remove_run(const std::string& run, const std::string& why) {
-    if (!database_.finds("SELECT 1 FROM runs WHERE id=?", run)) return Removal::unknown;
-    if (database_.finds("SELECT 1 FROM runs WHERE id=? AND pinned=1", run)) return Removal::pinned;
+    if (!database_.finds("SELECT 1 FROM runs WHERE id=?", {run})) return Removal::unknown;
+    if (database_.finds("SELECT 1 FROM runs WHERE id=? AND pinned=1", {run}))
+        return Removal::pinned;
     const bool goes_on =
-        database_.finds("SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", run) ||
+        database_.finds("SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", {run}) ||
         database_.finds(
-            "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", run);
+            "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", {run});
     if (goes_on) return Removal::going_on;
-    std::vector<std::string> recipes;
-    database_.query("SELECT DISTINCT recipe FROM tasks WHERE run=? AND recipe IS NOT NULL", {run},
-                    [&](const Row& row) { recipes.push_back(row.text(0)); });
+    const std::vector<std::string> recipes = database_.texts(
+        "SELECT DISTINCT recipe FROM tasks WHERE run=? AND recipe IS NOT NULL", {run});
     for (const char* each : rows_of_run) database_.change(each, {run});
     for (const std::string& each : recipes)
         database_.change(
@@ -51,7 +51,7 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
             {each});
     removes_events_ = true;
     database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
-    add_event(run, std::nullopt, "run", {{"event", "remove"}, {"why", why}});
+    add_run_event(run, {{"event", "remove"}, {"why", why}});
     return Removal::done;
 }
 
@@ -65,24 +65,23 @@ void Transaction::shrink(std::int64_t pages) {
 
 namespace {
 
-constexpr const char* file_columns =
+const std::string selected_files =
     "SELECT sha256, file, name, kind, about, bytes, created, used FROM files ";
 
 StoredFile file_from(const Row& row) {
-    return {.sha256 = row.text(0),
-            .file = row.text(1),
-            .name = row.text(2),
-            .kind = row.text(3),
-            .about = row.text(4),
-            .bytes = row.integer(5),
-            .created = row.text(6),
-            .used = row.text(7)};
+    return {.sha256 = row.text("sha256"),
+            .file = row.text("file"),
+            .name = row.text("name"),
+            .kind = row.text("kind"),
+            .about = row.text("about"),
+            .bytes = row.integer("bytes"),
+            .created = row.text("created"),
+            .used = row.text("used")};
 }
 
-constexpr const char* unneeded =
-    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256) AND NOT "
-    "EXISTS "
-    "(SELECT 1 FROM files_of_scenes WHERE files_of_scenes.sha256=files.sha256)";
+const std::string unneeded =
+    R"(NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256)
+    AND NOT EXISTS (SELECT 1 FROM files_of_scenes WHERE files_of_scenes.sha256=files.sha256))";
 
 }  // namespace
 
@@ -100,8 +99,8 @@ void Transaction::add_files(const NewRun& run) {
 void Transaction::keep_file(const StoredFile& file, const std::function<void()>& publish) {
     const std::string now = utc_now();
     database_.change(
-        "INSERT INTO files (sha256, file, name, kind, about, bytes, created, used) VALUES "
-        "(?1,?2,?3,?4,?5,?6,?7,?7) ON CONFLICT (sha256) DO UPDATE SET used=?7",
+        R"(INSERT INTO files (sha256, file, name, kind, about, bytes, created, used)
+VALUES (?1,?2,?3,?4,?5,?6,?7,?7) ON CONFLICT (sha256) DO UPDATE SET used=?7)",
         {file.sha256, file.file, file.name, file.kind, file.about, file.bytes, now});
     publish();
 }
@@ -111,12 +110,10 @@ void Transaction::touch_file(const std::string& sha256) {
 }
 
 Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
-    if (!database_.finds("SELECT 1 FROM files WHERE sha256=?", sha256)) return Removal::unknown;
-    if (database_.finds(
-            "SELECT 1 FROM files_of_runs WHERE sha256=?1 UNION ALL SELECT 1 FROM files_of_scenes "
-            "WHERE "
-            "sha256=?1 LIMIT 1",
-            sha256))
+    if (!database_.finds("SELECT 1 FROM files WHERE sha256=?", {sha256})) return Removal::unknown;
+    if (database_.finds(R"(SELECT 1 FROM files_of_runs WHERE sha256=?1
+UNION ALL SELECT 1 FROM files_of_scenes WHERE sha256=?1 LIMIT 1)",
+                        {sha256}))
         return Removal::needed;
     database_.change("DELETE FROM files WHERE sha256=?", {sha256});
     erase();
@@ -126,70 +123,43 @@ Removal Transaction::forget_file(const std::string& sha256, const std::function<
 bool Transaction::forget_unused_file(const std::string& sha256, const std::string& before,
                                      const std::function<void()>& erase) {
     const bool forgotten =
-        database_.change(std::string("DELETE FROM files WHERE sha256=? AND used<? AND ") + unneeded,
+        database_.change("DELETE FROM files WHERE sha256=? AND used<? AND " + unneeded,
                          {sha256, before}) > 0;
     if (forgotten) erase();
     return forgotten;
 }
 
 std::vector<StoredFile> Store::files() const {
-    std::vector<StoredFile> found;
-    read([&](Connection& database) {
-        database.query(std::string(file_columns) + "ORDER BY created DESC, sha256", {},
-                       [&](const Row& row) { found.push_back(file_from(row)); });
-        for (StoredFile& each : found)
-            database.query("SELECT run FROM files_of_runs WHERE sha256=? ORDER BY run DESC",
-                           {each.sha256},
-                           [&](const Row& row) { each.runs.push_back(row.text(0)); });
-    });
+    const Reader database = reader();
+    std::vector<StoredFile> found =
+        database->select(selected_files + "ORDER BY created DESC, sha256", {}, file_from);
+    for (StoredFile& each : found)
+        each.runs = database->texts(
+            "SELECT run FROM files_of_runs WHERE sha256=? ORDER BY run DESC", {each.sha256});
     return found;
 }
 
 std::optional<StoredFile> Store::file(const std::string& sha256) const {
-    std::optional<StoredFile> found;
-    read([&](Connection& database) {
-        database.query(std::string(file_columns) + "WHERE sha256=?", {sha256},
-                       [&](const Row& row) { found = file_from(row); });
-    });
-    return found;
+    return reader()->first(selected_files + "WHERE sha256=?", {sha256}, file_from);
 }
 
 std::vector<StoredFile> Store::files_of(const std::string& run) const {
-    std::vector<StoredFile> found;
-    read([&](Connection& database) {
-        database.query(std::string(file_columns) +
-                           "WHERE sha256 IN (SELECT sha256 FROM files_of_runs WHERE run=?) ORDER "
-                           "BY sha256",
-                       {run}, [&](const Row& row) { found.push_back(file_from(row)); });
-    });
-    return found;
+    return reader()->select(
+        selected_files +
+            "WHERE sha256 IN (SELECT sha256 FROM files_of_runs WHERE run=?) ORDER BY sha256",
+        {run}, file_from);
 }
 
 std::vector<StoredFile> Store::unused_files(const std::string& before) const {
-    std::vector<StoredFile> found;
-    read([&](Connection& database) {
-        database.query(std::string(file_columns) + "WHERE used<? AND " + unneeded, {before},
-                       [&](const Row& row) { found.push_back(file_from(row)); });
-    });
-    return found;
+    return reader()->select(selected_files + "WHERE used<? AND " + unneeded, {before}, file_from);
 }
 
 std::vector<std::string> Store::removals() const {
-    std::vector<std::string> found;
-    read([&](Connection& database) {
-        database.query("SELECT run FROM removals ORDER BY run", {},
-                       [&](const Row& row) { found.push_back(row.text(0)); });
-    });
-    return found;
+    return reader()->texts("SELECT run FROM removals ORDER BY run");
 }
 
 std::int64_t Store::free_pages() const {
-    std::int64_t pages = 0;
-    read([&](Connection& database) {
-        database.query("PRAGMA freelist_count", {},
-                       [&](const Row& row) { pages = row.integer(0); });
-    });
-    return pages;
+    return reader()->integer("PRAGMA freelist_count").value();
 }
 
 }  // namespace breach::orchestrator

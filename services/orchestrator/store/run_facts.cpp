@@ -17,84 +17,86 @@ Run& run_named(std::vector<Run>& runs, const std::string& id) {
 
 void add_flags(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
-        R"sql(
-SELECT flags.run, code, flags.phase, severity = 'questionable', count(DISTINCT task),
+        R"(SELECT flags.run AS run, code, flags.phase AS phase, severity = 'questionable' AS questionable,
+    count(DISTINCT task) AS tasks,
     (SELECT count(*) FROM tasks AS every WHERE every.run = flags.run AND every.phase = flags.phase
-        AND every.state IN ('succeeded', 'cached')),
-    message, pointer, min(label)
+        AND every.state IN ('succeeded', 'cached')) AS of_tasks, message, pointer, min(label) AS first
 FROM flags JOIN tasks ON tasks.id = task WHERE flags.run IN (SELECT value FROM json_each(?))
-GROUP BY flags.run, severity, code, flags.phase ORDER BY flags.run, severity, code, flags.phase)sql",
+GROUP BY flags.run, severity, code, flags.phase ORDER BY flags.run, severity, code, flags.phase)",
         {ids}, [&](const Row& row) {
             const auto severity =
-                row.integer(3) != 0 ? fault::Severity::questionable : fault::Severity::warning;
-            run_named(runs, row.text(0))
-                .facts.raised.push_back({{row.text(1), severity, row.text(6), row.text(7)},
-                                         row.text(2),
-                                         row.integer(4),
-                                         row.integer(5),
-                                         row.text(8)});
+                row.yes("questionable") ? fault::Severity::questionable : fault::Severity::warning;
+            run_named(runs, row.text("run"))
+                .facts.raised.push_back(
+                    {{row.text("code"), severity, row.text("message"), row.text("pointer")},
+                     row.text("phase"),
+                     row.integer("tasks"),
+                     row.integer("of_tasks"),
+                     row.text("first")});
         });
 }
 
 /// Samples are meant to fail in part: their probability is the answer, not a fault of the study.
 void add_unstable(Connection& database, const std::string& ids, std::vector<Run>& runs) {
-    database.query(R"sql(
-SELECT tasks.run, count(*), min(json_extract(result, '$.factor_of_safety')), variant,
+    database.query(
+        R"(SELECT tasks.run AS run, count(*) AS tasks,
+    min(json_extract(result, '$.factor_of_safety')) AS factor, variant,
     (SELECT count(*) FROM tasks AS every WHERE every.run = tasks.run AND every.phase = 'lem_tool'
-        AND every.state IN ('succeeded', 'cached'))
+        AND every.state IN ('succeeded', 'cached')) AS of_tasks
 FROM tasks JOIN runs ON runs.id = tasks.run
 WHERE run IN (SELECT value FROM json_each(?)) AND phase = 'lem_tool'
     AND json_extract(result, '$.factor_of_safety') < 1
     AND json_extract(study, '$.uncertainty') IS NULL
     AND NOT coalesce(json_extract(study, '$.known_failure'), 0)
-GROUP BY tasks.run)sql",
-                   {ids}, [&](const Row& row) {
-                       run_named(runs, row.text(0)).facts.unstable = findings::Unstable{
-                           row.integer(1), row.integer(4), row.real(2), row.text(3)};
-                   });
+GROUP BY tasks.run)",
+        {ids}, [&](const Row& row) {
+            run_named(runs, row.text("run")).facts.unstable =
+                findings::Unstable{row.integer("tasks"), row.integer("of_tasks"),
+                                   row.real("factor"), row.text("variant")};
+        });
 }
 
 void add_early(Connection& database, const std::string& ids, std::vector<Run>& runs) {
-    database.query(R"sql(
-SELECT fem.run, sum(transfer.transfer_time < liquefied), count(*),
-    min(CASE WHEN transfer.transfer_time < liquefied THEN transfer.transfer_time END), liquefied
+    database.query(
+        R"(SELECT fem.run AS run, sum(transfer.transfer_time < liquefied) AS early, count(*) AS transfers,
+    min(CASE WHEN transfer.transfer_time < liquefied THEN transfer.transfer_time END) AS first, liquefied
 FROM (SELECT id, run, json_extract(result, '$.milestones.liquefied.time') AS liquefied FROM tasks
       WHERE run IN (SELECT value FROM json_each(?)) AND phase = 'fem_solver' AND result IS NOT NULL) AS fem
 JOIN tasks AS transfer ON transfer.parent = fem.id AND transfer.phase = 'transfer_tool'
     AND transfer.state IN ('succeeded', 'cached')
-GROUP BY fem.run)sql",
-                   {ids}, [&](const Row& row) {
-                       if (row.is_null(1) || row.integer(1) == 0) return;
-                       run_named(runs, row.text(0)).facts.early = findings::Early{
-                           row.integer(1), row.integer(2), row.real(3), row.real(4)};
-                   });
+GROUP BY fem.run)",
+        {ids}, [&](const Row& row) {
+            if (row.integer("early") == 0) return;  // nor where nothing liquefied
+            run_named(runs, row.text("run")).facts.early =
+                findings::Early{row.integer("early"), row.integer("transfers"), row.real("first"),
+                                row.real("liquefied")};
+        });
 }
 
 void add_broken(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
-        R"sql(
-SELECT run, phase, count(*),
-    (SELECT count(*) FROM tasks AS every WHERE every.run = tasks.run AND every.phase = tasks.phase),
-    coalesce(fault_summary, state), min(label)
+        R"(SELECT run, phase, count(*) AS tasks,
+    (SELECT count(*) FROM tasks AS every WHERE every.run = tasks.run AND every.phase = tasks.phase)
+        AS of_tasks, coalesce(fault_summary, state) AS why, min(label)
 FROM tasks WHERE run IN (SELECT value FROM json_each(?))
     AND state IN ('failed', 'skipped', 'cancelled') AND NOT not_reached
-GROUP BY run, phase ORDER BY phase)sql",
+GROUP BY run, phase ORDER BY phase)",
         {ids}, [&](const Row& row) {
-            run_named(runs, row.text(0))
-                .facts.broken.push_back({row.text(1), row.integer(2), row.integer(3), row.text(4)});
+            run_named(runs, row.text("run"))
+                .facts.broken.push_back({row.text("phase"), row.integer("tasks"),
+                                         row.integer("of_tasks"), row.text("why")});
         });
 }
 
 /// Of runs that are over. Looked for only where a FEM with expired triggers has no transfer: plans of many samples are long.
 void add_without_transfer(Connection& database, std::vector<Run>& runs) {
     for (Run& each : runs) {
-        bool some = false;
-        if (each.finished)
-            database.query("SELECT 1 FROM triggers WHERE run=? AND state='expired' AND NOT (" +
-                               draws_samples("spec") +
-                               ") AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE "
-                               "child.parent=triggers.fem_task) LIMIT 1",
-                           {each.id}, [&](const Row&) { some = true; });
+        const bool some =
+            each.finished &&
+            database.finds("SELECT 1 FROM triggers WHERE run=? AND state='expired' AND NOT (" +
+                               draws_samples("spec") + R"()
+    AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE child.parent=triggers.fem_task) LIMIT 1)",
+                           {each.id});
         if (!some) continue;
         for (WithoutTransfer& found : variants_without_transfer(database, each.id))
             each.facts.without_transfer.push_back(
@@ -115,7 +117,7 @@ void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
     database.query(
         "SELECT run, runouts FROM run_counts WHERE run IN (SELECT value FROM json_each(?))", {ids},
         [&](const Row& row) {
-            run_named(runs, row.text(0)).facts.has_runout = row.integer(1) > 0;
+            run_named(runs, row.text("run")).facts.has_runout = row.integer("runouts") > 0;
         });
     add_flags(database, ids, runs);
     add_unstable(database, ids, runs);

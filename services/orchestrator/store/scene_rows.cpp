@@ -1,6 +1,4 @@
 // Scenes that were stored, their names, and the runs that were made of them.
-#include <map>
-
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"
@@ -9,33 +7,26 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// Of the newest version; empty: there is no such name.
-std::pair<std::string, std::int64_t> newest_of(Connection& database, const std::string& name) {
-    std::pair<std::string, std::int64_t> newest{"", 0};
-    database.query(
-        "SELECT sha256, version FROM scene_names WHERE name=? ORDER BY version DESC LIMIT 1",
-        {name}, [&](const Row& row) {
-            newest = {row.text(0), row.integer(1)};
-        });
-    return newest;
+const std::string selected_names = "SELECT name, version, created, sha256 FROM scene_names ";
+
+SceneName name_from(const Row& row) {
+    return {row.text("name"), row.integer("version"), row.text("created"), row.text("sha256")};
 }
 
-constexpr const char* drop_scene =
-    "DELETE FROM scenes WHERE sha256=?1 AND NOT EXISTS (SELECT 1 FROM scene_names WHERE "
-    "scene_names.sha256=?1) AND NOT EXISTS (SELECT 1 FROM scenes_of_runs WHERE "
-    "scenes_of_runs.sha256=?1)";
+StoredScene scene_from(const Row& row) {
+    return {.sha256 = row.text("sha256"),
+            .document = row.text("document"),
+            .bytes = row.integer("bytes"),
+            .created = row.text("created")};
+}
 
 /// Names and runs of these scenes.
 void add_users(Connection& database, std::vector<StoredScene>& scenes) {
     for (StoredScene& each : scenes) {
-        database.query(
-            "SELECT name, version, created, sha256 FROM scene_names WHERE sha256=? ORDER BY name, "
-            "version DESC",
-            {each.sha256}, [&](const Row& row) {
-                each.names.push_back({row.text(0), row.integer(1), row.text(2), row.text(3)});
-            });
-        database.query("SELECT run FROM scenes_of_runs WHERE sha256=? ORDER BY run DESC",
-                       {each.sha256}, [&](const Row& row) { each.runs.push_back(row.text(0)); });
+        each.names = database.select(selected_names + "WHERE sha256=? ORDER BY name, version DESC",
+                                     {each.sha256}, name_from);
+        each.runs = database.texts(
+            "SELECT run FROM scenes_of_runs WHERE sha256=? ORDER BY run DESC", {each.sha256});
     }
 }
 
@@ -44,7 +35,7 @@ void add_users(Connection& database, std::vector<StoredScene>& scenes) {
 void Transaction::add_scene_source(const NewRun& run) {
     if (!run.made_of) return;
     const SceneSource& source = *run.made_of;
-    if (!database_.finds("SELECT 1 FROM scenes WHERE sha256=?", source.sha256))
+    if (!database_.finds("SELECT 1 FROM scenes WHERE sha256=?", {source.sha256}))
         throw fault::BadInput("study", {{"/scene", "this stored scene was removed meanwhile",
                                          "store it again (POST /v1/scenes; breach scenes add)"}});
     database_.change(
@@ -66,99 +57,76 @@ bool Transaction::keep_scene(const NewScene& scene, const std::optional<std::str
                          {scene.sha256, each});
     }
     if (!name) return is_new;
-    const auto [sha256, version] = newest_of(database_, *name);
-    if (sha256 == scene.sha256) return is_new;
+    const auto newest = database_.first(
+        selected_names + "WHERE name=? ORDER BY version DESC LIMIT 1", {*name}, name_from);
+    if (newest && newest->sha256 == scene.sha256) return is_new;
     database_.change("INSERT INTO scene_names (name, version, sha256, created) VALUES (?,?,?,?)",
-                     {*name, version + 1, scene.sha256, now});
+                     {*name, newest ? newest->version + 1 : 1, scene.sha256, now});
     return true;
 }
 
 Removal Transaction::forget_scene(const std::string& sha256) {
-    if (!database_.finds("SELECT 1 FROM scenes WHERE sha256=?", sha256)) return Removal::unknown;
-    if (database_.finds(
-            "SELECT 1 FROM scene_names WHERE sha256=?1 UNION ALL SELECT 1 FROM scenes_of_runs "
-            "WHERE sha256=?1",
-            sha256))
+    if (!database_.finds("SELECT 1 FROM scenes WHERE sha256=?", {sha256})) return Removal::unknown;
+    if (database_.finds(R"(SELECT 1 FROM scene_names WHERE sha256=?1
+UNION ALL SELECT 1 FROM scenes_of_runs WHERE sha256=?1)",
+                        {sha256}))
         return Removal::needed;
     database_.change("DELETE FROM files_of_scenes WHERE scene=?", {sha256});
-    database_.change(drop_scene, {sha256});
+    database_.change("DELETE FROM scenes WHERE sha256=?", {sha256});
     return Removal::done;
 }
 
 Removal Transaction::forget_scene_name(const std::string& name) {
-    std::vector<std::string> scenes;
-    database_.query("SELECT DISTINCT sha256 FROM scene_names WHERE name=?", {name},
-                    [&](const Row& row) { scenes.push_back(row.text(0)); });
+    const std::vector<std::string> scenes =
+        database_.texts("SELECT DISTINCT sha256 FROM scene_names WHERE name=?", {name});
     if (scenes.empty()) return Removal::unknown;
-    if (database_.finds("SELECT 1 FROM scenes_of_runs WHERE name=?", name)) return Removal::needed;
+    if (database_.finds("SELECT 1 FROM scenes_of_runs WHERE name=?", {name}))
+        return Removal::needed;
     database_.change("DELETE FROM scene_names WHERE name=?", {name});
     for (const std::string& each : scenes) forget_scene(each);  // unless something else needs it
     return Removal::done;
 }
 
 std::optional<StoredScene> Store::scene(const std::string& sha256) const {
-    std::vector<StoredScene> found;
-    read([&](Connection& database) {
-        database.query("SELECT sha256, document, created FROM scenes WHERE sha256=?", {sha256},
-                       [&](const Row& row) {
-                           found.push_back({.sha256 = row.text(0),
-                                            .document = row.text(1),
-                                            .bytes = static_cast<std::int64_t>(row.text(1).size()),
-                                            .created = row.text(2)});
-                       });
-        add_users(database, found);
-    });
+    const Reader database = reader();
+    std::vector<StoredScene> found = database->select(
+        R"(SELECT sha256, document, length(CAST(document AS BLOB)) AS bytes, created FROM scenes
+WHERE sha256=?)",
+        {sha256}, scene_from);
+    add_users(*database, found);
     if (found.empty()) return std::nullopt;
     return std::move(found.front());
 }
 
 std::vector<StoredScene> Store::scenes(const SceneFilter& filter, std::size_t most) const {
-    std::vector<StoredScene> found;
     const bool before = filter.before.has_value();
-    read([&](Connection& database) {
-        database.query(
-            "SELECT sha256, length(CAST(document AS BLOB)), created FROM scenes WHERE (?1 IS NULL "
-            "OR sha256 IN (SELECT sha256 FROM scene_names WHERE name=?1)) AND (?2 IS NULL OR "
-            "instr(sha256 || char(10) || coalesce((SELECT group_concat(name, char(10)) FROM "
-            "scene_names WHERE scene_names.sha256=scenes.sha256), ''), lower(?2)) > 0) AND (?3 IS "
-            "NULL OR (created, sha256) < (?3, ?4)) ORDER BY created DESC, sha256 DESC LIMIT ?5",
-            {value_or_null(filter.name), value_or_null(filter.search),
-             before ? Value(filter.before->first) : Value(nullptr),
-             before ? Value(filter.before->second) : Value(nullptr),
-             static_cast<std::int64_t>(most)},
-            [&](const Row& row) {
-                found.push_back({.sha256 = row.text(0),
-                                 .document = {},
-                                 .bytes = row.integer(1),
-                                 .created = row.text(2)});
-            });
-        add_users(database, found);
-    });
+    const Reader database = reader();
+    std::vector<StoredScene> found = database->select(
+        R"(SELECT sha256, '' AS document, length(CAST(document AS BLOB)) AS bytes, created FROM scenes
+WHERE (?1 IS NULL OR sha256 IN (SELECT sha256 FROM scene_names WHERE name=?1))
+    AND (?2 IS NULL OR instr(sha256 || char(10) || coalesce((SELECT group_concat(name, char(10))
+        FROM scene_names WHERE scene_names.sha256=scenes.sha256), ''), lower(?2)) > 0)
+    AND (?3 IS NULL OR (created, sha256) < (?3, ?4))
+ORDER BY created DESC, sha256 DESC LIMIT ?5)",
+        {value_or_null(filter.name), value_or_null(filter.search),
+         before ? Value(filter.before->first) : Value(nullptr),
+         before ? Value(filter.before->second) : Value(nullptr), static_cast<std::int64_t>(most)},
+        scene_from);
+    add_users(*database, found);
     return found;
 }
 
 std::vector<SceneName> Store::versions_of_scene(const std::string& name) const {
-    std::vector<SceneName> found;
-    read([&](Connection& database) {
-        database.query(
-            "SELECT name, version, created, sha256 FROM scene_names WHERE name=? ORDER BY version "
-            "DESC",
-            {name}, [&](const Row& row) {
-                found.push_back({row.text(0), row.integer(1), row.text(2), row.text(3)});
-            });
-    });
-    return found;
+    return reader()->select(selected_names + "WHERE name=? ORDER BY version DESC", {name},
+                            name_from);
 }
 
 std::optional<SceneSource> Store::scene_source_of(const std::string& run) const {
-    std::optional<SceneSource> found;
-    read([&](Connection& database) {
-        database.query("SELECT sha256, name, version FROM scenes_of_runs WHERE run=?", {run},
-                       [&](const Row& row) {
-                           found = {row.text(0), row.optional_text(1), row.optional_integer(2)};
-                       });
-    });
-    return found;
+    return reader()->first("SELECT sha256, name, version FROM scenes_of_runs WHERE run=?", {run},
+                           [](const Row& row) {
+                               return SceneSource{row.text("sha256"), row.optional_text("name"),
+                                                  row.optional_integer("version")};
+                           });
 }
 
 }  // namespace breach::orchestrator

@@ -312,9 +312,7 @@ END;)sql";
 }  // namespace
 
 std::int64_t version_of(Connection& database) {
-    std::int64_t version = 0;
-    database.query("PRAGMA user_version", {}, [&](const Row& row) { version = row.integer(0); });
-    return version;
+    return database.integer("PRAGMA user_version").value();
 }
 
 std::optional<std::string> refusal_of(std::int64_t version) {

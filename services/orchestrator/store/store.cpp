@@ -25,15 +25,14 @@ std::filesystem::path with_schema(const std::filesystem::path& file) {
 
 Store::Store(const std::filesystem::path& file)
     : file_(with_schema(file)), writing_(file, Access::read_write) {
-    writing_.query("SELECT coalesce(max(seq), 0) FROM events", {},
-                   [&](const Row& row) { last_event_ = row.integer(0); });
+    last_event_ = writing_.integer("SELECT max(seq) FROM events").value_or(0);
     writer_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }
 
 Store::~Store() = default;
 
-void Store::write(std::function<void(Transaction&)> change, std::string by) {
-    Job job{std::move(change), std::move(by), {}, nullptr};
+void Store::wait_for(std::function<void(Transaction&)> change, const std::string& by) {
+    Job job{std::move(change), by, {}, nullptr};
     std::future<void> done = job.done.get_future();
     {
         const std::lock_guard lock(jobs_mutex_);
@@ -76,9 +75,9 @@ void Store::commit(std::deque<Job>& jobs) {
             }
             writing_.change("RELEASE job", {});
         }
-        reach(Failpoint::store_before_commit);
+        pass_failpoint("store_before_commit");
         writing_.script("COMMIT");
-        reach(Failpoint::store_after_commit);
+        pass_failpoint("store_after_commit");
     } catch (const StoreError&) {
         const std::exception_ptr failure = std::current_exception();
         try {
@@ -110,19 +109,23 @@ void Store::commit(std::deque<Job>& jobs) {
     }
 }
 
-void Store::read(const std::function<void(Connection&)>& read) const {
-    std::unique_ptr<Connection> connection;
+Store::Reader Store::reader() const {
     {
         const std::lock_guard lock(readers_mutex_);
         if (!idle_readers_.empty()) {
-            connection = std::move(idle_readers_.back());
+            Reader idle(idle_readers_.back().release(), {this});
             idle_readers_.pop_back();
+            return idle;
         }
     }
-    if (!connection) connection = std::make_unique<Connection>(file_, Access::read_only);
-    read(*connection);
-    const std::lock_guard lock(readers_mutex_);
-    if (idle_readers_.size() < most_idle_readers) idle_readers_.push_back(std::move(connection));
+    return {new Connection(file_, Access::read_only), {this}};
+}
+
+void Store::GiveBack::operator()(Connection* connection) const {
+    std::unique_ptr<Connection> idle(connection);
+    const std::lock_guard lock(store->readers_mutex_);
+    if (store->idle_readers_.size() < most_idle_readers)
+        store->idle_readers_.push_back(std::move(idle));
 }
 
 bool Store::wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const {

@@ -46,9 +46,23 @@ class Store {
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;
 
-    /// Runs `change` and returns when it is on the disk. What it throws is thrown here, and nothing
-    /// of it is kept. Throws StoreError when the commit fails. by: Transaction.
-    void write(std::function<void(Transaction&)> change, std::string by = {});
+    /// Runs `change`, and gives what it returns when it is on the disk. What it throws is thrown
+    /// here, and nothing of it is kept. Throws StoreError when the commit fails. by: Transaction.
+    template <class Change>
+    auto write(const std::string& by, const Change& change) {
+        using Made = std::invoke_result_t<const Change&, Transaction&>;
+        if constexpr (std::is_void_v<Made>) {
+            wait_for(change, by);
+        } else {
+            std::optional<Made> made;
+            wait_for([&](Transaction& transaction) { made = change(transaction); }, by);
+            return *std::move(made);
+        }
+    }
+    template <class Change>
+    auto write(const Change& change) {
+        return write({}, change);
+    }
 
     std::vector<Run> runs(std::size_t most) const;
     std::vector<Run> runs(const RunFilter& filter, std::size_t most) const;
@@ -172,10 +186,18 @@ class Store {
         std::promise<void> done;
         std::exception_ptr refused;
     };
+    void wait_for(std::function<void(Transaction&)> change, const std::string& by);
     void serve(const std::stop_token& stop);
     void commit(std::deque<Job>& jobs);
-    /// A reading connection for the duration of `read`.
-    void read(const std::function<void(Connection&)>& read) const;
+    /// A reading connection, which is given back at its end.
+    struct GiveBack {
+        const Store* store;
+        void operator()(Connection* connection) const;
+    };
+    using Reader = std::unique_ptr<Connection, GiveBack>;
+    Reader reader() const;
+    /// With their facts; sql: of such rows.
+    std::vector<Run> whole_runs(const std::string& sql, const std::vector<Value>& values) const;
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
     static void gather_facts(Connection& database, std::vector<Run>& runs);

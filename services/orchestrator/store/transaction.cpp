@@ -19,21 +19,34 @@ std::string text_of(const json& document) {
     return document.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+const std::string is_a_run = "SELECT 1 FROM runs WHERE id=?";
+
 std::string run_of(const std::string& task) { return task.substr(0, task.find('-')); }
+
+/// In place of what it had.
+void keep_artifacts(Connection& database, const std::string& task,
+                    const std::vector<Artifact>& artifacts) {
+    database.change("DELETE FROM artifacts WHERE task=?", {task});
+    for (const Artifact& each : artifacts) {
+        database.change(
+            "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) VALUES (?,?,?,?)",
+            {each.task, each.name, each.sha256, each.bytes});
+    }
+}
 
 }  // namespace
 
 void Transaction::add_run(const NewRun& run) {
     const std::string now = utc_now();
     database_.change(
-        "INSERT INTO runs (id, name, title, created, study, scene, sweep, last_task, "
-        "budget_cpu_seconds) VALUES (?,?,?,?,?,?,?,?,?)",
+        R"(INSERT INTO runs (id, name, title, created, study, scene, sweep, last_task,
+    budget_cpu_seconds) VALUES (?,?,?,?,?,?,?,?,?))",
         {run.id, run.name, run.title, now, run.study, run.scene, std::int64_t{run.sweep ? 1 : 0},
          static_cast<std::int64_t>(run.tasks.size()), value_or_null(run.budget)});
     add_recipes(run.recipes);
     add_files(run);
     add_scene_source(run);
-    add_event(run.id, std::nullopt, "run", {{"event", "submit"}, {"tasks", run.tasks.size()}});
+    add_run_event(run.id, {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
         std::optional<std::string> parent;
@@ -47,9 +60,9 @@ void Transaction::insert_task(const std::string& run, const std::string& id, con
                               const std::optional<std::string>& parent, std::int64_t priority,
                               TaskState state) {
     database_.change(
-        "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
-        "overrides, state, variant, priority, cores, memory_mb, recipe, ready_at) VALUES "
-        "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+        R"(INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, overrides,
+    state, variant, priority, cores, memory_mb, recipe, ready_at)
+VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?))",
         {id, run, task.phase, task.label, value_or_null(task.transfer_time), value_or_null(parent),
          std::string(name_of(task.release)), task.input, json(task.overrides).dump(),
          std::string(name_of(state)), task.variant, priority, task.resources.cores,
@@ -58,19 +71,18 @@ void Transaction::insert_task(const std::string& run, const std::string& id, con
 }
 
 std::int64_t Transaction::next_ordinal(const std::string& run) {
-    std::int64_t ordinal = 0;
-    database_.query("UPDATE runs SET last_task = last_task + 1 WHERE id=? RETURNING last_task - 1",
-                    {run}, [&](const Row& row) { ordinal = row.integer(0); });
-    return ordinal;
+    return database_
+        .integer("UPDATE runs SET last_task = last_task + 1 WHERE id=? RETURNING last_task - 1",
+                 {run})
+        .value_or(0);
 }
 
 void Transaction::extend_run(const std::string& run, const Extension& extension) {
     add_recipes(extension.recipes);
     database_.change("UPDATE runs SET study=?, sweep=1 WHERE id=?", {extension.study.dump(), run});
-    add_event(run, std::nullopt, "run", {{"event", "extend"}, {"tasks", extension.tasks.size()}});
-    std::int64_t priority = 0;
-    database_.query("SELECT max(priority) FROM tasks WHERE run=?", {run},
-                    [&](const Row& row) { priority = row.integer(0); });
+    add_run_event(run, {{"event", "extend"}, {"tasks", extension.tasks.size()}});
+    const std::int64_t priority =
+        database_.integer("SELECT max(priority) FROM tasks WHERE run=?", {run}).value_or(0);
     std::vector<std::string> ids;
     for (const AddedTask& each : extension.tasks) {
         auto parent = each.parent;
@@ -99,26 +111,19 @@ void Transaction::keep_idempotency_key(const std::string& key, const std::string
         {key, body_sha256, run, utc_now()});
 }
 
-bool Transaction::holds(const std::string& task) const {
-    bool found = false;
-    database_.query("SELECT 1 FROM tasks WHERE id=?", {task}, [&](const Row&) { found = true; });
-    return found;
-}
-
 TaskState Transaction::state_of(const std::string& task) const {
-    std::optional<TaskState> state;
-    database_.query("SELECT state FROM tasks WHERE id=?", {task},
-                    [&](const Row& row) { state = task_state_named(row.text(0)); });
+    const auto state = database_.text("SELECT state FROM tasks WHERE id=?", {task});
     if (!state) throw IllegalMove("no task " + task);
-    return *state;
+    return task_state_named(*state);
 }
 
 void Transaction::set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                             std::optional<std::int64_t> retry_at, json detail) {
     const std::string now = utc_now();
     database_.change(
-        "UPDATE tasks SET state=?, retry_at=?, started=CASE WHEN ? THEN coalesce(started, ?) ELSE "
-        "started END, ready_at=coalesce(?, ready_at), finished=? WHERE id=?",
+        R"(UPDATE tasks SET state=?, retry_at=?,
+    started=CASE WHEN ? THEN coalesce(started, ?) ELSE started END,
+    ready_at=coalesce(?, ready_at), finished=? WHERE id=?)",
         {std::string(name_of(to)), value_or_null(retry_at),
          std::int64_t{event == TaskEvent::claim ? 1 : 0}, now,
          to == TaskState::ready ? Value(epoch_ms()) : Value(nullptr),
@@ -178,7 +183,7 @@ void Transaction::pass_over_task(const std::string& task, const std::string& why
 void Transaction::finish_task(const std::string& task, const json& result,
                               const std::vector<Artifact>& artifacts,
                               const std::string& input_sha256) {
-    keep_artifacts(task, artifacts);
+    keep_artifacts(database_, task, artifacts);
     database_.change("UPDATE tasks SET result=?, input_sha256=? WHERE id=?",
                      {text_of(result), input_sha256, task});
     move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
@@ -186,41 +191,30 @@ void Transaction::finish_task(const std::string& task, const json& result,
 
 void Transaction::keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
                                const std::string& input_sha256) {
-    if (!holds(task)) return;  // its run was removed
-    const TaskState state = state_of(task);
-    if (state != TaskState::failed && state != TaskState::cancelled) return;  // tried again
-    keep_artifacts(task, artifacts);
+    const bool has_ended = database_.finds(
+        "SELECT 1 FROM tasks WHERE id=? AND state IN ('failed', 'cancelled')", {task});
+    if (!has_ended) return;  // tried again, or its run was removed
+    keep_artifacts(database_, task, artifacts);
     database_.change("UPDATE tasks SET input_sha256=? WHERE id=?", {input_sha256, task});
 }
 
-/// In place of what it had.
-void Transaction::keep_artifacts(const std::string& task, const std::vector<Artifact>& artifacts) {
-    database_.change("DELETE FROM artifacts WHERE task=?", {task});
-    for (const Artifact& each : artifacts) {
-        database_.change(
-            "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) VALUES (?,?,?,?)",
-            {each.task, each.name, each.sha256, each.bytes});
-    }
-}
-
 bool Transaction::reuse_task(const std::string& task, const Task& earlier) {
-    bool is_as_read = false;
-    database_.query("SELECT 1 FROM tasks WHERE id=? AND state=?",
-                    {earlier.id, std::string(name_of(earlier.state))},
-                    [&](const Row&) { is_as_read = true; });
-    if (!is_as_read || !holds(task)) return false;
+    const bool are_as_read = database_.finds(
+        R"(SELECT 1 FROM tasks AS earlier JOIN tasks AS task ON task.id=?
+WHERE earlier.id=? AND earlier.state=?)",
+        {task, earlier.id, std::string(name_of(earlier.state))});
+    if (!are_as_read) return false;
     const TaskEvent event =
         earlier.state == TaskState::failed ? TaskEvent::reuse_breakdown : TaskEvent::reuse;
     const std::string first = earlier.same_as.value_or(earlier.id);
     if (!try_move_task(task, event, {{"same_as", first}})) return false;
     database_.change(
-        "INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes) SELECT ?, name, sha256, "
-        "bytes "
-        "FROM artifacts WHERE task=?",
+        R"(INSERT OR REPLACE INTO artifacts (task, name, sha256, bytes)
+SELECT ?, name, sha256, bytes FROM artifacts WHERE task=?)",
         {task, earlier.id});
     database_.change(
-        "UPDATE tasks SET same_as=?3, (result, input_sha256, fault_exit, fault_summary)=(SELECT "
-        "result, input_sha256, fault_exit, fault_summary FROM tasks WHERE id=?1) WHERE id=?2",
+        R"(UPDATE tasks SET same_as=?3, (result, input_sha256, fault_exit, fault_summary)=
+    (SELECT result, input_sha256, fault_exit, fault_summary FROM tasks WHERE id=?1) WHERE id=?2)",
         {earlier.id, task, first});
     return true;
 }
@@ -230,9 +224,8 @@ void Transaction::note_cache_refusal(const std::string& task, const std::string&
 }
 
 std::int64_t Transaction::add_attempt(const std::string& task) {
-    std::int64_t number = 1;
-    database_.query("SELECT coalesce(max(number), 0) + 1 FROM attempts WHERE task=?", {task},
-                    [&](const Row& row) { number = row.integer(0); });
+    const std::int64_t number =
+        database_.integer("SELECT max(number) FROM attempts WHERE task=?", {task}).value_or(0) + 1;
     database_.change(
         "INSERT INTO attempts (task, number, state, created) VALUES (?,?,'submitting',?)",
         {task, number, utc_now()});
@@ -242,9 +235,9 @@ std::int64_t Transaction::add_attempt(const std::string& task) {
 
 void Transaction::move_attempt(const std::string& task, std::int64_t number, AttemptEvent event,
                                const AttemptEnd& end) {
-    std::optional<AttemptState> from;
-    database_.query("SELECT state FROM attempts WHERE task=? AND number=?", {task, number},
-                    [&](const Row& row) { from = attempt_state_named(row.text(0)); });
+    const auto from =
+        database_.first("SELECT state FROM attempts WHERE task=? AND number=?", {task, number},
+                        [](const Row& row) { return attempt_state_named(row.text("state")); });
     const auto to = from ? next(*from, event) : std::nullopt;
     if (!to) {
         throw IllegalMove("attempt " + attempt_id(task, number) + ": event " +
@@ -258,8 +251,8 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
         started = utc_text(epoch_ms() - static_cast<std::int64_t>(1000.0 * *end.wall_seconds));
     const bool was_exhausted = !end.cpu_seconds || is_exhausted(run_of(task));
     database_.change(
-        "UPDATE attempts SET state=?, started=coalesce(started, ?), finished=?, exit_code=?, "
-        "signal=?, wall_seconds=?, cpu_seconds=coalesce(?, cpu_seconds) WHERE task=? AND number=?",
+        R"(UPDATE attempts SET state=?, started=coalesce(started, ?), finished=?, exit_code=?, signal=?,
+    wall_seconds=?, cpu_seconds=coalesce(?, cpu_seconds) WHERE task=? AND number=?)",
         {std::string(name_of(*to)), started, finished, value_or_null(end.exit_code),
          value_or_null(end.signal), value_or_null(end.wall_seconds), value_or_null(end.cpu_seconds),
          task, number});
@@ -272,26 +265,22 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     if (!end.reason.empty()) detail["stopped_for"] = end.reason;
     add_event(run_of(task), task, "attempt", detail);
     if (!was_exhausted && is_exhausted(run_of(task)))
-        add_event(run_of(task), std::nullopt, "run", {{"event", "budget_exhausted"}});
+        add_run_event(run_of(task), {{"event", "budget_exhausted"}});
 }
 
 std::int64_t Transaction::count_try(const std::string& task) {
-    std::int64_t tries = 0;
-    database_.query("UPDATE tasks SET tries = tries + 1 WHERE id=? RETURNING tries", {task},
-                    [&](const Row& row) { tries = row.integer(0); });
-    return tries;
+    return database_
+        .integer("UPDATE tasks SET tries = tries + 1 WHERE id=? RETURNING tries", {task})
+        .value_or(0);
 }
 
 bool Transaction::cancel_run(const std::string& run, const std::string& why) {
-    std::vector<std::string> tasks;
-    database_.query("SELECT id FROM tasks WHERE run=? AND finished IS NULL", {run},
-                    [&](const Row& row) { tasks.push_back(row.text(0)); });
-    bool known = !tasks.empty();
-    if (!known)
-        database_.query("SELECT 1 FROM runs WHERE id=?", {run}, [&](const Row&) { known = true; });
+    const std::vector<std::string> tasks =
+        database_.texts("SELECT id FROM tasks WHERE run=? AND finished IS NULL", {run});
+    const bool known = database_.finds(is_a_run, {run});
     disarm_triggers(run, why);
     for (const std::string& task : tasks) try_move_task(task, TaskEvent::cancel, {{"why", why}});
-    if (!tasks.empty()) add_event(run, std::nullopt, "run", {{"event", "cancel"}, {"why", why}});
+    if (!tasks.empty()) add_run_event(run, {{"event", "cancel"}, {"why", why}});
     return known;
 }
 
@@ -300,10 +289,8 @@ bool Transaction::mark_run(const std::string& run, const char* column, std::int6
     const std::string is(column);
     if (database_.change("UPDATE runs SET " + is + "=?1 WHERE id=?2 AND " + is + "<>?1",
                          {value, run}) > 0)
-        add_event(run, std::nullopt, "run", {{"event", event}});
-    bool known = false;
-    database_.query("SELECT 1 FROM runs WHERE id=?", {run}, [&](const Row&) { known = true; });
-    return known;
+        add_run_event(run, {{"event", event}});
+    return database_.finds(is_a_run, {run});
 }
 
 bool Transaction::pause_run(const std::string& run) { return mark_run(run, "paused", 1, "pause"); }
@@ -314,13 +301,10 @@ bool Transaction::pin_run(const std::string& run) { return mark_run(run, "pinned
 bool Transaction::unpin_run(const std::string& run) { return mark_run(run, "pinned", 0, "unpin"); }
 
 bool Transaction::rename_run(const std::string& run, const std::string& title) {
-    std::optional<std::string> before;
-    database_.query("SELECT title FROM runs WHERE id=?", {run},
-                    [&](const Row& row) { before = row.text(0); });
+    const auto before = database_.text("SELECT title FROM runs WHERE id=?", {run});
     if (before && *before != title) {
         database_.change("UPDATE runs SET title=? WHERE id=?", {title, run});
-        add_event(run, std::nullopt, "run",
-                  {{"event", "rename"}, {"from", *before}, {"title", title}});
+        add_run_event(run, {{"event", "rename"}, {"from", *before}, {"title", title}});
     }
     return before.has_value();
 }
@@ -328,8 +312,7 @@ bool Transaction::rename_run(const std::string& run, const std::string& title) {
 bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
     const bool known =
         database_.change("UPDATE tasks SET priority=? WHERE run=?", {priority, run}) > 0;
-    if (known)
-        add_event(run, std::nullopt, "run", {{"event", "set_priority"}, {"priority", priority}});
+    if (known) add_run_event(run, {{"event", "set_priority"}, {"priority", priority}});
     return known;
 }
 
@@ -340,22 +323,22 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
         "SELECT id, state, release FROM tasks WHERE run=? AND not_reached=0 ORDER BY id", {run},
         [&](const Row& row) {
             known = true;
-            if (next(task_state_named(row.text(1)), TaskEvent::redo))
-                tasks.emplace_back(row.text(0), row.text(2));
+            if (next(task_state_named(row.text("state")), TaskEvent::redo))
+                tasks.emplace_back(row.text("id"), row.text("release"));
         });
     if (!known) return std::nullopt;
     std::set<std::string> ids;
     for (const auto& [task, release] : tasks) ids.insert(task);
     const std::vector<Trigger> triggers = triggers_to_rearm(run, ids);
     if (!tasks.empty() || !triggers.empty())
-        add_event(run, std::nullopt, "run",
-                  {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
+        add_run_event(run,
+                      {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
     for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
     for (const auto& [task, release] : tasks) {
         // What broke down is wanted again, not answered by its like: it loses its recipe.
         database_.change(
-            "UPDATE tasks SET tries=0, same_as=NULL, fault_exit=NULL, fault_summary=NULL, "
-            "recipe=iif(fault_exit=70, NULL, recipe) WHERE id=?",
+            R"(UPDATE tasks SET tries=0, same_as=NULL, fault_exit=NULL, fault_summary=NULL,
+    recipe=iif(fault_exit=70, NULL, recipe) WHERE id=?)",
             {task});
         database_.change("DELETE FROM artifacts WHERE task=?", {task});
         move_task(task, TaskEvent::redo);

@@ -140,21 +140,19 @@ class Transaction {
     void disarm_triggers(const std::string& run, const std::string& why);
     std::vector<Trigger> triggers_to_rearm(const std::string& run,
                                            const std::set<std::string>& tasks_tried_again) const;
-    bool hangs_on(const Trigger& trigger, const std::set<std::string>& tasks) const;
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
-    std::string add_fired_task(const std::string& run, const TaskPlan& task,
-                               const std::string& parent, std::int64_t priority);
     bool mark_run(const std::string& run, const char* column, std::int64_t value,
                   const char* event);
     void add_files(const NewRun& run);
     void add_scene_source(const NewRun& run);
-    bool holds(const std::string& task) const;
     /// Nothing of the run is started: it has spent what it may.
     bool is_exhausted(const std::string& run) const;
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);
-    void keep_artifacts(const std::string& task, const std::vector<Artifact>& artifacts);
+    void add_run_event(const std::string& run, nlohmann::json detail) {
+        add_event(run, std::nullopt, "run", std::move(detail));
+    }
     void add_event(const std::string& run, const std::optional<std::string>& task,
                    const std::string& kind, nlohmann::json detail);
 

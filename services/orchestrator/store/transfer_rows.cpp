@@ -3,65 +3,53 @@
 
 namespace breach::orchestrator {
 
-using nlohmann::json;
-
-namespace {
-
-std::optional<json> optional_json(const Row& row, int column) {
-    const auto text = row.optional_text(column);
-    return text ? std::optional(json::parse(*text)) : std::nullopt;
-}
-
 // A time of the study has no firing. The MPM tasks of a transfer are as many as variants share it. From
 // ready (its snapshot was seen) to the start of its last attempt; of one from the cache there is none.
-constexpr const char* transfers =
-    "SELECT t.id, t.run, t.parent, t.transfer_time, t.variant, t.state, t.not_reached, t.input, "
-    "t.fault_summary, g.name, g.kind, g.spec, f.wanted_time, f.crossed, f.fem_step, f.written_at - "
-    "f.noticed_at, (SELECT cast(round((julianday(max(a.created)) - 2440587.5) * 86400000.0) AS "
-    "INTEGER) FROM attempts AS a WHERE a.task=t.id) - t.ready_at, (SELECT "
-    "json_group_array(json_object('task', m.id, 'variant', m.variant, 'state', m.state, 'runout', "
-    "json_extract(m.result, '$.runout'))) FROM tasks AS m WHERE m.parent=t.id ORDER BY m.id), "
-    "t.started, t.same_as FROM tasks AS t LEFT JOIN triggers AS g ON g.id=(SELECT firings.trigger "
-    "FROM firings JOIN triggers ON triggers.id=firings.trigger WHERE triggers.fem_task=t.parent "
-    "AND "
-    "firings.snapshot=t.input ORDER BY firings.noticed_at LIMIT 1) LEFT JOIN firings AS f ON "
-    "f.trigger=g.id AND f.snapshot=t.input WHERE t.phase='transfer_tool' AND (?1 IS NULL OR "
-    "t.run=?1) AND (?2 IS NULL OR coalesce(g.kind, 'at_time')=?2) AND (?3 IS NULL OR t.state=?3) "
-    "AND (?4 IS NULL OR t.id<?4) ORDER BY t.id DESC LIMIT ?5";
-
-}  // namespace
-
 std::vector<TransferRow> Store::transfers_of(const TransferFilter& filter, std::size_t most) const {
-    std::vector<TransferRow> found;
-    read([&](Connection& database) {
-        database.query(
-            transfers,
-            {value_or_null(filter.run), value_or_null(filter.why), value_or_null(filter.state),
-             value_or_null(filter.before), static_cast<std::int64_t>(most)},
-            [&](const Row& row) {
-                found.push_back({.task = row.text(0),
-                                 .run = row.text(1),
-                                 .fem_task = row.text(2),
-                                 .transfer_time = row.optional_real(3),
-                                 .variant = row.text(4),
-                                 .state = row.text(5),
-                                 .not_reached = row.integer(6) != 0,
-                                 .snapshot = row.text(7),
-                                 .fault = row.optional_text(8),
-                                 .trigger = row.optional_text(9),
-                                 .why = row.optional_text(10).value_or("at_time"),
-                                 .spec = optional_json(row, 11),
-                                 .wanted_time = row.optional_real(12),
-                                 .crossed = optional_json(row, 13),
-                                 .fem_step = row.optional_integer(14),
-                                 .snapshot_ms = row.optional_integer(15),
-                                 .start_ms = row.optional_integer(16),
-                                 .runouts = json::parse(row.text(17)),
-                                 .started = row.optional_text(18),
-                                 .same_as = row.optional_text(19)});
-            });
-    });
-    return found;
+    return reader()->select(
+        R"(SELECT t.id AS id, t.run AS run, t.parent AS parent, t.transfer_time AS transfer_time,
+    t.variant AS variant, t.state AS state, t.not_reached AS not_reached, t.input AS input,
+    t.fault_summary AS fault_summary, g.name AS trigger, coalesce(g.kind, 'at_time') AS why,
+    g.spec AS spec, f.wanted_time AS wanted_time, f.crossed AS crossed, f.fem_step AS fem_step,
+    f.written_at - f.noticed_at AS snapshot_ms,
+    (SELECT cast(round((julianday(max(a.created)) - 2440587.5) * 86400000.0) AS INTEGER)
+     FROM attempts AS a WHERE a.task=t.id) - t.ready_at AS start_ms,
+    (SELECT json_group_array(json_object('task', m.id, 'variant', m.variant, 'state', m.state,
+         'runout', json_extract(m.result, '$.runout')))
+     FROM tasks AS m WHERE m.parent=t.id ORDER BY m.id) AS runouts,
+    t.started AS started, t.same_as AS same_as
+FROM tasks AS t
+LEFT JOIN triggers AS g ON g.id=(SELECT firings.trigger FROM firings JOIN triggers
+    ON triggers.id=firings.trigger WHERE triggers.fem_task=t.parent AND firings.snapshot=t.input
+    ORDER BY firings.noticed_at LIMIT 1)
+LEFT JOIN firings AS f ON f.trigger=g.id AND f.snapshot=t.input
+WHERE t.phase='transfer_tool' AND (?1 IS NULL OR t.run=?1)
+    AND (?2 IS NULL OR coalesce(g.kind, 'at_time')=?2) AND (?3 IS NULL OR t.state=?3)
+    AND (?4 IS NULL OR t.id<?4) ORDER BY t.id DESC LIMIT ?5)",
+        {value_or_null(filter.run), value_or_null(filter.why), value_or_null(filter.state),
+         value_or_null(filter.before), static_cast<std::int64_t>(most)},
+        [](const Row& row) {
+            return TransferRow{.task = row.text("id"),
+                               .run = row.text("run"),
+                               .fem_task = row.text("parent"),
+                               .transfer_time = row.optional_real("transfer_time"),
+                               .variant = row.text("variant"),
+                               .state = row.text("state"),
+                               .not_reached = row.yes("not_reached"),
+                               .snapshot = row.text("input"),
+                               .fault = row.optional_text("fault_summary"),
+                               .trigger = row.optional_text("trigger"),
+                               .why = row.text("why"),
+                               .spec = row.optional_document("spec"),
+                               .wanted_time = row.optional_real("wanted_time"),
+                               .crossed = row.optional_document("crossed"),
+                               .fem_step = row.optional_integer("fem_step"),
+                               .snapshot_ms = row.optional_integer("snapshot_ms"),
+                               .start_ms = row.optional_integer("start_ms"),
+                               .runouts = row.document("runouts"),
+                               .started = row.optional_text("started"),
+                               .same_as = row.optional_text("same_as")};
+        });
 }
 
 }  // namespace breach::orchestrator

@@ -14,46 +14,71 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* trigger_columns =
+const std::string selected_triggers =
     "SELECT id, run, fem_task, name, kind, spec, state, reason, result FROM triggers ";
 
 Trigger trigger_from(const Row& row) {
-    Trigger trigger{.id = row.text(0),
-                    .run = row.text(1),
-                    .fem_task = row.text(2),
-                    .name = row.text(3),
-                    .kind = row.text(4),
-                    .spec = json::parse(row.text(5)),
-                    .state = trigger_state_named(row.text(6)),
-                    .reason = row.text(7),
-                    .result = std::nullopt};
-    if (!row.is_null(8)) trigger.result = json::parse(row.text(8));
-    return trigger;
+    return {.id = row.text("id"),
+            .run = row.text("run"),
+            .fem_task = row.text("fem_task"),
+            .name = row.text("name"),
+            .kind = row.text("kind"),
+            .spec = row.document("spec"),
+            .state = trigger_state_named(row.text("state")),
+            .reason = row.text("reason"),
+            .result = row.optional_document("result")};
 }
 
 /// The FEMs of the same variant, that one included: a run extended by times has several, and one
 /// transfer at each time, behind the first that has its snapshot.
 std::string fems_alike(const std::string& fem) {
-    return "(SELECT alike.id FROM tasks AS fem JOIN tasks AS alike ON alike.run=fem.run AND "
-           "alike.phase=fem.phase AND alike.variant=fem.variant WHERE fem.id=" +
+    return R"((SELECT alike.id FROM tasks AS fem JOIN tasks AS alike ON alike.run=fem.run
+    AND alike.phase=fem.phase AND alike.variant=fem.variant WHERE fem.id=)" +
            fem + ")";
 }
 
-/// A task's state, exit code and summary, from this column on: how it was lost, which no input can
-/// help and a retry may mend. Nothing: it was not.
-std::optional<std::string> lost_by(const Row& row, int column) {
-    const TaskState state = task_state_named(row.text(column));
+/// How a task with this state and fault was lost, which no input can help and a retry may mend.
+/// Nothing: it was not.
+std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> code,
+                                   const std::optional<std::string>& summary) {
     if (state == TaskState::cancelled) return "cancelled";
-    if (state != TaskState::failed) return std::nullopt;
-    const auto code = row.optional_integer(column + 1).value_or(0);
     const bool answers = code == static_cast<std::int64_t>(fault::ExitCode::breakdown) ||
                          code == static_cast<std::int64_t>(fault::ExitCode::bad_input);
-    if (answers) return std::nullopt;
-    const std::string summary = row.text(column + 2);
-    return summary.empty() ? std::string(name_of(state)) : summary;
+    if (state != TaskState::failed || answers) return std::nullopt;
+    return summary.value_or(std::string(name_of(state)));
 }
 
+/// What it decides by: its FEM, that one's stability analysis (as Store::stability_of has it), and for
+/// a bisect the runouts.
+bool hangs_on(Connection& database, const Trigger& trigger, const std::set<std::string>& tasks) {
+    const auto has = [&](const std::string& task) { return tasks.contains(task); };
+    if (has(trigger.fem_task)) return true;
+    const auto lem = database.text(
+        R"(SELECT id FROM tasks WHERE run=?1 AND phase=?2
+ORDER BY variant=(SELECT variant FROM tasks WHERE id=?3) DESC, variant='' DESC, id LIMIT 1)",
+        {trigger.run, phases::lem.program, trigger.fem_task});
+    if (lem && has(*lem)) return true;
+    return trigger.kind == "bisect" &&
+           std::ranges::any_of(
+               database.texts(R"(SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm
+ON mpm.parent=transfer.id WHERE transfer.parent IN )" +
+                                  fems_alike("?"),
+                              {trigger.fem_task}),
+               has);
+}
+
+struct FemOfPlan {
+    std::string label;
+    std::string variant;
+    std::int64_t priority;
+};
+
 }  // namespace
+
+std::vector<TaskPlan> firing_plan_of(Connection& database, const std::string& run) {
+    const auto plan = database.text("SELECT tasks FROM firing_plans WHERE run=?", {run});
+    return plan ? read_firing_plan(json::parse(*plan)) : std::vector<TaskPlan>{};
+}
 
 void Transaction::add_triggers(const NewRun& run) {
     if (!run.firing_plan.empty())
@@ -69,39 +94,37 @@ void Transaction::add_triggers(const NewRun& run) {
 /// Their places in tables, and their tasks where triggers have fired already.
 void Transaction::add_samples(const std::string& run, const Extension& extension) {
     database_.change(
-        "INSERT OR IGNORE INTO variants (run, name, place) SELECT ?1, json_extract(value, "
-        "'$.name'), key FROM json_each(?2, '$.variants')",
+        R"(INSERT OR IGNORE INTO variants (run, name, place)
+SELECT ?1, json_extract(value, '$.name'), key FROM json_each(?2, '$.variants'))",
         {run, extension.study.dump()});
     if (extension.firing_plan.empty()) return;
     database_.change("UPDATE firing_plans SET tasks=? WHERE run=?",
                      {json(extension.firing_plan).dump(), run});
-    std::vector<std::pair<std::string, double>> fired;
-    database_.query(
-        "SELECT DISTINCT triggers.fem_task, firings.transfer_time FROM firings JOIN triggers ON "
-        "triggers.id = firings.trigger WHERE triggers.run=?",
-        {run}, [&](const Row& row) { fired.emplace_back(row.text(0), row.real(1)); });
+    const auto fired = database_.select(
+        R"(SELECT DISTINCT fem_task, transfer_time FROM firings JOIN triggers
+ON triggers.id = firings.trigger WHERE triggers.run=?)",
+        {run}, [](const Row& row) {
+            return std::pair{row.text("fem_task"), row.real("transfer_time")};
+        });
     for (const auto& [fem_task, time] : fired) add_transfer(run, fem_task, time);
 }
 
 bool Transaction::is_open(const std::string& trigger) const {
-    bool open = false;
-    database_.query("SELECT 1 FROM triggers WHERE id=? AND state IN ('armed', 'holding')",
-                    {trigger}, [&](const Row&) { open = true; });
-    return open;
+    return database_.finds("SELECT 1 FROM triggers WHERE id=? AND state IN ('armed', 'holding')",
+                           {trigger});
 }
 
 std::string Transaction::add_trigger(const std::string& run, const std::string& fem_task,
                                      const TriggerPlan& plan) {
-    std::int64_t number = 0;
-    database_.query("SELECT count(*) FROM triggers WHERE run=?", {run},
-                    [&](const Row& row) { number = row.integer(0); });
+    const std::int64_t number =
+        database_.integer("SELECT count(*) FROM triggers WHERE run=?", {run}).value();
     const std::string id = run + "-t" + std::to_string(number);
     std::string name = plan.name;
     if (name.empty()) name = plan.kind + "_" + std::to_string(number + 1);
     const std::string now = utc_now();
     database_.change(
-        "INSERT INTO triggers (id, run, fem_task, name, kind, spec, state, created, changed) "
-        "VALUES (?,?,?,?,?,?,'armed',?,?)",
+        R"(INSERT INTO triggers (id, run, fem_task, name, kind, spec, state, created, changed)
+VALUES (?,?,?,?,?,?,'armed',?,?))",
         {id, run, fem_task, name, plan.kind, plan.spec.dump(), now, now});
     add_event(run, fem_task, "run",
               {{"event", "trigger"}, {"trigger", id}, {"name", name}, {"to", "armed"}});
@@ -109,15 +132,15 @@ std::string Transaction::add_trigger(const std::string& run, const std::string& 
 }
 
 bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json detail) {
-    std::optional<TriggerState> from;
-    database_.query("SELECT state FROM triggers WHERE id=?", {trigger.id},
-                    [&](const Row& row) { from = trigger_state_named(row.text(0)); });
+    const auto from =
+        database_.first("SELECT state FROM triggers WHERE id=?", {trigger.id},
+                        [](const Row& row) { return trigger_state_named(row.text("state")); });
     const auto to = from ? next(*from, event) : std::nullopt;
     if (!to) return false;
     if (detail.is_null()) detail = json::object();
     database_.change(
-        "UPDATE triggers SET state=?1, reason=?2, changed=?3, "
-        "result=CASE WHEN ?1='armed' THEN NULL ELSE result END WHERE id=?4",
+        R"(UPDATE triggers SET state=?1, reason=?2, changed=?3,
+    result=CASE WHEN ?1='armed' THEN NULL ELSE result END WHERE id=?4)",
         {std::string(name_of(*to)), detail.value("why", ""), utc_now(), trigger.id});
     detail["event"] = "trigger";
     detail["trigger"] = trigger.id;
@@ -131,9 +154,9 @@ bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json 
 
 bool Transaction::add_firing(const Trigger& trigger, const Firing& firing) {
     const auto added = database_.change(
-        "INSERT OR IGNORE INTO firings (trigger, transfer_time, wanted_time, snapshot, sha256, "
-        "crossed, fem_step, noticed_at, written_at, fired_at) SELECT id,?,?,?,?,?,?,?,?,? FROM "
-        "triggers WHERE id=? AND state IN ('armed', 'holding')",
+        R"(INSERT OR IGNORE INTO firings (trigger, transfer_time, wanted_time, snapshot, sha256, crossed,
+    fem_step, noticed_at, written_at, fired_at)
+SELECT id,?,?,?,?,?,?,?,?,? FROM triggers WHERE id=? AND state IN ('armed', 'holding'))",
         {firing.transfer_time, firing.wanted_time, firing.snapshot, firing.sha256,
          firing.crossed.dump(), firing.fem_step, firing.noticed_at, firing.written_at, epoch_ms(),
          trigger.id});
@@ -153,38 +176,33 @@ bool Transaction::add_firing(const Trigger& trigger, const Firing& firing) {
 
 /// What is there already (an at-time transfer, another trigger on the same snapshot) is shared.
 void Transaction::add_transfer(const std::string& run, const std::string& fem_task, double time) {
-    std::vector<TaskPlan> plan;
-    std::string label, variant;
-    std::int64_t priority = 0;
-    database_.query(
-        "SELECT firing_plans.tasks, tasks.label, tasks.variant, tasks.priority FROM tasks JOIN "
-        "firing_plans ON firing_plans.run = tasks.run WHERE tasks.id=?",
-        {fem_task}, [&](const Row& row) {
-            plan = read_firing_plan(json::parse(row.text(0)));
-            label = row.text(1);
-            variant = row.text(2);
-            priority = row.integer(3);
-        });
+    const FemOfPlan fem =
+        database_
+            .first("SELECT label, variant, priority FROM tasks WHERE id=?", {fem_task},
+                   [](const Row& row) {
+                       return FemOfPlan{row.text("label"), row.text("variant"),
+                                        row.integer("priority")};
+                   })
+            .value();
+    const std::vector<TaskPlan> plan = firing_plan_of(database_, run);
     std::vector<std::string> ids(plan.size());  // empty: of another variant's FEM
-    if (const auto fem = place_of_fem(plan, label, variant)) ids[*fem] = fem_task;
+    if (const auto place = place_of_fem(plan, fem.label, fem.variant)) ids[*place] = fem_task;
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (!plan[i].parent) continue;
         const std::string& parent = ids[*plan[i].parent];
         if (parent.empty()) continue;
         const TaskPlan task = at_time(plan[i], time);
-        database_.query("SELECT id FROM tasks WHERE run=? AND label=?", {run, task.label},
-                        [&](const Row& row) { ids[i] = row.text(0); });
-        if (ids[i].empty()) ids[i] = add_fired_task(run, task, parent, priority);
+        if (const auto known =
+                database_.text("SELECT id FROM tasks WHERE run=? AND label=?", {run, task.label})) {
+            ids[i] = *known;
+            continue;
+        }
+        ids[i] = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
+        // Its snapshot exists: a transfer has nothing to wait for.
+        const bool ready = task.release == Release::file_exists;
+        insert_task(run, ids[i], task, parent, fem.priority,
+                    ready ? TaskState::ready : TaskState::blocked);
     }
-}
-
-std::string Transaction::add_fired_task(const std::string& run, const TaskPlan& task,
-                                        const std::string& parent, std::int64_t priority) {
-    std::string id = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
-    // Its snapshot exists: a transfer has nothing to wait for.
-    const bool ready = task.release == Release::file_exists;
-    insert_task(run, id, task, parent, priority, ready ? TaskState::ready : TaskState::blocked);
-    return id;
 }
 
 void Transaction::keep_trigger_result(const std::string& trigger, const json& result) {
@@ -192,141 +210,104 @@ void Transaction::keep_trigger_result(const std::string& trigger, const json& re
 }
 
 void Transaction::disarm_triggers(const std::string& run, const std::string& why) {
-    std::vector<Trigger> open;
-    database_.query(std::string(trigger_columns) + "WHERE run=? AND state IN ('armed', 'holding')",
-                    {run}, [&](const Row& row) { open.push_back(trigger_from(row)); });
+    const std::vector<Trigger> open = database_.select(
+        selected_triggers + "WHERE run=? AND state IN ('armed', 'holding')", {run}, trigger_from);
     for (const Trigger& each : open) move_trigger(each, TriggerEvent::disarm, {{"why", why}});
 }
 
 std::vector<Trigger> Transaction::triggers_to_rearm(
     const std::string& run, const std::set<std::string>& tasks_tried_again) const {
-    std::vector<Trigger> found;
-    database_.query(
-        std::string(trigger_columns) + "WHERE run=? AND state IN ('disarmed', 'expired')", {run},
-        [&](const Row& row) { found.push_back(trigger_from(row)); });
+    std::vector<Trigger> found =
+        database_.select(selected_triggers + "WHERE run=? AND state IN ('disarmed', 'expired')",
+                         {run}, trigger_from);
     std::erase_if(found, [&](const Trigger& each) {
-        return each.state == TriggerState::expired && !hangs_on(each, tasks_tried_again);
+        return each.state == TriggerState::expired && !hangs_on(database_, each, tasks_tried_again);
     });
-    return found;
-}
-
-/// What it decides by: its FEM, that one's stability analysis (as Store::stability_of has it), and for
-/// a bisect the runouts.
-bool Transaction::hangs_on(const Trigger& trigger, const std::set<std::string>& tasks) const {
-    bool found = tasks.contains(trigger.fem_task);
-    const auto note = [&](const Row& row) { found |= tasks.contains(row.text(0)); };
-    database_.query(
-        "SELECT id FROM tasks WHERE run=?1 AND phase=?2 ORDER BY variant=(SELECT variant FROM "
-        "tasks "
-        "WHERE id=?3) DESC, variant='' DESC, id LIMIT 1",
-        {trigger.run, phases::lem.program, trigger.fem_task}, note);
-    if (trigger.kind == "bisect")
-        database_.query(
-            "SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm ON mpm.parent=transfer.id "
-            "WHERE transfer.parent IN " +
-                fems_alike("?"),
-            {trigger.fem_task}, note);
     return found;
 }
 
 // ---------------------------------------------------------------- reading
 
 std::vector<Trigger> Store::open_triggers() const {
-    std::vector<Trigger> found;
-    read([&](Connection& database) {
-        database.query(std::string(trigger_columns) +
-                           "WHERE state IN ('armed', 'holding') AND NOT (" + draws_samples("spec") +
-                           ") AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task AND "
-                           "tasks.state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id",
-                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
-    });
-    return found;
+    return reader()->select(
+        selected_triggers + "WHERE state IN ('armed', 'holding') AND NOT (" +
+            draws_samples("spec") +
+            R"() AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task
+    AND tasks.state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id)",
+        {}, trigger_from);
 }
 
 bool Store::plans_transfers_of(const Task& fem) const {
-    bool planned = false;
-    read([&](Connection& database) {
-        database.query("SELECT tasks FROM firing_plans WHERE run=?", {fem.run},
-                       [&](const Row& row) {
-                           const auto plan = read_firing_plan(json::parse(row.text(0)));
-                           planned = place_of_fem(plan, fem.label, fem.variant).has_value();
-                       });
-    });
-    return planned;
+    return place_of_fem(firing_plan_of(*reader(), fem.run), fem.label, fem.variant).has_value();
 }
 
 std::vector<Trigger> Store::open_batches() const {
-    std::vector<Trigger> found;
-    read([&](Connection& database) {
-        database.query(std::string(trigger_columns) + "WHERE state IN ('armed', 'holding') AND " +
-                           draws_samples("spec") + " ORDER BY id",
-                       {}, [&](const Row& row) { found.push_back(trigger_from(row)); });
-    });
-    return found;
+    return reader()->select(selected_triggers + "WHERE state IN ('armed', 'holding') AND " +
+                                draws_samples("spec") + " ORDER BY id",
+                            {}, trigger_from);
 }
 
 std::vector<Trigger> Store::triggers_of(const std::string& run) const {
-    std::vector<Trigger> found;
-    read([&](Connection& database) {
-        database.query(std::string(trigger_columns) + "WHERE run=? ORDER BY rowid", {run},
-                       [&](const Row& row) { found.push_back(trigger_from(row)); });
-    });
-    return found;
+    return reader()->select(selected_triggers + "WHERE run=? ORDER BY rowid", {run}, trigger_from);
 }
 
 std::vector<FiringRow> Store::firings_of(const std::string& run) const {
-    std::vector<FiringRow> found;
-    read([&](Connection& database) {
-        database.query(
-            "SELECT trigger, transfer_time, wanted_time, snapshot, sha256, crossed, fem_step, "
-            "noticed_at, snapshot_ms, fired_ms, start_ms FROM trigger_firings WHERE run=? ORDER BY "
-            "trigger, noticed_at",
-            {run}, [&](const Row& row) {
-                FiringRow each{.firing = {.trigger = row.text(0),
-                                          .transfer_time = row.real(1),
-                                          .wanted_time = row.real(2),
-                                          .snapshot = row.text(3),
-                                          .sha256 = row.text(4),
-                                          .crossed = json::parse(row.text(5)),
-                                          .fem_step = row.integer(6),
-                                          .noticed_at = row.integer(7),
-                                          .written_at = row.integer(7) + row.integer(8)},
-                               .fired_ms = row.integer(9),
-                               .start_ms = row.optional_integer(10)};
-                found.push_back(std::move(each));
-            });
-    });
-    return found;
+    return reader()->select(
+        R"(SELECT trigger, transfer_time, wanted_time, snapshot, sha256, crossed, fem_step, noticed_at,
+    snapshot_ms, fired_ms, start_ms FROM trigger_firings WHERE run=? ORDER BY trigger, noticed_at)",
+        {run}, [](const Row& row) {
+            const std::int64_t noticed_at = row.integer("noticed_at");
+            return FiringRow{.firing = {.trigger = row.text("trigger"),
+                                        .transfer_time = row.real("transfer_time"),
+                                        .wanted_time = row.real("wanted_time"),
+                                        .snapshot = row.text("snapshot"),
+                                        .sha256 = row.text("sha256"),
+                                        .crossed = row.document("crossed"),
+                                        .fem_step = row.integer("fem_step"),
+                                        .noticed_at = noticed_at,
+                                        .written_at = noticed_at + row.integer("snapshot_ms")},
+                             .fired_ms = row.integer("fired_ms"),
+                             .start_ms = row.optional_integer("start_ms")};
+        });
 }
 
 std::vector<Sample> Store::samples_of(const std::string& trigger) const {
     std::vector<Sample> found;
     std::string first;  // variant at this time
-    read([&](Connection& database) {
-        database.query(
-            "SELECT firings.transfer_time, coalesce(variants.draw_of, mpm.variant), mpm.state, "
-            "mpm.fault_exit, coalesce(mpm.fault_summary, ''), transfer.state, "
-            "transfer.fault_exit, coalesce(transfer.fault_summary, ''), "
-            "json_extract(mpm.result, '$.runout') FROM firings JOIN triggers ON triggers.id = "
-            "firings.trigger JOIN tasks AS transfer ON transfer.parent IN " +
-                fems_alike("triggers.fem_task") +
-                " AND transfer.input = firings.snapshot JOIN tasks AS mpm ON mpm.parent = "
-                "transfer.id LEFT JOIN variants ON variants.run = mpm.run AND variants.name = "
-                "mpm.variant WHERE firings.trigger=? ORDER BY firings.transfer_time, mpm.id",
-            {trigger}, [&](const Row& row) {
-                if (found.empty() || found.back().transfer_time != row.real(0)) {
-                    found.push_back({row.real(0), true, {}, 0});
-                    first = row.text(1);
-                }
-                if (row.text(1) != first) return;
-                Sample& sample = found.back();
-                ++sample.draws;
-                sample.ended &= is_final(task_state_named(row.text(2)));
-                for (const int task : {2, 5})
-                    if (!sample.lost_by) sample.lost_by = lost_by(row, task);
-                if (const auto runout = row.optional_real(8)) sample.runouts.push_back(*runout);
-            });
-    });
+    const auto take = [&](const Row& row) {
+        const double time = row.real("transfer_time");
+        const std::string variant = row.text("variant");
+        if (found.empty() || found.back().transfer_time != time) {
+            found.push_back({time, true, {}, 0});
+            first = variant;
+        }
+        if (variant != first) return;
+        Sample& sample = found.back();
+        ++sample.draws;
+        const TaskState state = task_state_named(row.text("state"));
+        sample.ended &= is_final(state);
+        if (!sample.lost_by)
+            sample.lost_by = lost_by(state, row.optional_integer("fault_exit"),
+                                     row.optional_text("fault_summary"));
+        if (!sample.lost_by)
+            sample.lost_by = lost_by(task_state_named(row.text("transfer_state")),
+                                     row.optional_integer("transfer_exit"),
+                                     row.optional_text("transfer_summary"));
+        if (const auto runout = row.optional_real("runout")) sample.runouts.push_back(*runout);
+    };
+    reader()->query(R"(SELECT firings.transfer_time AS transfer_time,
+    coalesce(variants.draw_of, mpm.variant) AS variant, mpm.state AS state,
+    mpm.fault_exit AS fault_exit, nullif(mpm.fault_summary, '') AS fault_summary,
+    transfer.state AS transfer_state, transfer.fault_exit AS transfer_exit,
+    nullif(transfer.fault_summary, '') AS transfer_summary,
+    json_extract(mpm.result, '$.runout') AS runout
+FROM firings JOIN triggers ON triggers.id = firings.trigger
+JOIN tasks AS transfer ON transfer.parent IN )" +
+                        fems_alike("triggers.fem_task") + R"( AND transfer.input = firings.snapshot
+JOIN tasks AS mpm ON mpm.parent = transfer.id
+LEFT JOIN variants ON variants.run = mpm.run AND variants.name = mpm.variant
+WHERE firings.trigger=? ORDER BY firings.transfer_time, mpm.id)",
+                    {trigger}, take);
     return found;
 }
 

@@ -70,41 +70,36 @@ const std::string is_questionable = "EXISTS (SELECT 1 FROM flags WHERE flags.tas
                                     tasks_of_row + " AND flags.severity = 'questionable')";
 /// Of its variant's own stability analysis, or the one that serves all.
 std::string of_stability(const std::string& what) {
-    return "(SELECT " + what +
-           " FROM tasks AS lem"
-           "\n        WHERE lem.run = mpm.run AND lem.phase = '" +
-           std::string(phases::lem.program) +
-           "'\n        AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1)";
+    return "(SELECT " + what + R"( FROM tasks AS lem
+        WHERE lem.run = mpm.run AND lem.phase = ')" +
+           phases::lem.program + R"('
+        AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1))";
 }
 
 /// The columns that result.json does not have.
 const std::vector<Expression> own_columns{
     {"transfer_time", "mpm.transfer_time"},
     {"state",
-     "CASE WHEN transfer.not_reached THEN 'not_reached'"
-     "\n        WHEN transfer.state IN ('failed', 'skipped') THEN transfer.state"
-     "\n        WHEN mpm.result IS NOT NULL AND " +
-         is_questionable +
-         " THEN 'questionable'"
-         "\n        WHEN mpm.state = 'cached' THEN 'succeeded' ELSE mpm.state END"},
+     R"(CASE WHEN transfer.not_reached THEN 'not_reached'
+        WHEN transfer.state IN ('failed', 'skipped') THEN transfer.state
+        WHEN mpm.result IS NOT NULL AND )" +
+         is_questionable + R"( THEN 'questionable'
+        WHEN mpm.state = 'cached' THEN 'succeeded' ELSE mpm.state END)"},
     {"reason", "coalesce(transfer.fault_summary, mpm.fault_summary, '')"},
     {"transfer_task", "transfer.id"},
     {"mpm_task", "mpm.id"},
     {"variant", "mpm.variant"},
     {"reused", "mpm.state = 'cached'"},
     {"trigger",
-     "CASE WHEN transfer.id IS NULL THEN '' ELSE coalesce((SELECT group_concat(triggers.name, ' ') "
-     "FROM triggers"
-     "\n        JOIN firings ON firings.trigger = triggers.id"
-     "\n        WHERE triggers.fem_task = transfer.parent AND firings.snapshot = transfer.input),"
-     " 'at_time') END"},
+     R"(CASE WHEN transfer.id IS NULL THEN '' ELSE coalesce((SELECT group_concat(triggers.name, ' ') FROM triggers
+        JOIN firings ON firings.trigger = triggers.id
+        WHERE triggers.fem_task = transfer.parent AND firings.snapshot = transfer.input), 'at_time') END)"},
     {"factor_of_safety", of_stability("json_extract(lem.result, '$.factor_of_safety')")},
     {"factor_of_safety_liquefied", of_stability(factor_liquefied("lem.result"))},
     {"questionable", "CASE WHEN mpm.result IS NOT NULL THEN " + is_questionable + " END"},
     {"flags",
-     "CASE WHEN mpm.result IS NOT NULL"
-     " THEN coalesce((SELECT group_concat(code, ';') FROM"
-     "\n        (SELECT code FROM flags WHERE task IN " +
+     R"(CASE WHEN mpm.result IS NOT NULL THEN coalesce((SELECT group_concat(code, ';') FROM
+        (SELECT code FROM flags WHERE task IN )" +
          tasks_of_row + " GROUP BY code ORDER BY min(severity), code)), '') END"},
 };
 /// What the service works out beside the database (services/findings, accuracy/runout_error.hpp): not in the view.
@@ -120,13 +115,11 @@ const std::vector<Expression> other_columns{
     {"variant_place", "coalesce(variants.place, 0)"},
     {"draw_of", "variants.draw_of"},
     {"flag_list",
-     "CASE WHEN mpm.result IS NOT NULL"
-     " THEN (SELECT json_group_array(json_object('code', code, 'severity', severity,"
-     "\n        'message', message, 'pointer', pointer, 'phase', phase)) FROM"
-     "\n        (SELECT code, severity, message, pointer, phase, min(task) FROM flags"
-     " WHERE task IN " +
-         tasks_of_row +
-         "\n        GROUP BY code, severity, pointer ORDER BY severity, code, pointer)) END"},
+     R"(CASE WHEN mpm.result IS NOT NULL THEN (SELECT json_group_array(json_object('code', code, 'severity', severity,
+        'message', message, 'pointer', pointer, 'phase', phase)) FROM
+        (SELECT code, severity, message, pointer, phase, min(task) FROM flags WHERE task IN )" +
+         tasks_of_row + R"(
+        GROUP BY code, severity, pointer ORDER BY severity, code, pointer)) END)"},
 };
 
 /// "/energy/numerical/share" -> "$.energy.numerical.share"
@@ -170,12 +163,10 @@ const std::string is_open =
 const std::vector<Expression> columns_of_means{
     {"transfer_time", "transfer_time"},
     {"variant", "draw_of"},
-    {"state",
-     "CASE WHEN sum(" + is_open +
-         ") > 0 THEN 'running'"
-         "\n        WHEN count(runout) = 0 THEN min(state)"
-         "\n        WHEN count(runout) < count(*) THEN 'partial'"
-         "\n        WHEN sum(state = 'questionable') > 0 THEN 'questionable' ELSE 'succeeded' END"},
+    {"state", "CASE WHEN sum(" + is_open + R"() > 0 THEN 'running'
+        WHEN count(runout) = 0 THEN min(state)
+        WHEN count(runout) < count(*) THEN 'partial'
+        WHEN sum(state = 'questionable') > 0 THEN 'questionable' ELSE 'succeeded' END)"},
     {"draws", "count(*)"},
     {"draws_done", "count(runout)"},
     {"missing_draws",
@@ -195,10 +186,8 @@ std::vector<Expression> views() {
 }
 
 bool is_there(Connection& database, const Expression& view) {
-    bool same = false;
-    database.query("SELECT sql FROM sqlite_master WHERE type='view' AND name=?", {view.name},
-                   [&](const Row& row) { same = row.text(0) == view.sql; });
-    return same;
+    return database.finds("SELECT 1 FROM sqlite_master WHERE type='view' AND name=? AND sql=?",
+                          {view.name, view.sql});
 }
 
 }  // namespace
@@ -254,9 +243,10 @@ std::string selected_means(const std::string& condition) {
 
 std::string selected_mean_columns() {
     std::string names;
-    for (const ResultColumn& each : mean_columns()) {
-        names.append(names.empty() ? "" : ", ").append(is_in_view(each) ? each.name : "NULL");
-    }
+    for (const ResultColumn& each : mean_columns())
+        names.append(names.empty() ? "" : ", ")
+            .append(is_in_view(each) ? "" : "NULL AS ")
+            .append(each.name);
     return names;
 }
 
@@ -264,9 +254,10 @@ std::string selected_result_columns() {
     std::string names;
     for (const ResultColumn& each : result_columns())
         names.append(names.empty() ? "" : ", ")
-            .append(!is_in_view(each)                ? "NULL"
-                    : each.kind == ColumnKind::flags ? "flag_list"
-                                                     : each.name);
+            .append(!is_in_view(each)                ? "NULL AS "
+                    : each.kind == ColumnKind::flags ? "flag_list AS "
+                                                     : "")
+            .append(each.name);
     return names;
 }
 

@@ -16,6 +16,8 @@ std::string makes_a_row(const std::string& task);
 /// The SQL condition on a trigger's spec by which it draws more samples (ensemble/batch_watch.hpp) and
 /// watches no FEM.
 std::string draws_samples(const std::string& spec);
+/// Of the transfers that triggers make; empty: the run has none.
+std::vector<TaskPlan> firing_plan_of(Connection& database, const std::string& run);
 /// In the order of the run's plan.
 std::vector<WithoutTransfer> variants_without_transfer(Connection& database,
                                                        const std::string& run);

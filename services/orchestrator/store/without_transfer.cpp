@@ -31,33 +31,36 @@ std::map<std::string, EndedFem> ended_fems(Connection& database, const std::stri
     std::map<std::string, EndedFem> found;
     std::map<std::string, EndedFem*> by_task;
     database.query(
-        "SELECT id, label, state, coalesce(fault_summary, ''), coalesce(json_extract(result, "
-        "'$.ended'), ''), json_extract(result, '$.end_time') FROM tasks WHERE run=? AND phase=?",
+        R"(SELECT id, label, state, coalesce(fault_summary, '') AS reason,
+    coalesce(json_extract(result, '$.ended'), '') = 'entangled' AS entangled,
+    json_extract(result, '$.end_time') AS end_time FROM tasks WHERE run=? AND phase=?)",
         {run, phases::fem.program}, [&](const Row& row) {
-            const TaskState state = task_state_named(row.text(2));
+            const TaskState state = task_state_named(row.text("state"));
             if (!is_final(state)) return;
-            const bool entangled = row.text(4) == "entangled";
-            EndedFem& fem = found[row.text(1)];
-            fem = {row.text(0), std::string(name_of(state)), row.text(3), has_output(state),
-                   !entangled};
+            const bool entangled = row.yes("entangled");
+            EndedFem& fem = found[row.text("label")];
+            fem = {row.text("id"), std::string(name_of(state)), row.text("reason"),
+                   has_output(state), !entangled};
             if (entangled)
-                fem.reason = "the FEM's mesh entangled at " + words::text_of(row.real(5), 4) + " s";
-            by_task[row.text(0)] = &fem;
+                fem.reason =
+                    "the FEM's mesh entangled at " + words::text_of(row.real("end_time"), 4) + " s";
+            by_task[fem.task] = &fem;
         });
     database.query(
-        "SELECT fem_task, name, state, reason, coalesce(json_extract(result, '$.was_met'), 1) FROM "
-        "triggers WHERE run=? AND NOT (" +
+        R"(SELECT fem_task, name, state, reason, coalesce(json_extract(result, '$.was_met'), 1) AS was_met
+FROM triggers WHERE run=? AND NOT ()" +
             draws_samples("spec") + ") ORDER BY rowid",
         {run}, [&](const Row& row) {
-            const auto of = by_task.find(row.text(0));
+            const auto of = by_task.find(row.text("fem_task"));
             if (of == by_task.end() || !of->second->came_through) return;
             EndedFem& fem = *of->second;
-            const TriggerState state = trigger_state_named(row.text(2));
+            const TriggerState state = trigger_state_named(row.text("state"));
             ++fem.triggers;
             if (!is_final(state)) ++fem.open_triggers;
             fem.state = state == TriggerState::disarmed ? "cancelled" : "not_reached";
-            fem.stood = fem.stood && state == TriggerState::expired && row.integer(4) == 0;
-            fem.reason += (fem.reason.empty() ? "" : "; ") + row.text(1) + ": " + row.text(3);
+            fem.stood = fem.stood && state == TriggerState::expired && !row.yes("was_met");
+            fem.reason +=
+                (fem.reason.empty() ? "" : "; ") + row.text("name") + ": " + row.text("reason");
         });
     return found;
 }
@@ -73,27 +76,17 @@ const std::string& label_of_fem(const std::vector<TaskPlan>& plan, const TaskPla
     return at->label;
 }
 
-std::set<std::string> variants_with_rows(Connection& database, const std::string& run) {
-    std::set<std::string> found;
-    database.query("SELECT DISTINCT variant FROM tasks WHERE run=? AND phase=?",
-                   {run, phases::mpm.program}, [&](const Row& row) { found.insert(row.text(0)); });
-    return found;
-}
-
 }  // namespace
 
 std::vector<WithoutTransfer> variants_without_transfer(Connection& database,
                                                        const std::string& run) {
     std::vector<WithoutTransfer> found;
-    bool has_triggers = false;
-    database.query("SELECT 1 FROM triggers WHERE run=? LIMIT 1", {run},
-                   [&](const Row&) { has_triggers = true; });
-    if (!has_triggers) return found;
-    std::vector<TaskPlan> plan;
-    database.query("SELECT tasks FROM firing_plans WHERE run=?", {run},
-                   [&](const Row& row) { plan = read_firing_plan(json::parse(row.text(0))); });
+    if (!database.finds("SELECT 1 FROM triggers WHERE run=? LIMIT 1", {run})) return found;
+    const std::vector<TaskPlan> plan = firing_plan_of(database, run);
     const auto fems = ended_fems(database, run);
-    const auto with_rows = variants_with_rows(database, run);
+    const std::vector<std::string> named = database.texts(
+        "SELECT DISTINCT variant FROM tasks WHERE run=? AND phase=?", {run, phases::mpm.program});
+    const std::set<std::string> with_rows(named.begin(), named.end());
     for (const TaskPlan& each : plan) {
         if (each.phase != phases::mpm.program || with_rows.contains(each.variant)) continue;
         const auto fem = fems.find(label_of_fem(plan, each));
@@ -105,9 +98,7 @@ std::vector<WithoutTransfer> variants_without_transfer(Connection& database,
 }
 
 std::vector<WithoutTransfer> Store::without_transfer(const std::string& run) const {
-    std::vector<WithoutTransfer> found;
-    read([&](Connection& database) { found = variants_without_transfer(database, run); });
-    return found;
+    return variants_without_transfer(*reader(), run);
 }
 
 }  // namespace breach::orchestrator

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "core/scene/schema.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::orchestrator {
 
@@ -31,9 +32,7 @@ std::string override_of(const char* pointer, double a, double b) {
 }
 
 std::string override_of(const std::string& pointer, double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "=%.6g", value);
-    return pointer + text.data();
+    return pointer + "=" + words::text_of(value);
 }
 
 /// What may be left out of balance gets 5 % smaller from draw to draw, and steps are shorter by what is

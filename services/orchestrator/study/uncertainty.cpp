@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "core/statistics/points.hpp"
+#include "core/words/number.hpp"
 #include "core/words/words.hpp"
 
 namespace breach::orchestrator {
@@ -31,12 +31,6 @@ constexpr double least_share_between = 1e-9;
 constexpr std::size_t default_batch = 16;
 
 std::string in_quotes(const std::string& text) { return "\"" + text + "\""; }
-
-std::string spelt_short(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%g", value);
-    return text;
-}
 
 std::string names_of(const std::vector<Parameter>& parameters) {
     std::string names;
@@ -191,15 +185,15 @@ class ParameterReader {
         const auto [a, b, c] = distribution.numbers;
         const auto ends = [&](double from, double to) {
             if (to <= from)
-                fault(
-                    "/distribution/to",
-                    "the range from " + spelt_short(from) + " to " + spelt_short(to) + " is empty",
-                    "give to > from");
+                fault("/distribution/to",
+                      "the range from " + words::text_of(from) + " to " + words::text_of(to) +
+                          " is empty",
+                      "give to > from");
         };
         const auto positive = [&](const char* key, double value, const char* why) {
             if (value <= 0.0)
                 fault("/distribution/" + std::string(key),
-                      "is " + spelt_short(value) + ", and " + why, "give a number above 0");
+                      "is " + words::text_of(value) + ", and " + why, "give a number above 0");
         };
         switch (distribution.kind) {
             case DistributionKind::uniform:
@@ -231,17 +225,18 @@ class ParameterReader {
         const std::array<double, 2> ends{entry_.at("between")[0], entry_.at("between")[1]};
         if (ends[0] >= ends[1]) {
             fault("/between",
-                  "nothing lies between " + spelt_short(ends[0]) + " and " + spelt_short(ends[1]),
+                  "nothing lies between " + words::text_of(ends[0]) + " and " +
+                      words::text_of(ends[1]),
                   "give [least, largest]");
             return;
         }
         parameter_.distribution.between = ends;
         const double share = statistics::share_between(parameter_.distribution);
         if (share < least_share_between)
-            fault(
-                "/between",
-                "the distribution has nothing there: " + spelt_short(share) + " of its probability",
-                "let the bounds hold the part of the distribution that is meant");
+            fault("/between",
+                  "the distribution has nothing there: " + words::text_of(share) +
+                      " of its probability",
+                  "let the bounds hold the part of the distribution that is meant");
     }
 
     void read_choices() {
@@ -362,7 +357,7 @@ std::vector<AskedCorrelation> read_correlations(const json& entries,
         }
         const double rank = entry[2];
         if (!(rank > -1.0 && rank < 1.0)) {
-            faults.push_back({at + "/2", "is " + spelt_short(rank),
+            faults.push_back({at + "/2", "is " + words::text_of(rank),
                               "a rank correlation lies between -1 and 1; for exactly 1 let one "
                               "parameter set both entries"});
             sound = false;

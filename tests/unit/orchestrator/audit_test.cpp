@@ -32,17 +32,17 @@ class AuditTest : public ::testing::Test {
     }
     /// Files that are what the database says of them.
     void make_outputs() const {
-        std::vector<std::pair<fs::path, std::string>> outputs;
         Connection database(data_.database(), Access::read_write);
-        database.query("SELECT run, label, name, task FROM artifacts JOIN tasks ON tasks.id=task",
-                       {}, [&](const Row& row) {
-                           outputs.emplace_back(
-                               data_.output(row.text(0), row.text(1)) / row.text(2), row.text(3));
-                       });
+        const auto outputs = database.select(
+            "SELECT run, label, name, task FROM artifacts JOIN tasks ON tasks.id=task", {},
+            [&](const Row& row) {
+                return std::pair{
+                    data_.output(row.text("run"), row.text("label")) / row.text("name"),
+                    row.text("task")};
+            });
         fs::create_directories(data_.files());
-        database.query("SELECT file FROM files", {}, [&](const Row& row) {
-            exchange::publish_text(data_.files() / row.text(0), "record");
-        });
+        for (const std::string& each : database.texts("SELECT file FROM files"))
+            exchange::publish_text(data_.files() / each, "record");
         for (const auto& [file, task] : outputs) {
             fs::create_directories(file.parent_path());
             exchange::publish_text(file, task);

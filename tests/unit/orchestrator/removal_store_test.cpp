@@ -49,13 +49,10 @@ class RemovalStore : public ::testing::Test {
 
     std::map<std::string, std::int64_t> rows() const {
         Connection database(file(), Access::read_only);
-        std::vector<std::string> tables;
-        database.query("SELECT name FROM sqlite_master WHERE type='table'", {},
-                       [&](const Row& row) { tables.push_back(row.text(0)); });
         std::map<std::string, std::int64_t> counts;
-        for (const std::string& each : tables)
-            database.query("SELECT count(*) FROM " + each, {},
-                           [&](const Row& row) { counts[each] = row.integer(0); });
+        for (const std::string& each :
+             database.texts("SELECT name FROM sqlite_master WHERE type='table'"))
+            counts[each] = database.integer("SELECT count(*) FROM " + each).value();
         return counts;
     }
 
@@ -122,11 +119,7 @@ TEST_F(RemovalStore, TheDatabaseShrinks) {
     for (int i = 0; i < 200; ++i) runs.push_back(whole_run(store));
     for (const std::string& each : runs) end(store, each);
     const auto pages = [&] {
-        std::int64_t count = 0;
-        Connection(file(), Access::read_only).query("PRAGMA page_count", {}, [&](const Row& row) {
-            count = row.integer(0);
-        });
-        return count;
+        return Connection(file(), Access::read_only).integer("PRAGMA page_count").value();
     };
     const std::int64_t full = pages();
     for (const std::string& each : runs) {

@@ -417,8 +417,8 @@ TEST_F(StoreTest, QuestionableResultMakesItsRowAndItsRunQuestionable) {
     Connection database(file(), Access::read_only);
     database.query("SELECT state, flags FROM sweep_results WHERE run=?", {run.id},
                    [&](const Row& row) {
-                       EXPECT_EQ(row.text(0), "questionable");
-                       EXPECT_EQ(row.text(1), "still_moving;implausible");
+                       EXPECT_EQ(row.text("state"), "questionable");
+                       EXPECT_EQ(row.text("flags"), "still_moving;implausible");
                    });
 }
 
@@ -778,16 +778,38 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
     EXPECT_TRUE(store.means("nobody").empty());
 }
 
+TEST_F(StoreTest, RowsAreReadByNameInAnyOrder) {
+    Connection database(file(), Access::read_write);
+    const std::string sql =
+        "SELECT value AS a, value + 1 AS b, nullif(value, 2) AS c FROM json_each(?)";
+    const auto rows = database.select(sql, {"[1, 2, 3]"}, [](const Row& row) {
+        const auto c = row.optional_integer("c");  // of two rows different columns are asked for
+        return std::pair{row.integer("b"), c ? row.integer("a") : row.integer("b")};
+    });
+    const std::vector<std::pair<std::int64_t, std::int64_t>> expected{{2, 1}, {3, 3}, {4, 3}};
+    EXPECT_EQ(rows, expected);
+    EXPECT_EQ(database.first(sql, {"[]"}, [](const Row& row) { return row.integer("a"); }),
+              std::nullopt);
+    EXPECT_EQ(database.integer("SELECT NULL"), std::nullopt);
+    EXPECT_EQ(database.texts("SELECT value FROM json_each(?)", {"[7, \"x\"]"}),
+              (std::vector<std::string>{"7", "x"}));
+    try {
+        database.query(sql, {"[1]"}, [](const Row& row) { row.text("d"); });
+        FAIL() << "the statement has no d";
+    } catch (const std::logic_error& error) {
+        EXPECT_NE(std::string(error.what()).find("no column d"), std::string::npos);
+    }
+}
+
 TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {
     { const Store store(file()); }
     Connection(file(), Access::read_write)
         .script("DROP VIEW sweep_results; CREATE VIEW sweep_results AS SELECT 1 AS outdated");
     const Store store(file());
     EXPECT_TRUE(store.results("nobody").empty());
-    std::set<std::string> columns;
-    Connection(file(), Access::read_only)
-        .query("SELECT name FROM pragma_table_info('sweep_results')", {},
-               [&](const Row& row) { columns.insert(row.text(0)); });
+    const auto names = Connection(file(), Access::read_only)
+                           .texts("SELECT name FROM pragma_table_info('sweep_results')");
+    const std::set<std::string> columns(names.begin(), names.end());
     for (const ResultColumn& each : result_columns()) {
         // What the error is comes from other runs; the service works it out beside the database.
         const std::string_view name = each.name;
@@ -803,14 +825,13 @@ TEST_F(StoreTest, CountsOfARunAreThoseOfItsTasksWhateverHappens) {
     store.write([&](Transaction& t) { t.add_run(run); });
     const auto agrees = [&] {
         Connection database(file(), Access::read_only);
-        bool equal = false;
-        database.query(
-            "SELECT total=count(*) AND ended=count(tasks.finished) AND reached=sum(state IN "
-            "('succeeded','cached')) AND failed=sum(state IN ('failed','skipped')) AND "
-            "run_counts.cancelled=sum(state='cancelled') AND runouts=sum(phase='mpm_solver' AND "
-            "state IN ('succeeded','cached')) FROM run_counts JOIN tasks USING (run)",
-            {}, [&](const Row& row) { equal = row.integer(0) == 1; });
-        return equal;
+        return database.integer(
+                   "SELECT total=count(*) AND ended=count(tasks.finished) AND reached=sum(state IN "
+                   "('succeeded','cached')) AND failed=sum(state IN ('failed','skipped')) AND "
+                   "run_counts.cancelled=sum(state='cancelled') AND runouts=sum(phase='mpm_solver' "
+                   "AND "
+                   "state IN ('succeeded','cached')) FROM run_counts JOIN tasks USING (run)",
+                   {}) == 1;
     };
     EXPECT_TRUE(agrees());
     store.write([&](Transaction& t) { t.cancel_run(run.id, "test"); });

@@ -1,0 +1,78 @@
+#include "services/orchestrator/dispatch/ready_tasks.hpp"
+
+#include <algorithm>
+
+namespace breach::orchestrator {
+
+ReadyTasks::ReadyTasks(Store& store, const DataFolder& data, const Bell& bell)
+    : store_(store),
+      bell_(bell),
+      looked_up_(bell),
+      cache_(store, data, [this](LookedUp found) { looked_up_.put(std::move(found)); }) {}
+
+std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
+    constexpr std::size_t look_ahead = 8;  // the cache needs no slot
+    std::vector<Task> chosen;
+    bool held_back = false;
+    const std::size_t most =
+        capacity.free_cores() + look_ahead + in_the_cache_.size() + wait_for_equals_;
+    wait_for_equals_ = 0;
+    for (Task& task : store_.tasks_to_start(capacity.full_phases(), most)) {
+        if (leave_to_the_cache(task)) continue;
+        if (held_back || capacity.is_full(task.phase)) continue;
+        if (waits_for_an_equal(task, chosen)) {
+            ++wait_for_equals_;
+            continue;
+        }
+        if (leave_to_the_cache(task)) continue;  // an equal one may just have ended
+        held_back = !capacity.has_room_for(task);
+        if (held_back) continue;
+        capacity.take(task);
+        not_cached_.erase(task.id);
+        chosen.push_back(std::move(task));
+    }
+    return chosen;
+}
+
+bool ReadyTasks::leave_to_the_cache(const Task& task) {
+    if (in_the_cache_.contains(task.id)) return true;
+    const auto looked_up = not_cached_.find(task.id);
+    const bool asks = looked_up == not_cached_.end()
+                          ? cache_.may_answer(task)
+                          : cache_.has_changed_since(looked_up->second, task);
+    if (!asks) return false;
+    in_the_cache_.insert(task.id);
+    cache_.examine(task);
+    return true;
+}
+
+/// What is being computed now, for another run or another variant, is not computed a second time
+/// beside it.
+bool ReadyTasks::waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const {
+    const auto may_be_equal = [&](const Task& other) {
+        const bool same_input = other.parent == task.parent && other.input == task.input;
+        return task.recipe && other.recipe == task.recipe && (other.run != task.run || same_input);
+    };
+    if (std::ranges::any_of(chosen, may_be_equal)) {
+        bell_.ring();  // once that has been started the store knows
+        return true;
+    }
+    return store_.equal_in_flight(task).has_value();
+}
+
+std::vector<std::string> ReadyTasks::answered() {
+    const std::vector<LookedUp> looked_up = looked_up_.take();
+    for (const LookedUp& each : looked_up) in_the_cache_.erase(each.task);
+    std::vector<std::string> found;
+    for (const LookedUp& each : looked_up) {
+        const auto now = store_.task(each.task);
+        if (now && now->state == TaskState::ready) {
+            not_cached_.insert_or_assign(each.task, each);
+        } else {
+            found.push_back(each.task);
+        }
+    }
+    return found;
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,37 @@
+// Which ready tasks are started now: those that there is room for, and that neither the cache nor an
+// equal task that is being computed will answer.
+#pragma once
+
+#include <set>
+
+#include "services/orchestrator/dispatch/bell.hpp"
+#include "services/orchestrator/dispatch/cache.hpp"
+#include "services/orchestrator/dispatch/capacity.hpp"
+
+namespace breach::orchestrator {
+
+class ReadyTasks {
+  public:
+    /// bell: rung when the cache has looked a task up.
+    ReadyTasks(Store& store, const DataFolder& data, const Bell& bell);
+
+    /// In order of priority and age; the first that does not fit holds back those behind it, so that
+    /// small tasks cannot keep a large one waiting for ever.
+    std::vector<Task> to_start(Capacity capacity);
+    /// Tasks that the cache has answered since the last call, or that were moved on meanwhile.
+    std::vector<std::string> answered();
+
+  private:
+    bool leave_to_the_cache(const Task& task);
+    bool waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const;
+
+    Store& store_;
+    const Bell& bell_;
+    Mailbox<LookedUp> looked_up_;                 ///< what the cache has finished with
+    std::set<std::string> in_the_cache_;          ///< tasks that it looks up now
+    std::map<std::string, LookedUp> not_cached_;  ///< tasks that nothing found answers
+    std::size_t wait_for_equals_ = 0;             ///< in the last round
+    Cache cache_;                                 // last: its thread stops before what it uses goes
+};
+
+}  // namespace breach::orchestrator

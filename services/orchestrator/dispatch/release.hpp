@@ -1,0 +1,17 @@
+// What waits, and no longer has to: for a parent, for a file of it, for the time of a retry.
+#pragma once
+
+#include <stop_token>
+
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+/// Releases or skips what waits for this task, and what waits for that.
+void settle_children(Store& store, const DataFolder& data, const std::string& parent);
+/// Of every task that others wait for.
+void settle_all_children(Store& store, const DataFolder& data, const std::stop_token& stop);
+void release_due_retries(Store& store);
+
+}  // namespace breach::orchestrator

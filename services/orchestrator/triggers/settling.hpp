@@ -1,0 +1,47 @@
+// What triggers come to: by what was read of their FEM, each fires, expires or waits on. Stores it.
+//
+// What is decided is a function of the telemetry and of the snapshots that exist, both on the disk:
+// after a kill -9 the replay comes to the same firing, and the store takes it once.
+//
+// The snapshot of a firing is the first one not before the time at which the trigger was met. While
+// there is none and the FEM runs, it is asked for one (the file snapshot_request in its output
+// folder), unless it takes regular ones anyway. When the FEM has ended, what exists must serve; a
+// snapshot later than the trigger's within_s makes it expire. The end of a FEM that was cut short
+// (it failed, and not by a breakdown) closes no window and begins no bisection: they expire. So
+// does what waits for a stability analysis or a runout that failed like this: nothing is decided by
+// a fault of the machine, and a retry decides.
+#pragma once
+
+#include "services/orchestrator/triggers/watched_fem.hpp"
+
+namespace breach::orchestrator {
+
+class Settling {
+  public:
+    explicit Settling(Store& store) : store_(store) {}
+    /// armed: of this FEM.
+    void settle(WatchedFem& fem, ArmedTrigger& armed);
+
+  private:
+    void settle_work(WatchedFem& fem, ArmedTrigger& armed, Manual& manual);
+    void settle_work(WatchedFem& fem, ArmedTrigger& armed, When& when);
+    void settle_work(WatchedFem& fem, ArmedTrigger& armed, Between& between);
+    void settle_work(WatchedFem& fem, ArmedTrigger& armed, Bisect& bisect);
+    void pick_in_window(const WatchedFem& fem, ArmedTrigger& armed, const Between& between);
+    void take_first_from(WatchedFem& fem, ArmedTrigger& armed, double wanted);
+    void take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& snapshot, double wanted);
+    /// Whether the condition was met, and only a snapshot, a window or the rest of its hold was
+    /// missing; not told: what was asked of it says nothing of that.
+    enum class WasMet { no, yes, not_told };
+    void expire(ArmedTrigger& armed, const std::string& why, WasMet was_met);
+    void expire_unmet(const WatchedFem& fem, ArmedTrigger& armed,
+                      const criteria::Criterion& criterion);
+    void expire_without_snapshot(ArmedTrigger& armed, double wanted);
+    /// result: kept with it; null: what there is stays.
+    void move(ArmedTrigger& armed, TriggerEvent event, nlohmann::json detail,
+              const nlohmann::json& result = nullptr);
+
+    Store& store_;
+};
+
+}  // namespace breach::orchestrator

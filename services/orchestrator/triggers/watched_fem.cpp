@@ -1,0 +1,155 @@
+#include "services/orchestrator/triggers/watched_fem.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "core/fault/fault.hpp"
+#include "core/phases/files.hpp"
+#include "services/orchestrator/records/identity.hpp"
+#include "services/orchestrator/study/graph.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr auto ask_again_after = std::chrono::seconds(1);
+
+bool has_regular_snapshots(const Task& fem, const json& scene) {
+    const std::string key = "/fem/snapshot_interval=";
+    for (const std::string& each : fem.overrides) {
+        if (each.starts_with(key)) return std::stod(each.substr(key.size())) > 0.0;
+    }
+    return scene.at("fem").value("snapshot_interval", 0.0) > 0.0;
+}
+
+}  // namespace
+
+std::string how_it_ended(const Task& task) {
+    return task.fault ? task.fault->summary : std::string(name_of(task.state));
+}
+
+json crossing_of(const criteria::Expression& condition, const criteria::Line& line) {
+    json values{{"time", line.time}, {"step", line.step}};
+    for (std::size_t i = 0; i < line.values.size(); ++i)
+        values[condition.fields[i]] = line.values[i];
+    return values;
+}
+
+json crossing_of(const criteria::Criterion& criterion) {
+    return crossing_of(criterion.expression(), *criterion.crossing());
+}
+
+// ---------------------------------------------------------------- the FEM
+
+WatchedFem::WatchedFem(Task of, const Store& store, const DataFolder& data)
+    : task(std::move(of)),
+      output(data.output(task)),
+      tail(output / phases::files::telemetry),
+      regular(has_regular_snapshots(task, json::parse(store.scene_of(task.run).value()))),
+      planned(store.plans_transfers_of(task)) {}
+
+bool WatchedFem::was_cut_short() const {
+    constexpr auto breakdown = static_cast<std::int64_t>(fault::ExitCode::breakdown);
+    if (task.state == TaskState::failed) return !task.fault || task.fault->exit_code != breakdown;
+    return is_final(task.state) && !has_output(task.state);
+}
+
+void WatchedFem::read_on(const Store& store, FolderWatch& watches) {
+    // Asked before reading: what ended before was written before.
+    ended = is_final(task.state) || task.state == TaskState::finalizing;
+    if (!ended) watch = watches.add(tail.file(), Notice::every_change);
+    for (telemetry::Line& line : tail.fresh()) lines.push_back(std::move(line));
+    if (!critical_depth) look_for_stability(store);
+    snapshots = frames_in(output, task.phase);
+}
+
+/// Only when a trigger asks: a run may be large. One that failed says nothing of the dam: it is
+/// looked at again, as it may be retried while the FEM runs.
+void WatchedFem::look_for_stability(const Store& store) {
+    const auto asks = [](const ArmedTrigger& each) { return asks_for_critical_depth(each.work); };
+    if (!std::ranges::any_of(armed, asks)) return;
+    const std::optional<Task> lem = store.stability_of(task.run, task.variant);
+    why_no_depth.clear();
+    if (lem && !has_output(lem->state)) {
+        if (is_final(lem->state)) why_no_depth = how_it_ended(*lem);
+        return;
+    }
+    critical_depth = std::numeric_limits<double>::quiet_NaN();
+    if (lem && lem->result && lem->result->contains("critical_depth"))
+        critical_depth = lem->result->at("critical_depth").get<double>();
+}
+
+criteria::Line WatchedFem::line_for(const criteria::Expression& condition,
+                                    const telemetry::Line& line) const {
+    std::map<std::string, double> beside;
+    if (critical_depth) beside.emplace(critical_depth_field, *critical_depth);
+    return criteria::line_for(condition, line, beside);
+}
+
+const Frame* WatchedFem::first_from(double wanted) const {
+    const auto first = std::ranges::find_if(
+        snapshots, [&](const Frame& each) { return each.time >= wanted - snapshot_slack; });
+    return first == snapshots.end() ? nullptr : &*first;
+}
+
+/// Renamed into place. Asked again when nothing came: a FEM that was killed has not answered.
+void WatchedFem::ask_for_snapshot() {
+    const auto request = output / phases::files::request;
+    if (std::filesystem::exists(request) || Clock::now() - asked < ask_again_after) return;
+    const auto draft = output / (std::string(phases::files::request) + ".new");
+    std::ofstream(draft) << utc_now() << "\n";
+    std::error_code error;
+    std::filesystem::rename(draft, request, error);
+    asked = Clock::now();
+}
+
+// ---------------------------------------------------------------- its triggers
+
+ArmedTrigger::ArmedTrigger(const Trigger& stored)
+    : trigger(stored), work(work_of({stored.name, stored.kind, stored.spec})) {
+    if (stored.kind == "manual") noticed_at = epoch_ms();
+}
+
+bool ArmedTrigger::lacks_depth(const WatchedFem& fem) const {
+    return asks_for_critical_depth(work) && !fem.critical_depth;
+}
+
+/// A trigger that asks for the critical depth takes no line before that is known, so that what it
+/// decides does not depend on which phase was faster.
+void ArmedTrigger::feed(const WatchedFem& fem) {
+    if (lacks_depth(fem)) return;
+    for (; lines_taken < fem.lines.size(); ++lines_taken) take(fem, fem.lines[lines_taken]);
+}
+
+void ArmedTrigger::note(const criteria::Expression& condition, const criteria::Line& crossing) {
+    noticed_at = epoch_ms();
+    crossed = crossing_of(condition, crossing);
+    crossed_step = crossing.step;
+}
+
+void ArmedTrigger::take(const WatchedFem& fem, const telemetry::Line& line) {
+    const auto take_on = [&](const criteria::Criterion& criterion, const auto& take_line) {
+        using State = criteria::Criterion::State;
+        const bool before = criterion.state() == State::met;
+        take_line(fem.line_for(criterion.expression(), line));
+        if (!before && criterion.state() == State::met)
+            note(criterion.expression(), *criterion.crossing());
+    };
+    if (auto* when = std::get_if<When>(&work)) {
+        take_on(when->criterion, [&](const criteria::Line& each) { when->criterion.take(each); });
+    } else if (auto* between = std::get_if<Between>(&work)) {
+        criteria::Window& window = between->window;
+        const bool before = window.upper_edge().has_value();
+        take_on(window.lower(), [&](const criteria::Line& each) { window.take_lower(each); });
+        window.take_upper(fem.line_for(window.upper(), line));
+        const auto upper = window.upper_edge();
+        if (!before && upper) note(window.upper(), *upper);
+    }
+}
+
+}  // namespace breach::orchestrator

@@ -1,0 +1,77 @@
+// A FEM that has open triggers, and what was read of it: its telemetry as it grows, its snapshots, the
+// critical depth of its stability analysis.
+#pragma once
+
+#include <chrono>
+
+#include "core/telemetry/lines.hpp"
+#include "services/orchestrator/files/data_folder.hpp"
+#include "services/orchestrator/files/folder_watch.hpp"
+#include "services/orchestrator/files/frames.hpp"
+#include "services/orchestrator/store/store.hpp"
+
+namespace breach::orchestrator {
+
+inline constexpr double snapshot_slack = 1e-6;  ///< names of snapshots carry six decimals [s]
+
+struct WatchedFem;
+
+/// A trigger at work.
+struct ArmedTrigger {
+    explicit ArmedTrigger(const Trigger& stored);
+    /// It asks for the critical depth, and that is not known (yet).
+    bool lacks_depth(const WatchedFem& fem) const;
+    /// Takes the lines that it has not seen.
+    void feed(const WatchedFem& fem);
+
+    Trigger trigger;
+    Work work;
+    std::int64_t noticed_at = 0;  ///< when the line that met it was read [ms since 1970]
+    nlohmann::json crossed = nullptr;
+    std::int64_t crossed_step = 0;
+    std::size_t lines_taken = 0;  ///< of the FEM's telemetry
+
+  private:
+    void take(const WatchedFem& fem, const telemetry::Line& line);
+    void note(const criteria::Expression& condition, const criteria::Line& crossing);
+};
+
+struct WatchedFem {
+    WatchedFem(Task of, const Store& store, const DataFolder& data);
+    /// Whatever it has written since.
+    void read_on(const Store& store, FolderWatch& watches);
+    /// It ended, and neither at its end nor by a breakdown, which is a result: the disk was full, it
+    /// was killed, or cancelled. What it has written is the beginning of what a retry makes of it.
+    bool was_cut_short() const;
+    criteria::Line line_for(const criteria::Expression& condition,
+                            const telemetry::Line& line) const;
+    /// The first snapshot not before that time; nothing: there is none so far.
+    const Frame* first_from(double wanted) const;
+    void ask_for_snapshot();
+
+    Task task;
+    std::filesystem::path output;
+    telemetry::Tail tail;
+    int watch = -1;
+    std::vector<telemetry::Line> lines = {};  ///< all so far, for triggers that come later
+    std::vector<ArmedTrigger> armed = {};
+    bool ended = false;
+    bool regular;  ///< takes snapshots at an interval
+    bool planned;  ///< the run knows which tasks a firing on it makes
+    std::vector<Frame> snapshots = {};
+    std::chrono::steady_clock::time_point asked{};
+    /// Of the run's stability analysis once that has come through; NaN when there is none [m].
+    std::optional<double> critical_depth{};
+    std::string why_no_depth = {};  ///< how the stability analysis failed; empty: it has not
+    std::string trouble = {};       ///< what kept the last look from its end
+
+  private:
+    void look_for_stability(const Store& store);
+};
+
+std::string how_it_ended(const Task& task);
+/// The values on the line on which the condition became true, by name.
+nlohmann::json crossing_of(const criteria::Expression& condition, const criteria::Line& line);
+nlohmann::json crossing_of(const criteria::Criterion& criterion);
+
+}  // namespace breach::orchestrator
