@@ -21,11 +21,11 @@ double viscous_share(const Model& model, const Motion& motion, double threshold)
             if (e >= model.body.elements || model.is_absent(e)) continue;
             const Dofs8 v = gather(model.mesh.quads[e], motion.v);
             for (std::size_t g = 0; g < model.points_per_element; ++g) {
-                const State& point = motion.points[e * model.points_per_element + g];
-                if (point.epsilon_q <= threshold) continue;
+                const std::size_t p = e * model.points_per_element + g;
+                if (mechanics::epsilon_q(motion.strain[p]) <= threshold) continue;
                 const Eigen::Vector3d rate = model.reference[e].B[g] * v;
                 const double shear_rate = circle(rate[0], rate[1], rate[2]);
-                const Voigt& sigma = point.sigma;
+                const Voigt& sigma = motion.points[p].sigma;
                 const double shear = 0.5 * circle(sigma[0], sigma[1], 2.0 * sigma[3]);
                 const double weight = shear_rate * model.volume[e];
                 viscous += weight * eta * shear_rate;

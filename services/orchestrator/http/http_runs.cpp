@@ -431,15 +431,16 @@ void add_run_routes(Router& router, Service& service) {
     router.get("/v1/runs/{id}/tasks", [&](Call& call) { list_tasks(service, call); });
     router.get("/v1/runs/{id}", [&](Call& call) { show_run(service, call); });
     router.post("/v1/runs/{id}/cancel", [&](Call& call) { cancel(service, call); });
-    const auto add_command = [&](const std::string& word, auto order, Right right) {
-        router.post(
-            "/v1/runs/{id}/" + word,
-            [&service, order](Call& call) { command_run(service, call, order); }, right);
-    };
-    add_command("pause", &Transaction::pause_run, Right::submit);
-    add_command("resume", &Transaction::resume_run, Right::submit);
-    add_command("pin", &Transaction::pin_run, Right::admin);
-    add_command("unpin", &Transaction::unpin_run, Right::admin);
+    router.post("/v1/runs/{id}/pause",
+                [&](Call& call) { command_run(service, call, &Transaction::pause_run); });
+    router.post("/v1/runs/{id}/resume",
+                [&](Call& call) { command_run(service, call, &Transaction::resume_run); });
+    router.post(
+        "/v1/runs/{id}/pin", [&](Call& call) { command_run(service, call, &Transaction::pin_run); },
+        Right::admin);
+    router.post(
+        "/v1/runs/{id}/unpin",
+        [&](Call& call) { command_run(service, call, &Transaction::unpin_run); }, Right::admin);
     router.post("/v1/runs/{id}/retry", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
             return transaction.retry_run(run).has_value();

@@ -5,7 +5,6 @@
 #include "services/findings/flags.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
-#include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/store/views.hpp"
 
@@ -386,15 +385,16 @@ FROM (SELECT phase, state IN ('running', 'finalizing', 'cancelling') AS runs,
 namespace {
 
 json value_from(const Row& row, const ResultColumn& column) {
+    const auto given = [](auto value) { return value ? json(*std::move(value)) : json(); };
     switch (column.kind) {
         case ColumnKind::number:
-            return or_null(row.optional_real(column.name));
+            return given(row.optional_real(column.name));
         case ColumnKind::yes_no:
-            return or_null(row.optional_yes(column.name));
+            return given(row.optional_yes(column.name));
         case ColumnKind::word:
-            return or_null(row.optional_text(column.name));
+            return given(row.optional_text(column.name));
         case ColumnKind::flags:
-            return or_null(row.optional_document(column.name));
+            return given(row.optional_document(column.name));
     }
     return nullptr;
 }

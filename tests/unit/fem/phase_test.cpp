@@ -93,14 +93,14 @@ TEST(Model, IsBuiltFromTheDecisionsThatThePlanPrints) {
 /// Simple shear at a rate of 0.4 /s everywhere, tau = 20 kPa: beta G 0.4 over 20 kPa.
 TEST(Monitors, ViscousShareIsThatOfDampingInStrainedSoil) {
     const scene::Scene parsed = parse(slope());
-    const Decisions decided = decide(parsed);
-    const Mesh mesh = make_mesh(parsed);
-    Model model = build_model(parsed, decided.model, mesh);
+    const Mesh mesh = build_mesh(parsed, ".");
+    Model model = build_model(parsed, decide_model(parsed), mesh);
     Motion motion = at_rest(model);
     for (Zone& zone : model.zones) zone.law = materials::LinearElastic{{2e7, 0.25}};
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
         motion.v[static_cast<Eigen::Index>(2 * n)] = 0.4 * mesh.nodes[n].y();
-    for (State& point : motion.points) point = {{-1e5, -1e5, -1e5, 2e4}, 0.2};
+    for (State& point : motion.points) point.sigma = {-1e5, -1e5, -1e5, 2e4};
+    for (Voigt& strain : motion.strain) strain = {0.0, 0.0, 0.0, 0.4};  // epsilon_q 0.23
     EXPECT_EQ(viscous_share(model, motion, 0.1), 0.0) << "undamped";
     model.rayleigh.stiffness = 5e-4;
     EXPECT_NEAR(viscous_share(model, motion, 0.1), 5e-4 * 8e6 * 0.4 / 2e4, 1e-9);
