@@ -137,7 +137,7 @@ void say(const json& result) {
         spdlog::info("liquefied to {:.4g} m: factor of safety {:.3f}",
                      stage.at("liquefied_depth").get<double>(),
                      stage.at("factor_of_safety").get<double>());
-    if (const nlohmann::json depth = result.at("depth_at_fs_1"); depth.is_number())
+    if (const nlohmann::json& depth = result.at("depth_at_fs_1"); depth.is_number())
         spdlog::info("F falls to 1 when {:.4g} m have liquefied", depth.get<double>());
     spdlog::info("the critical surface reaches a depth of {:.4g} m (critical_depth)",
                  result.at("critical_depth").get<double>());

@@ -67,7 +67,8 @@ Eigen::Vector4d shares_below(const Corners& x, const Eigen::Vector4d& depth) {
         }
     };
     for (int i = 0; i < 2 * slices; ++i) {
-        const double xi = (i / 2 * 2 + 1 + (i % 2 == 0 ? -a : a)) / slices - 1.0;
+        const int middle = i - i % 2 + 1;  // of the slice, in half slices
+        const double xi = (middle + (i % 2 == 0 ? -a : a)) / slices - 1.0;
         const double foot = shape_functions({xi, -1.0}).dot(depth);
         const double top = shape_functions({xi, 1.0}).dot(depth);
         add(xi, -1.0, 1.0, whole);

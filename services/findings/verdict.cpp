@@ -71,7 +71,7 @@ std::string capital(std::string text) {
     return text;
 }
 
-std::string ended(std::string text) { return text + (text.ends_with('.') ? "" : "."); }
+std::string ended(const std::string& text) { return text + (text.ends_with('.') ? "" : "."); }
 
 /// An entry that nobody means is wrong whatever comes out; other warnings leave the number usable.
 Usable worth_of(const fault::Flag& flag) {
