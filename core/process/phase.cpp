@@ -14,6 +14,7 @@
 #include "core/phases/reads.hpp"
 #include "core/process/flags.hpp"
 #include "core/process/signals.hpp"
+#include "core/scene/reading.hpp"
 #include "core/version/version.hpp"
 
 namespace breach::process {
@@ -288,14 +289,18 @@ scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
                            const std::filesystem::path& file) {
     const phases::Phase* named = phases::named(phase.name);
     if (named == nullptr) return scene;
-    check::Checked checked =
-        check::checked_document(phases::scene_known_to(*named, json::parse(scene.completed)),
-                                file.string(), file.parent_path(), {});
-    if (!checked.faults.empty()) throw fault::BadInput(file.string(), std::move(checked.faults));
-    checked.scene.completed = scene.completed;
-    if (phase.name == phases::transfer.program && checked.scene.mpm)
-        checked.scene.mpm = grid_alone(*checked.scene.mpm);
-    return std::move(checked.scene);
+    scene::Reading known =
+        scene::read_document(phases::scene_known_to(*named, json::parse(scene.completed)),
+                             file.string(), file.parent_path(), {});
+    if (!known.faults.empty()) throw fault::BadInput(file.string(), std::move(known.faults));
+    known.scene.completed = scene.completed;
+    if (phase.name == phases::transfer.program) {  // its scene's motion need not be here
+        if (known.scene.mpm) known.scene.mpm = grid_alone(*known.scene.mpm);
+        return std::move(known.scene);
+    }
+    for (fault::Flag& each : check::findings_of(known.scene).warnings)
+        known.scene.warnings.push_back(std::move(each));
+    return std::move(known.scene);
 }
 
 ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {

@@ -36,6 +36,10 @@ def transfer(folder):
     expect("report draws before and after", done.returncode == 0 and
            (folder / "figures/before_and_after.svg").stat().st_size > 10000, done)
 
+    elsewhere = run("transfer_tool", scene, "--input", snapshot, "--output", folder / "elsewhere",
+                    "--set", "/fem/motion/file=/nowhere/motion.csv")
+    expect("the motion of the FEM need not be on this machine", elsewhere.returncode == 0, elsewhere)
+
     lossy = run("transfer_tool", scene, "--input", snapshot, "--output", folder / "lossy",
                 "--set", "/transfer/largest_kinetic_energy_loss=1e-30")
     expect("a loss beyond the scene's limit ends with 70, named, without points",
