@@ -45,8 +45,8 @@ void Attempts::adopt() {
     }
 }
 
-/// One whose files cannot be read must not hold up the others: it says why it is stuck, and is
-/// looked at again.
+/// An attempt whose files cannot be read does not hold up the others: its progress gives the reason,
+/// and it is observed again in the next round.
 void Attempts::look() {
     const std::vector<int> changed = watch_.changes();
     stop_cancelled();

@@ -1,4 +1,4 @@
-// An attempt that may have a process: with what it is started, and how its fault is told.
+// An attempt that may have a process: the order that starts it, and the fault that is stored of it.
 #pragma once
 
 #include "services/orchestrator/dispatch/capacity.hpp"

@@ -32,7 +32,7 @@ inline constexpr std::string_view failpoint_names[]{
     "sbatch_before",            ///< the job's name is noted, sbatch is not called
     "sbatch_after",             ///< it has answered, which is not noted
     "reuse_placed",             ///< the cache's files are in the task's folder, which is not stored
-    "reuse_none",               ///< the cache looked and found no answer, nobody was told
+    "reuse_none",               ///< the cache found no answer, which is not reported yet
     "removal_rows_gone",        ///< a run's rows are gone, its files are there
     "removal_half_way",         ///< some of its files are gone
     "removal_files_gone",       ///< all are, which is not noted

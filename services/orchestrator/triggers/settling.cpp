@@ -76,7 +76,7 @@ Firing firing_of(const WatchedFem& fem, const ArmedTrigger& armed, const Frame& 
             .written_at = written_at(file)};
 }
 
-// What a bisect goes by, and comes to.
+// The samples of a bisection, and its result.
 
 /// Decided by a mean that may lie on the other side of the level: its own scatter and that of the
 /// largest, of which the level is a share.

@@ -31,7 +31,7 @@ class Settling {
     void take_first_from(WatchedFem& fem, ArmedTrigger& armed, double wanted);
     void take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& snapshot, double wanted);
     /// Whether the condition was met, and only a snapshot, a window or the rest of its hold was
-    /// missing; not told: what was asked of it says nothing of that.
+    /// missing; not_told: the trigger expires for another reason, which does not answer this.
     enum class WasMet { no, yes, not_told };
     void expire(ArmedTrigger& armed, const std::string& why, WasMet was_met);
     void expire_unmet(const WatchedFem& fem, ArmedTrigger& armed,
