@@ -275,19 +275,16 @@ bool is_mobile(const Region& region, const Mpm& mpm) {
     return names.empty() || std::ranges::find(names, region.name) != names.end();
 }
 
-Levels mobile_levels(const Scene& scene, const Mpm& mpm) {
-    Levels levels{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
-    for (const Region& region : scene.section.regions) {
-        if (region.polygon.empty() || !is_mobile(region, mpm)) continue;
-        const Box box = geometry::bounding_box(region.polygon);
-        levels = {std::min(levels.low, box.low.y()), std::max(levels.high, box.high.y())};
-    }
-    return levels;
+geometry::Box mobile_extent(const Scene& scene, const Mpm& mpm) {
+    geometry::Outlines mobile;
+    for (const Region& region : scene.section.regions)
+        if (is_mobile(region, mpm)) mobile.push_back(&region.polygon);
+    return geometry::extent(mobile);
 }
 
 double mobile_height(const Scene& scene, const Mpm& mpm) {
-    const Levels levels = mobile_levels(scene, mpm);
-    return std::max(levels.high - levels.low, 0.0);
+    const geometry::Box box = mobile_extent(scene, mpm);
+    return std::max(box.high.y() - box.low.y(), 0.0);
 }
 
 Resolved resolution_of(const Scene& scene) {

@@ -28,14 +28,9 @@ constexpr double elements_wanted = 2.0;
 /// Whether the region counts for the runout.
 bool is_mobile(const Region& region, const Mpm& mpm);
 
-/// Of the lowest and the highest vertex of the regions that count for the runout [m]; low > high:
-/// there is none.
-struct Levels {
-    double low;
-    double high;
-};
-Levels mobile_levels(const Scene& scene, const Mpm& mpm);
-/// Between the two [m]; 0: none.
+/// Box around the regions that count for the runout; inside out: there is none.
+geometry::Box mobile_extent(const Scene& scene, const Mpm& mpm);
+/// Its height [m]; 0: none.
 double mobile_height(const Scene& scene, const Mpm& mpm);
 
 struct Resolved {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/scene/resolution.hpp"
 
@@ -29,7 +28,7 @@ double lowest_ground(const Mpm& mpm) {
 }  // namespace
 
 double fall_speed(const Scene& scene, const Mpm& mpm) {
-    const double top = mobile_levels(scene, mpm).high;
+    const double top = mobile_extent(scene, mpm).high.y();
     return std::sqrt(2.0 * scene.gravity * std::max(top - lowest_ground(mpm), 0.0));
 }
 
