@@ -26,15 +26,13 @@ void plan_softening(const scene::Scene& scene, const scene::Material& material, 
         return;
     }
     const auto& length = scene.mpm->softening_length;
-    const double band = material.nonlocal_length
-                            ? scene::band_in_nonlocal_lengths * *material.nonlocal_length
-                            : scene.mpm->cell_size;
+    const double band = scene::band_width(material, *scene.mpm);
+    const bool nonlocal = scene::nonlocal_length_in_runout(material, *scene.mpm).has_value();
     plan.push_back({"softening of " + name, Use::on, "strength falls with epsilon_q", pointer});
-    plan.push_back(
-        {"nonlocal softening of " + name, material.nonlocal_length ? Use::on : Use::left_out,
-         material.nonlocal_length ? "bands " + text_of(band) + " m wide whatever the cells"
-                                  : "every point softens by its own strain: bands are a cell wide",
-         "/materials/" + name + "/nonlocal_length"});
+    plan.push_back({"nonlocal softening of " + name, nonlocal ? Use::on : Use::left_out,
+                    nonlocal ? "bands " + text_of(band) + " m wide whatever the cells"
+                             : "every point softens by its own strain: bands are a cell wide",
+                    "/materials/" + name + "/nonlocal_length"});
     plan.push_back({"softening strains of " + name + " scaled to the band",
                     length ? Use::on : Use::left_out,
                     length ? "factor " + text_of(*length / band)

@@ -103,6 +103,7 @@ void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Fi
     if (!fem.damping_frequency) return;
     const motion::Band band = motion::band(acceleration);
     const double low = 0.5 * band.low, high = 2.0 * band.high;
+    if (!(high > 0.0)) return;  // no motion at all: core/motion doubts it
     if (*fem.damping_frequency >= low && *fem.damping_frequency <= high) return;
     refuse(findings, "/fem/damping/frequency_Hz",
            "is " + text(*fem.damping_frequency) + " Hz, and the motion has its power from " +

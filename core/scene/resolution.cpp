@@ -124,6 +124,13 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     }
     const double cells = *soil.nonlocal_length / mpm.cell_size;
     if (cells >= nonlocal_cells_wanted) return;
+    if (!nonlocal_length_in_runout(soil, mpm) && mpm.allow_coarse_cells) {
+        resolved.flags.push_back({"short_nonlocal_length", fault::Severity::questionable,
+                                  "is " + text_of(cells) + " cells of " + text_of(mpm.cell_size) +
+                                      " m and left out: bands are as wide as a cell",
+                                  pointer});
+        return;
+    }
     const std::string found = "is " + text_of(cells) + " cells of " + text_of(mpm.cell_size) + " m";
     const std::string wanted = "take cells of at most " +
                                rounded_down(*soil.nonlocal_length / nonlocal_cells_wanted) +
@@ -140,36 +147,58 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     }
 }
 
-void judge_band(const Material& soil, const Region& region, Resolved& resolved) {
-    const double band = band_in_nonlocal_lengths * *soil.nonlocal_length;
-    const auto thickness = geometry::thickness_below(band / widest_band_share, region.polygon);
-    if (!thickness) return;
-    resolved.flags.push_back({"wide_band", fault::Severity::warning,
-                              "bands of shear are " + text_of(band) + " m wide in region \"" +
-                                  region.name + "\" of " + text_of(*thickness) +
-                                  " m: it cannot break into blocks; a shorter nonlocal_length "
-                                  "needs smaller cells",
-                              "/materials/" + soil.name + "/nonlocal_length"});
+void judge_lack_of_length(const Material& soil, Resolved& resolved) {
+    const materials::Softening* softening = materials::softening(soil.law);
+    if (!softening || softening->epsilon_q_end > brittle_until) return;
+    resolved.flags.push_back(
+        {"local_softening", fault::Severity::warning,
+         "softens without a length: its shear bands are as wide as a cell, and cells half as large "
+         "have changed runouts by up to 30 %; give it a nonlocal_length of two cells or more",
+         "/materials/" + soil.name});
+}
+
+/// A region whose soil breaks along bands.
+struct BandAcross {
+    const Material* soil;
+    const Region* region;
+    double thickness;  ///< [m]
+};
+
+/// Of the region that has the least room for its bands.
+void judge_widest_band(const Scene& scene, const std::vector<Soil>& soils, Resolved& resolved) {
+    std::optional<BandAcross> widest;
+    double share = widest_band_share;
+    for (const Soil& each : soils) {
+        const Material& soil = scene.materials[each.material];
+        const Region& region = scene.section.regions[each.region];
+        if (!nonlocal_length_in_runout(soil, *scene.mpm) || region.polygon.empty()) continue;
+        const double band = band_width(soil, *scene.mpm);
+        const auto thickness = geometry::thickness_below(band / share, region.polygon);
+        if (!thickness) continue;
+        share = band / *thickness;
+        widest = {&soil, &region, *thickness};
+    }
+    if (!widest) return;
+    resolved.flags.push_back(
+        {"wide_band", fault::Severity::warning,
+         "bands of shear are " + text_of(band_width(*widest->soil, *scene.mpm)) +
+             " m wide in region \"" + widest->region->name + "\" of " + text_of(widest->thickness) +
+             " m: it cannot break into blocks; a shorter nonlocal_length "
+             "needs smaller cells",
+         "/materials/" + widest->soil->name + "/nonlocal_length"});
 }
 
 void judge_bands(const Scene& scene, Resolved& resolved) {
     const std::vector<Soil> soils = soils_of(scene);
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         const Material& soil = scene.materials[m];
-        if (!soil.nonlocal_length) continue;
-        judge_length(soil, *scene.mpm, resolved);
-        if (std::ranges::find(soils, m, &Soil::material) != soils.end()) continue;
-        resolved.faults.push_back(
-            {"/materials/" + soil.name + "/nonlocal_length",
-             "averages over a group without points: no region is or becomes \"" + soil.name + "\"",
-             "give a region this material (/section/regions, /transfer/mapping or "
-             "/transfer/liquefied/layers), or leave the length out"});
+        if (std::ranges::find(soils, m, &Soil::material) == soils.end()) continue;
+        if (soil.nonlocal_length)
+            judge_length(soil, *scene.mpm, resolved);
+        else
+            judge_lack_of_length(soil, resolved);
     }
-    for (const Soil& each : soils) {
-        const Material& soil = scene.materials[each.material];
-        const Region& region = scene.section.regions[each.region];
-        if (soil.nonlocal_length && !region.polygon.empty()) judge_band(soil, region, resolved);
-    }
+    judge_widest_band(scene, soils, resolved);
 }
 
 /// Cells that divide the height up to a bed: just below the scene's own size, and just above it.
@@ -269,6 +298,16 @@ void judge_elements(const Scene& scene, Resolved& resolved) {
 }
 
 }  // namespace
+
+std::optional<double> nonlocal_length_in_runout(const Material& material, const Mpm& mpm) {
+    const auto& length = material.nonlocal_length;
+    return length && *length >= least_nonlocal_cells * mpm.cell_size ? length : std::nullopt;
+}
+
+double band_width(const Material& material, const Mpm& mpm) {
+    const auto length = nonlocal_length_in_runout(material, mpm);
+    return length ? band_in_nonlocal_lengths * *length : mpm.cell_size;
+}
 
 bool is_mobile(const Region& region, const Mpm& mpm) {
     const auto& names = mpm.runout.regions;

@@ -3,6 +3,7 @@
 // runs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,19 @@ constexpr double least_cells = 2.0;
 /// few nodes, and the band is again as wide as the lattice makes it.
 constexpr double least_nonlocal_cells = 1.3;
 constexpr double nonlocal_cells_wanted = 1.6;
+/// Soil that has softened at this epsilon_q breaks along bands. What softens over more strain flows,
+/// and a length changed its runouts by about 1 %.
+constexpr double brittle_until = 0.5;
 /// A wider band than this share of a region is no band any more.
 constexpr double widest_band_share = 1.0 / 3.0;
 /// Elements across a region: one cannot bend, and a band through it has no soil beside it.
 constexpr double elements_wanted = 2.0;
+
+/// That the runout averages the material's softening over: none where cells are too coarse for its
+/// own and the scene allows them (allow_coarse_cells).
+std::optional<double> nonlocal_length_in_runout(const Material& material, const Mpm& mpm);
+/// How wide a band of shear is: a cell, or what nonlocal softening makes it [m].
+double band_width(const Material& material, const Mpm& mpm);
 
 /// Whether the region counts for the runout.
 bool is_mobile(const Region& region, const Mpm& mpm);

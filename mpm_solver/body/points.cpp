@@ -20,23 +20,25 @@ namespace {
 /// inverse proportion it dissipates the same whatever the cells.
 double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
     if (!mpm.softening_length) return 1.0;
-    const double band = soil.nonlocal_length
-                            ? scene::band_in_nonlocal_lengths * *soil.nonlocal_length
-                            : mpm.cell_size;
-    return *mpm.softening_length / band;
+    return *mpm.softening_length / scene::band_width(soil, mpm);
 }
 
 /// Viscosity 2 xi G / omega, which damps by the share xi the shear wave that the mobile soil's height H
-/// holds, omega = pi c_s / (2 H); at most what leaves the time step alone (courant_step).
+/// holds, omega = pi c_s / (2 H); at most what leaves the time step alone (courant_step). Where the
+/// wave speed is limited, c_s is near the limit and that bound is lower.
 double damping_of(const scene::Scene& scene, const scene::Material& soil,
                   const mechanics::Elasticity& elasticity) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     if (mpm.damping_ratio == 0.0) return 0.0;
     constexpr double cells = 0.55;
+    constexpr double cells_of_limited = 0.05;
     const double impedance = std::sqrt(elasticity.shear_modulus() * soil.density);
-    return impedance *
-           std::min(4.0 / std::numbers::pi * mpm.damping_ratio * scene::mobile_height(scene, mpm),
-                    cells * mpm.cell_size);
+    double bound = cells * impedance;
+    if (mpm.wave_speed_limit)
+        bound = std::min(bound, cells_of_limited * soil.density * *mpm.wave_speed_limit);
+    return std::min(
+        4.0 / std::numbers::pi * mpm.damping_ratio * scene::mobile_height(scene, mpm) * impedance,
+        bound * mpm.cell_size);
 }
 
 materials::LawLanes lanes_of(const materials::Law& law, const scene::Material& soil) {
@@ -81,7 +83,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
               .softening_scale = softening_scale(mpm, soil),
               .viscosity = soil.viscosity,
               .damping = damping_of(scene, soil, materials::elasticity(law)),
-              .nonlocal_length = soil.nonlocal_length.value_or(0.0),
+              .nonlocal_length = scene::nonlocal_length_in_runout(soil, mpm).value_or(0.0),
               .walls_y = walls_of(scene, material),
               .begin = begin,
               .end = end};
