@@ -123,7 +123,19 @@ std::vector<LiquefiedGap> LiquefiedZone::gaps() const {
     return gaps;
 }
 
+namespace {
+
+bool is_above(const scene::LiquefiedLine& line, const Vec2& place) {
+    const auto& [left, right] = line.points;
+    if (place.x() > right.x()) return false;
+    const double share = std::max(0.0, (place.x() - left.x()) / (right.x() - left.x()));
+    return place.y() >= left.y() + share * (right.y() - left.y());
+}
+
+}  // namespace
+
 bool LiquefiedZone::holds(const Vec2& place) const {
+    if (line_ && is_above(*line_, place)) return true;
     const auto after = level_from_.upper_bound(place.x());
     return after != level_from_.begin() && place.y() >= std::prev(after)->second;
 }

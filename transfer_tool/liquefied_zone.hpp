@@ -39,6 +39,9 @@ class LiquefiedZone {
     LiquefiedZone(const exchange::MeshSnapshot& mesh, const std::vector<char>& regions,
                   double threshold, scene::LiquefiedWhen when, double narrowest_wall = 0.0);
 
+    /// What lies above the line counts, too.
+    void add(const scene::LiquefiedLine& line) { line_ = line; }
+
     /// Whether the place [m] lies in the zone.
     bool holds(const Vec2& place) const;
     std::size_t liquefied_nodes() const { return nodes_; }
@@ -55,7 +58,8 @@ class LiquefiedZone {
     void close_walls(double narrowest);
 
     std::map<double, double> level_from_;  ///< x where it begins -> level; +infinity: none
-    double highest_, lowest_;              ///< of the soil that can liquefy [m]
+    std::optional<scene::LiquefiedLine> line_;
+    double highest_, lowest_;  ///< of the soil that can liquefy [m]
     std::size_t nodes_ = 0;
     double closed_width_ = 0.0;
     double deepest_;

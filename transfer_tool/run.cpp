@@ -107,6 +107,11 @@ void report_options(const Transferred& t, nlohmann::json& result) {
                               {"past_instability_line", t.collapse->past_line},
                               {"collapsed", t.collapse->collapsed},
                               {"collapsed_mass", t.collapse->mass}};
+    if (t.base_displacement != 0.0) result["base_displacement_subtracted"] = t.base_displacement;
+    if (t.left_out)
+        result["left_out"] = {{"points", t.left_out->points},
+                              {"mass", t.left_out->mass},
+                              {"largest_epsilon_q", t.left_out->largest_epsilon_q}};
     if (t.round_trip)
         result["round_trip"] = {{"stress_rms", t.round_trip->stress_rms},
                                 {"stress_largest", t.round_trip->stress_largest},
@@ -194,6 +199,7 @@ process::Outcome run(process::Session& session) {
     const auto transferred = transfer(mesh, session.scene(), work, file);
     if (!transferred) return process::Outcome::stopped;
     report(session, *transferred);
+    if (transferred->left_out) refuse_cut(*transferred->left_out);
     refuse_losses(transferred->ledger, scene::transfer_of(session.scene()));
 
     exchange::write_particle_state(output, transferred->state, session.provenance(),

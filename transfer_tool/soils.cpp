@@ -1,6 +1,7 @@
 #include "transfer_tool/soils.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/fault/fault.hpp"
 
@@ -115,6 +116,9 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     if (std::ranges::count(can_liquefy, 1) > 0)
         liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u, settings.liquefied->when,
                            settings.liquefied->narrowest_wall);
+    if (!liquefied_) return;
+    for (const scene::LiquefiedLine& line : settings.liquefied->lines)
+        if (std::abs(line.transfer_time - mesh.time) < 1e-6) liquefied_->add(line);
 }
 
 void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,

@@ -1,6 +1,10 @@
 #include "transfer_tool/transfer.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "core/fault/fault.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -27,7 +31,46 @@ std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
                               zone.closed_width(), zone.gaps()};
 }
 
+/// Of the mesh's lowest node, the leftmost of them where several lie as low [m].
+double displacement_of_base(const exchange::MeshSnapshot& mesh) {
+    const auto lower = [](const mechanics::Vec2& a, const mechanics::Vec2& b) {
+        return std::pair(a.y(), a.x()) < std::pair(b.y(), b.x());
+    };
+    const auto lowest = std::ranges::min_element(mesh.position_0, lower);
+    return mesh.displacement[lowest - mesh.position_0.begin()].x();
+}
+
+LeftOut leave_out(const std::array<double, 2>& keep_x, exchange::ParticleState& state) {
+    LeftOut out;
+    std::vector<std::size_t> kept;
+    for (std::size_t p = 0; p < state.size(); ++p) {
+        const double x = state.position[p].x();
+        if (x >= keep_x[0] && x <= keep_x[1]) {
+            kept.push_back(p);
+            continue;
+        }
+        ++out.points;
+        out.mass += state.mass[p];
+        if (state.epsilon_q[p] < out.largest_epsilon_q) continue;
+        out.largest_epsilon_q = state.epsilon_q[p];
+        out.place = state.position[p];
+    }
+    state.keep(kept);
+    return out;
+}
+
 }  // namespace
+
+void refuse_cut(const LeftOut& out) {
+    constexpr double failing = 0.05;  // epsilon_q
+    if (out.largest_epsilon_q <= failing) return;
+    throw fault::BadInput("scene", {{"/transfer/keep/x",
+                                     "leaves out soil that fails: epsilon_q is " +
+                                         words::text_of(out.largest_epsilon_q, 3) + " at (" +
+                                         words::text_of(out.place.x(), 4) + ", " +
+                                         words::text_of(out.place.y(), 4) + ") m",
+                                     "widen the range until that place lies inside"}});
+}
 
 std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
                                     const Work& work, const std::string& file) {
@@ -53,6 +96,8 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
 
     assign_soils(map, points);
     settle_stress(map, points);
+    if (settings.sigma_zz == scene::OutOfPlaneStress::zero)
+        for (mechanics::Voigt& stress : points.state.stress) stress[2] = 0.0;
     start_softening(settings.softening_start, laws, points.state);
     start_at_state(map, points);
     t.yield = return_to_yield_surface(laws, points.state);
@@ -66,6 +111,11 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.collapse = map.collapse_report(points);
     t.state = std::move(points.state);
     t.state.base_motion = mesh.base_motion;
+    if (settings.base_displacement == scene::BaseDisplacement::subtracted) {
+        t.base_displacement = displacement_of_base(mesh);
+        for (mechanics::Vec2& place : t.state.position) place.x() -= t.base_displacement;
+    }
+    if (settings.keep_x) t.left_out = leave_out(*settings.keep_x, t.state);
     return t;
 }
 

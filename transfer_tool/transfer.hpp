@@ -20,6 +20,17 @@ struct LiquefactionReport {
     std::vector<LiquefiedGap> gaps;
 };
 
+/// Points outside /transfer/keep.
+struct LeftOut {
+    std::size_t points = 0;
+    double mass = 0.0;               ///< [kg]
+    double largest_epsilon_q = 0.0;  ///< [-]
+    mechanics::Vec2 place{};         ///< of the most strained [m]
+};
+
+/// Throws BadInput where what is left out fails.
+void refuse_cut(const LeftOut& out);
+
 struct Transferred {
     exchange::ParticleState state;
     exchange::Ledger ledger;
@@ -33,6 +44,8 @@ struct Transferred {
     GaussFieldReport gauss_fields;
     YieldReport yield;
     std::optional<RoundTrip> round_trip;
+    double base_displacement = 0.0;  ///< that was subtracted [m]
+    std::optional<LeftOut> left_out;
 };
 
 /// `file` is named in messages. Nothing when the watch stopped it. Throws Breakdown when the mesh

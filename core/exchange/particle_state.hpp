@@ -105,6 +105,8 @@ struct ParticleState : PointFields {
     std::size_t size() const { return position.size(); }
     /// New points have zeros in all that every point has.
     void resize(std::size_t n);
+    /// Leaves only these points, in their order.
+    void keep(const std::vector<std::size_t>& points);
     /// u beside the point's stress; 0 where that is the total one [Pa]
     double pressure_beside(std::size_t p) const;
 };

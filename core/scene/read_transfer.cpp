@@ -162,6 +162,20 @@ void check_residuals(Reader& reader, const Scene& scene, const json& liquefied,
     }
 }
 
+std::vector<LiquefiedLine> lines_from(Reader& reader, const json& liquefied) {
+    std::vector<LiquefiedLine> lines;
+    for (std::size_t i = 0; i < liquefied.at("line").size(); ++i) {
+        const json& each = liquefied.at("line")[i];
+        const std::string pointer = "/transfer/liquefied/line/" + std::to_string(i);
+        const std::vector<Vec2> points = line_from(reader, each.at("points"), pointer + "/points");
+        const double time = each.at("transfer_time");
+        if (std::ranges::find(lines, time, &LiquefiedLine::transfer_time) != lines.end())
+            reader.add(pointer + "/transfer_time", "has a line already", "give one line per time");
+        if (points.size() == 2) lines.push_back({time, {points[0], points[1]}});
+    }
+    return lines;
+}
+
 void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer& result) {
     if (!transfer.contains("liquefied")) return;
     const json& liquefied = transfer.at("liquefied");
@@ -176,6 +190,7 @@ void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer
                   "/transfer/liquefied/regions/" + std::to_string(i), "/section/regions");
         if (region) zone.regions.push_back(*region);
     }
+    zone.lines = lines_from(reader, liquefied);
     const auto s_r = strength_function(reader, scene, liquefied);
     if (liquefied.at("layers").empty()) check_residuals(reader, scene, liquefied, result, zone);
     double reached = 0.0;
@@ -215,6 +230,8 @@ void read_transfer(Reader& reader, Scene& scene) {
         .entangled = word_at<Entangled>(transfer, "entangled"),
         .stress = word_at<TransferredStress>(transfer, "stress"),
         .softening_start = word_at<SofteningStart>(transfer, "softening_start"),
+        .base_displacement = word_at<BaseDisplacement>(transfer, "base_displacement"),
+        .sigma_zz = word_at<OutOfPlaneStress>(transfer, "sigma_zz"),
         .round_trip = transfer.at("round_trip"),
         .largest_mass_loss = transfer.at("largest_mass_loss"),
         .largest_momentum_loss = transfer.at("largest_momentum_loss"),
@@ -227,6 +244,13 @@ void read_transfer(Reader& reader, Scene& scene) {
             reader.add("/transfer/points_per_cell", "needs the MPM's cells",
                        "give /mpm, or leave points_per_cell out");
     }
+    if (transfer.contains("keep")) {
+        result.keep_x = range_from(transfer.at("keep").at("x"));
+        check_ascending(reader, *result.keep_x, "/transfer/keep/x");
+    }
+    if (result.sigma_zz == OutOfPlaneStress::zero && result.interpolation != Interpolation::paper)
+        reader.add("/transfer/sigma_zz", "is zero only as the paper's transfer leaves it",
+                   "set /transfer/interpolation to paper, or leave sigma_zz out");
     result.point_shift = range_from(transfer.at("point_shift"));
     if (result.points_per_direction < 2 && result.point_shift != std::array<double, 2>{})
         reader.add("/transfer/point_shift", "moves the only point of an element, which loses mass",

@@ -496,6 +496,13 @@ struct LiquefiedLayer {
     std::size_t material;
 };
 
+/// Soil above the line counts as liquefied at this transfer, and what lies left of it above its
+/// left end.
+struct LiquefiedLine {
+    double transfer_time;        ///< [s]
+    std::array<Vec2, 2> points;  ///< from left to right [m]
+};
+
 struct LiquefiedZone {
     std::vector<std::size_t> regions;  ///< whose soil can liquefy
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
@@ -504,6 +511,7 @@ struct LiquefiedZone {
     /// with the residual strength of that material's profile
     std::vector<LiquefiedLayer> layers;
     double narrowest_wall = 0.0;  ///< sound soil between liquefied soil, narrower: liquefied [m]
+    std::vector<LiquefiedLine> lines{};
 };
 
 /// Which transfer times the advice is about; expressions of core/criteria over FEM telemetry.
@@ -513,6 +521,10 @@ struct AdviceWindow {
     double hold;        ///< [s]
     std::string pick;   ///< "midpoint", "first" or "last_before"
 };
+
+enum class BaseDisplacement { kept, subtracted };
+/// sigma_zz of the points: from the FEM, or zero, as a transfer of three components leaves it.
+enum class OutOfPlaneStress { carried, zero };
 
 struct Transfer {
     int points_per_direction;
@@ -527,10 +539,13 @@ struct Transfer {
     std::vector<Vec2> phreatic_line{};  ///< ascending in x, level beyond its ends [m]
     std::optional<LiquefiedZone> liquefied{};
     SofteningStart softening_start;
-    bool round_trip = false;                     ///< measure points back to the mesh
-    double largest_mass_loss;                    ///< relative; more fails the transfer
-    double largest_momentum_loss;                ///< relative
-    double largest_kinetic_energy_loss = 0.005;  ///< relative
+    BaseDisplacement base_displacement = BaseDisplacement::kept;
+    OutOfPlaneStress sigma_zz = OutOfPlaneStress::carried;
+    std::optional<std::array<double, 2>> keep_x{};  ///< points outside are left out [m]
+    bool round_trip = false;                        ///< measure points back to the mesh
+    double largest_mass_loss;                       ///< relative; more fails the transfer
+    double largest_momentum_loss;                   ///< relative
+    double largest_kinetic_energy_loss = 0.005;     ///< relative
     std::optional<AdviceWindow> window{};
 };
 

@@ -166,6 +166,14 @@ constexpr auto words_of(Interpolation) {
     return words::in_order<Interpolation>({{local, "local"}, {paper, "paper"}});
 }
 
+constexpr auto words_of(BaseDisplacement) {
+    using enum BaseDisplacement;
+    return words::in_order<BaseDisplacement>({{kept, "kept"}, {subtracted, "subtracted"}});
+}
+constexpr auto words_of(OutOfPlaneStress) {
+    using enum OutOfPlaneStress;
+    return words::in_order<OutOfPlaneStress>({{carried, "carried"}, {zero, "zero"}});
+}
 constexpr auto words_of(LiquefiedWhen) {
     using enum LiquefiedWhen;
     return words::in_order<LiquefiedWhen>({{ever, "ever"}, {at_transfer, "at_transfer"}});

@@ -115,6 +115,19 @@ void check_fields(const json& triggers, const scene::Scene& scene, bool stabilit
     }
 }
 
+void check_lines(const scene::Scene& scene, const Study& study, std::vector<Fault>& faults) {
+    if (!scene.transfer || !scene.transfer->liquefied || !study.triggers.empty()) return;
+    const auto& lines = scene.transfer->liquefied->lines;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const double time = lines[i].transfer_time;
+        const auto is_its = [&](double each) { return std::abs(each - time) < 1e-6; };
+        if (std::ranges::any_of(study.transfer_times, is_its)) continue;
+        faults.push_back({"/scene/transfer/liquefied/line/" + std::to_string(i) + "/transfer_time",
+                          "is " + words::text_of(time) + " s, which is no transfer time",
+                          "add it to \"transfer_times\", or leave the line out"});
+    }
+}
+
 void read_transfers(const json& document, const scene::Fem* fem, Study& study,
                     std::vector<Fault>& faults) {
     const std::size_t before = faults.size();

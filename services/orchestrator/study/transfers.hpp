@@ -16,6 +16,9 @@ bool is_late(double time, const scene::Fem& fem);
 void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<fault::Fault>& faults);
 
+/// Lines of /transfer/liquefied that no transfer time uses; triggers choose their own times.
+void check_lines(const scene::Scene& scene, const Study& study, std::vector<fault::Fault>& faults);
+
 /// Times, triggers and the snapshots that they need. fem: null: it could not be read, and nothing is too late.
 void read_transfers(const nlohmann::json& document, const scene::Fem* fem, Study& study,
                     std::vector<fault::Fault>& faults);

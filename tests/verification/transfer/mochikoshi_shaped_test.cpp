@@ -41,10 +41,10 @@ TEST_F(MochikoshiShaped, KeepsMassVolumeMomentumAndEnergy) {
     EXPECT_NO_THROW(refuse_losses(transferred_->ledger, *scene_->transfer));
 }
 
-TEST_F(MochikoshiShaped, EveryFilledCellGetsItsFourPointsBesideTenMetreElements) {
+TEST_F(MochikoshiShaped, EveryFilledCellGetsItsNinePointsBesideTenMetreElements) {
     ASSERT_TRUE(transferred_->supply.has_value());
     EXPECT_GT(transferred_->supply->filled, 500u);
-    EXPECT_GE(transferred_->supply->least_in_filled, 4u);
+    EXPECT_GE(transferred_->supply->least_in_filled, 9u);
     EXPECT_EQ(transferred_->supply->short_cells, 0u);
 }
 
@@ -63,6 +63,70 @@ TEST_F(MochikoshiShaped, LiquefiedLayersAndWetDamsAreThereAndTheirMassAddsUp) {
         EXPECT_EQ(std::ranges::count(materials, each) > 0, true) << each;
     EXPECT_GT(transferred_->liquefaction->nodes, 100u);
     EXPECT_NEAR(transferred_->liquefaction->deepest_level, 29.4 - 18.5, 3.0) << "one element";
+}
+
+Transferred transferred_with(const scene::Scene& shipped, const exchange::MeshSnapshot& mesh,
+                             const auto& change) {
+    scene::Scene scene = shipped;
+    change(*scene.transfer);
+    return *transfer(mesh, scene, {.threads = 2}, "snapshot");
+}
+
+TEST_F(MochikoshiShaped, PointsOutsideTheRangeAreLeftOutAndTold) {
+    const Transferred cut = transferred_with(*scene_, *mesh_, [](auto& t) {
+        t.keep_x = {{20.0, 220.0}};
+    });
+    for (const auto& place : cut.state.position) {
+        EXPECT_GE(place.x(), 20.0);
+        EXPECT_LE(place.x(), 220.0);
+    }
+    EXPECT_EQ(cut.state.size() + cut.left_out->points, transferred_->state.size());
+    double mass = cut.left_out->mass;
+    for (const double each : cut.state.mass) mass += each;
+    const double whole = meshes::row_of(transferred_->ledger, "total", "mass").after;
+    EXPECT_NEAR(mass / whole, 1.0, 1e-12);
+    EXPECT_EQ(cut.state.stress.size(), cut.state.size());
+    EXPECT_EQ(cut.state.region.size(), cut.state.size());
+    EXPECT_NO_THROW(refuse_cut({.largest_epsilon_q = 0.01}));
+    EXPECT_THROW(refuse_cut({.largest_epsilon_q = 0.06}), fault::BadInput);
+}
+
+TEST_F(MochikoshiShaped, PointsStandWhereTheSectionWasDrawnWithoutTheBasesDisplacement) {
+    exchange::MeshSnapshot moved = *mesh_;
+    for (auto& each : moved.displacement) each.x() += 0.37;
+    const auto placed = [&](const exchange::MeshSnapshot& mesh) {
+        return transferred_with(*scene_, mesh, [](auto& t) {
+            t.base_displacement = scene::BaseDisplacement::subtracted;
+        });
+    };
+    const Transferred here = placed(*mesh_), there = placed(moved);
+    EXPECT_NEAR(there.base_displacement - here.base_displacement, 0.37, 1e-12);
+    for (std::size_t p = 0; p < here.state.size(); ++p)
+        ASSERT_NEAR(here.state.position[p].x(), there.state.position[p].x(), 1e-9);
+}
+
+TEST_F(MochikoshiShaped, WhatLiesAboveALineIsLiquefiedAtItsTransferTimeOnly) {
+    const auto liquefied_mass = [&](double time) {
+        const Transferred with = transferred_with(*scene_, *mesh_, [&](auto& t) {
+            t.liquefied->lines = {{time, {{{60.0, 2.0}, {100.0, 2.0}}}}};
+        });
+        double mass = 0.0;
+        for (const SoilShare& each : with.shares)
+            if (with.soils[each.soil].material.starts_with("liquefied")) mass += each.mass;
+        return mass;
+    };
+    const double by_r_u = liquefied_mass(mesh_->time + 1.0);
+    EXPECT_GT(liquefied_mass(mesh_->time), 1.05 * by_r_u);
+}
+
+TEST_F(MochikoshiShaped, OutOfPlaneStressCanBeLeftBehind) {
+    scene::Scene scene = *scene_;
+    scene.transfer->sigma_zz = scene::OutOfPlaneStress::zero;
+    const Transferred t = *transfer(*mesh_, scene, {.threads = 2}, "snapshot");
+    std::size_t different = 0;
+    for (std::size_t p = 0; p < t.state.size(); ++p)
+        if (t.state.stress[p][2] != transferred_->state.stress[p][2]) ++different;
+    EXPECT_GT(different, t.state.size() / 2);
 }
 
 }  // namespace
