@@ -118,6 +118,7 @@ const Row& Simulation::look() {
          .runout_beyond_toe_95 = runout.beyond_95,
          .runout_beyond_toe_50 = runout.beyond_50,
          .runout_largest = runout.largest,
+         .runout_by_count = runout.all_by_count,
          .runout_front = front == nowhere ? nowhere : front - toe_x,
          .area_beyond_toe = runout.volume_beyond / scene_.thickness,
          .kinetic_energy = now.kinetic,

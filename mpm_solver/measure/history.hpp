@@ -17,6 +17,7 @@ struct Row {
     double runout_beyond_toe_95 = 0.0;
     double runout_beyond_toe_50 = 0.0;
     double runout_largest = 0.0;
+    double runout_by_count = 0.0;  ///< 99th percentile over points, not over their mass
     double runout_front = 0.0;     ///< farthest place with the front's depth, beyond the toe
     double area_beyond_toe = 0.0;  ///< of the section
     double kinetic_energy = 0.0;
@@ -42,6 +43,7 @@ void for_each_column(AnyRow& row, Visit&& visit) {
     visit("runout", "m", row.runout), visit("runout_beyond_toe", "m", row.runout_beyond_toe);
     visit("runout_beyond_toe_95", "m", row.runout_beyond_toe_95);
     visit("runout_beyond_toe_50", "m", row.runout_beyond_toe_50);
+    visit("runout_by_count", "m", row.runout_by_count);
     visit("runout_largest", "m", row.runout_largest), visit("runout_front", "m", row.runout_front);
     visit("area_beyond_toe", "m2", row.area_beyond_toe);
     visit("kinetic_energy", "J", row.kinetic_energy);

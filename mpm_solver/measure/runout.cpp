@@ -1,6 +1,7 @@
 #include "mpm_solver/measure/runout.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/scene/resolution.hpp"
 
@@ -45,6 +46,9 @@ Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, 
             .beyond_95 = percentile(beyond, 0.95),
             .beyond_50 = percentile(beyond, 0.5),
             .largest = all.back().first,
+            .all_by_count =
+                all[static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(all.size()))) - 1]
+                    .first,
             .volume_beyond = volume_beyond};
 }
 

@@ -17,6 +17,7 @@ struct Runout {
     double beyond_95 = 0.0;  ///< 95th percentile of it
     double beyond_50 = 0.0;  ///< its median
     double largest = 0.0;    ///< of any point
+    double all_by_count = 0.0;   ///< 99th percentile over all points, whatever their mass
     double volume_beyond = 0.0;  ///< of soil at x > x_toe [m3]
 };
 

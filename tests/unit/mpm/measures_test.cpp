@@ -15,6 +15,20 @@ TEST(Runout, PercentileIsWeightedByMass) {
     EXPECT_EQ(percentile(x, 0.995), 3.0);
 }
 
+TEST(Runout, ByCountLetsEveryPointWeighTheSame) {
+    Points points;
+    points.resize(200);
+    for (int p = 0; p < 200; ++p) {
+        points.x[p] = p;
+        points.m[p] = p < 190 ? 1.0 : 1e-3;  // the farthest are light
+        points.volume[p] = 1.0;
+        points.region[p] = 0;
+    }
+    const Runout runout = runout_of(points, {1}, 0.0);
+    EXPECT_EQ(runout.all_by_count, 197.0);
+    EXPECT_EQ(runout.all, 188.0);
+}
+
 TEST(Runout, CountsMobileRegionsOnlyAndSignsDistances) {
     Points points;
     points.resize(4);
