@@ -248,7 +248,7 @@ class Breach(unittest.TestCase):
         nowhere = "http://127.0.0.1:9"
         done = call(nowhere, "draw", scenes / "mochikoshi.json", "--output", picture)
         self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stderr, r"^warning: /mpm/cell_size: only 2\.21 cells [^\n]*\n$")
+        self.assertRegex(done.stderr, r"^warning: /mpm/cell_size: only 4\.42 cells [^\n]*\nwarning: [^\n]*: bands of shear [^\n]*\n$")
         root = xml.etree.ElementTree.parse(picture).getroot()
         regions = [each.get("data-region") for each in root.iter() if each.get("class") == "region"]
         self.assertEqual(regions, ["foundation", "tailings", "lower_dam", "upper_dam"])

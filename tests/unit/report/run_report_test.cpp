@@ -524,7 +524,7 @@ TEST(Entries, AreAllThatTheSceneHasWithWhatNobodySet) {
         EXPECT_TRUE(is_there) << pointer;
     }
     EXPECT_GT(leaves, 300u);
-    EXPECT_EQ(found("/mpm/cell_size").value, "2.5");
+    EXPECT_EQ(found("/mpm/cell_size").value, "1.25");
     EXPECT_EQ(found("/mpm/cell_size").unit, "m");
     EXPECT_FALSE(found("/mpm/cell_size").is_default) << "the scene gives it";
     EXPECT_TRUE(found("/mpm/rest_speed").is_default) << "it does not";
