@@ -211,6 +211,8 @@ Checkpoint read(const exchange::Archive& archive, const Model& model) {
         }
     }
     kept.history = history_from(history);
+    kept.crest_time = archive.reals.at("crest_time");
+    kept.crest_acceleration = archive.reals.at("crest_acceleration");
     return c;
 }
 
@@ -236,6 +238,8 @@ exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newto
     put(archive, kept.beginning);
     archive.reals["excess_pressure_max"] = kept.excess_pressure_max;
     archive.reals["stage_force"] = flat(kept.stage_force);
+    archive.reals["crest_time"] = kept.crest_time;
+    archive.reals["crest_acceleration"] = kept.crest_acceleration;
     archive.reals["newton.values"] = newton.values;
     archive.reals["newton.rule"] = {newton.rule.c_a, newton.rule.c_v};
     archive.integers["newton.state"] = {newton.has_matrix, newton.last_iterations};

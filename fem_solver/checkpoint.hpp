@@ -43,6 +43,8 @@ struct Kept {
                                   ///< with a ramp what it withholds [N]
     NewtonCounts counts;          ///< until the matrix was last asked for them
     std::vector<Reading> history;
+    /// Horizontal acceleration at the crest after each dynamic step.
+    std::vector<double> crest_time, crest_acceleration;  ///< [s], [m/s2]
 };
 
 struct Checkpoint {
@@ -65,6 +67,6 @@ void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive
 std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
-inline constexpr int checkpoint_version = 7;
+inline constexpr int checkpoint_version = 8;
 
 }  // namespace breach::fem

@@ -8,7 +8,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/motion/series.hpp"
+#include "core/check/applied_motion.hpp"
+#include "core/motion/measures.hpp"
 #include "core/phases/files.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/monitors/upstream_wall.hpp"
@@ -198,6 +199,22 @@ nlohmann::json facts_of_time(const Course& course) {
 
 }  // namespace
 
+/// What the motion is measured by as it was applied, at the base beneath the free-field columns, and
+/// at the crest as far as the analysis went.
+void report_motions(Course& course) {
+    if (!course.fem.motion || course.crest_time.empty()) return;
+    const motion::Recording input = check::applied_motion(*course.fem.motion);
+    auto& motions = course.session.result()["motions"];
+    if (input.quantity == motion::Quantity::acceleration)
+        motions["input"] = as_json(motion::measures_of(input.series));
+    const exchange::BaseMotion& base = course.beginning.base_motion;
+    if (base.any())
+        motions["base"] =
+            as_json(motion::measures_of(motion::derivative({base.time_step, base.velocity})));
+    motions["crest"] = as_json(motion::measures_of(
+        motion::equally_spaced(course.crest_time, course.crest_acceleration, input.series.dt)));
+}
+
 void report_end(Course& course) {
     process::Session& session = course.session;
     auto& facts = session.result();
@@ -227,6 +244,7 @@ void report_end(Course& course) {
     facts["first_failure_surface_time"] =
         first_time(course.history, &Reading::failure_surfaces, 1.0);
     facts["milestones"] = milestones_in(course.history);
+    report_motions(course);
     if (course.decided.liquefaction.value) facts["largest_liquefaction_depth"] = depth;
     if (course.model.rayleigh.stiffness > 0.0) {
         const double share =

@@ -28,6 +28,11 @@ Recorder::Recorder(Course& course) : course_(course), columns_(columns_of(course
 
 void Recorder::take_step(double dt, const NewtonOutcome& outcome) {
     const Position& position = course_.position;
+    if (position.moving) {
+        course_.crest_time.push_back(position.time);
+        course_.crest_acceleration.push_back(
+            course_.motion.a[2 * static_cast<Eigen::Index>(course_.crest_node)]);
+    }
     const double slack = 1e-9 * std::max(course_.fem.telemetry_interval, course_.span);
     if (position.time >= position.next_telemetry - slack) write_telemetry(dt, outcome, slack);
     if (!snapshot_is_due(dt)) return;

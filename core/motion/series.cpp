@@ -45,6 +45,34 @@ Series integral(const Series& series) {
     return result;
 }
 
+Series derivative(const Series& series) {
+    Series result{series.dt, std::vector<double>(series.values.size(), 0.0)};
+    const std::size_t n = series.values.size();
+    for (std::size_t i = 0; n > 1 && i < n; ++i) {
+        const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, n - 1);
+        result.values[i] = (series.values[after] - series.values[before]) /
+                           (series.dt * static_cast<double>(after - before));
+    }
+    return result;
+}
+
+Series equally_spaced(const std::vector<double>& times, const std::vector<double>& values,
+                      double dt) {
+    Series result{dt, {}};
+    if (times.empty()) return result;
+    std::size_t next = 0;
+    for (double t = 0.0; t <= times.back() + 1e-9 * dt; t = dt * double(result.values.size())) {
+        while (next + 1 < times.size() && times[next] < t) ++next;
+        if (next == 0 || times[next] <= t) {
+            result.values.push_back(values[next]);
+            continue;
+        }
+        const double share = (t - times[next - 1]) / (times[next] - times[next - 1]);
+        result.values.push_back((1.0 - share) * values[next - 1] + share * values[next]);
+    }
+    return result;
+}
+
 Series resampled(const Series& series, double dt) {
     Series result{dt, {}};
     if (series.values.empty()) return result;

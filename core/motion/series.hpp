@@ -32,6 +32,13 @@ Series scaled_to_peak(Series series, double wanted);
 /// acceleration.
 Series integral(const Series& series);
 
+/// Differences over time, one-sided at the ends: acceleration of a velocity.
+Series derivative(const Series& series);
+
+/// Values at ascending times, as equally spaced samples from 0 to the last time.
+Series equally_spaced(const std::vector<double>& times, const std::vector<double>& values,
+                      double dt);
+
 /// The same motion with another time step: linear interpolation; the last sample lies at or just
 /// before the old end.
 Series resampled(const Series& series, double dt);

@@ -16,6 +16,7 @@
 #include "services/cli/import.hpp"
 #include "services/cli/logs.hpp"
 #include "services/cli/machinery.hpp"
+#include "services/cli/motion.hpp"
 #include "services/cli/new_scene.hpp"
 #include "services/cli/scenes.hpp"
 #include "services/cli/stored.hpp"
@@ -62,6 +63,7 @@ struct Arguments {
     std::filesystem::path folder;
     std::filesystem::path scene;
     DrawWish draw;
+    MotionWish motion;
     NewWish make;
     ImportWish import;
     ScenesWish scenes;
@@ -116,6 +118,7 @@ class CommandLine {
         add_file_commands();
         add_templates();
         add_drawing();
+        add_motion();
         add_import();
         add_storage_commands();
         add_scenes();
@@ -480,6 +483,18 @@ class CommandLine {
                          "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         draw_->add_flag("--mesh", a_.draw.mesh, "draw the FEM's mesh, too; made once and kept");
+    }
+
+    void add_motion() {
+        MotionWish& wish = a_.motion;
+        CLI::App* sub =
+            add("motion", "what a record is measured by: PGA, PGV, Arias, spectrum, ...",
+                "record.AT2 --scale-to-pga-g 0.3",
+                [this](Server&, const Console& c) { return show_motion(a_.motion, c); });
+        sub->add_option("FILE", wish.file, "acceleration: PEER, CSV or two columns")->required();
+        sub->add_option("--scale-to-pga-g", wish.scale_to_pga_g, "peak acceleration [g]")
+            ->check(CLI::PositiveNumber);
+        sub->add_flag("--corrected", wish.corrected, "correct the baseline first");
     }
 
     void add_import() {

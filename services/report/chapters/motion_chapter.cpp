@@ -1,7 +1,9 @@
 // The motion as the FEM took it: acceleration, velocity, Arias intensity.
+#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "core/motion/measures.hpp"
 #include "core/motion/read_motion.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
@@ -112,6 +114,46 @@ std::vector<Figure> figures_of(const motion::Series& a) {
                       1.0)};
 }
 
+/// What was measured where, as the FEM's result has it.
+Table measures_table(const json& motions) {
+    struct Row {
+        const char* title;
+        const char* key;
+    };
+    constexpr std::array rows{Row{"PGA [g]", "pga_g"},
+                              Row{"PGV [m/s]", "pgv"},
+                              Row{"PGD [m]", "pgd"},
+                              Row{"Arias intensity [m/s]", "arias"},
+                              Row{"D5-95 [s]", "strong_duration"},
+                              Row{"CAV [m/s]", "cav"},
+                              Row{"MASI [m/s]", "masi"}};
+    Table table{"motions", "What the motion is measured by", {""}, {}};
+    table.caption =
+        "PGD with the baseline corrected; MASI: integral of the 5 % pseudo-acceleration over "
+        "periods of 0.1 to 2 s. The crest's is until the analysis ended.";
+    for (const auto& [place, all] : motions.items()) table.columns.push_back(place);
+    for (const Row& each : rows) {
+        table.rows.push_back({each.title});
+        for (const auto& [place, all] : motions.items())
+            table.rows.back().push_back(rounded(all.at(each.key), 3));
+    }
+    return table;
+}
+
+Figure spectra_of(const json& motions) {
+    Chart chart{"Response spectra",
+                {"period [s]", Scale::logarithmic},
+                {"pseudo-acceleration, 5 % [g]"},
+                {}};
+    for (const auto& [place, all] : motions.items()) {
+        Series s{place, all.at("/spectrum/period"_json_pointer), {}};
+        for (const double each : all.at("/spectrum/acceleration"_json_pointer))
+            s.y.push_back(each / g);
+        chart.series.push_back(std::move(s));
+    }
+    return {"motion_spectra", std::move(chart), "Horizontal, of 5 % damping."};
+}
+
 }  // namespace
 
 void add_motion(const Material& from, Document& document) {
@@ -149,9 +191,14 @@ void add_motion(const Material& from, Document& document) {
             {"acceleration and Arias intensity of the motion",
              "the scene gives its velocity (" + found->file.string() + ")"});
     }
+    const json motions = fem->result.is_object() ? fem->result.value("motions", json()) : json();
     if (end)
         for (Figure& each : chapter.figures)
             each.chart.marks.push_back({Mark::At::x, *end, "finite elements end"});
+    if (motions.is_object()) {
+        chapter.tables.push_back(measures_table(motions));
+        chapter.figures.push_back(spectra_of(motions));
+    }
     document.chapters.push_back(std::move(chapter));
 }
 

@@ -1,0 +1,103 @@
+#include "core/motion/measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace breach::motion {
+
+namespace {
+
+const std::vector<double> periods{0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3,
+                                  0.4,  0.5,  0.6,  0.75, 1.0,   1.5, 2.0,  3.0, 4.0,  5.0};
+
+/// Share of a step at whose ends the response is looked at, at least this many times a period.
+constexpr double looks_per_period = 40.0;
+
+/// u'' + 2 xi omega u' + omega^2 u = -a over one step, from u and v; a goes straight from a_0 by
+/// `slope`.
+struct Oscillator {
+    double omega, damping;
+    double u = 0.0, v = 0.0;
+
+    void step(double a_0, double slope, double dt) {
+        const double w2 = omega * omega, xi = damping;
+        const double w_d = omega * std::sqrt(1.0 - xi * xi);
+        // particular solution: u_p = A + B t
+        const double B = -slope / w2;
+        const double A = -a_0 / w2 + 2.0 * xi * slope / (omega * w2);
+        const double c = u - A;
+        const double s = (v - B + xi * omega * c) / w_d;
+        const double decay = std::exp(-xi * omega * dt);
+        const double cosine = std::cos(w_d * dt), sine = std::sin(w_d * dt);
+        u = A + B * dt + decay * (c * cosine + s * sine);
+        v = B + decay * ((s * w_d - xi * omega * c) * cosine - (c * w_d + xi * omega * s) * sine);
+    }
+};
+
+double integral_of(const std::vector<double>& y, double dx) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < y.size(); ++i) sum += 0.5 * dx * (y[i - 1] + y[i]);
+    return sum;
+}
+
+double masi_of(const Series& acceleration) {
+    constexpr double first = 0.1, step = 0.02;
+    constexpr int count = 96;  // to 2 s
+    std::vector<double> values;
+    for (int i = 0; i < count; ++i)
+        values.push_back(spectral_acceleration(acceleration, first + step * i));
+    return integral_of(values, step);
+}
+
+}  // namespace
+
+double spectral_acceleration(const Series& acceleration, double period, double damping) {
+    const double omega = 2.0 * std::numbers::pi / period;
+    const double cuts = std::ceil(std::max(1.0, acceleration.dt * looks_per_period / period));
+    const double dt = acceleration.dt / cuts;
+    Oscillator oscillator{omega, damping};
+    double largest = 0.0;
+    for (std::size_t i = 1; i < acceleration.values.size(); ++i) {
+        const double slope =
+            (acceleration.values[i] - acceleration.values[i - 1]) / acceleration.dt;
+        for (double k = 0.0; k < cuts; k += 1.0) {
+            oscillator.step(acceleration.values[i - 1] + slope * k * dt, slope, dt);
+            largest = std::max(largest, std::abs(oscillator.u));
+        }
+    }
+    return omega * omega * largest;
+}
+
+Measures measures_of(const Series& acceleration) {
+    Measures all{.pga = peak(acceleration),
+                 .pgv = peak(integral(acceleration)),
+                 .pgd = peak(integral(integral(base_corrected(acceleration)))),
+                 .arias = arias_intensity(acceleration),
+                 .strong = strong_part(acceleration),
+                 .cav = 0.0,
+                 .masi = masi_of(acceleration),
+                 .periods = periods,
+                 .spectrum = {}};
+    for (std::size_t i = 1; i < acceleration.values.size(); ++i)
+        all.cav += 0.5 * acceleration.dt *
+                   (std::abs(acceleration.values[i - 1]) + std::abs(acceleration.values[i]));
+    for (const double period : periods)
+        all.spectrum.push_back(spectral_acceleration(acceleration, period));
+    return all;
+}
+
+nlohmann::json as_json(const Measures& all) {
+    return {{"pga_g", all.pga / standard_gravity},
+            {"pgv", all.pgv},
+            {"pgd", all.pgd},
+            {"arias", all.arias},
+            {"strong_from", all.strong.begin},
+            {"strong_duration", all.strong.duration()},
+            {"cav", all.cav},
+            {"masi", all.masi},
+            {"spectrum", {{"period", all.periods}, {"acceleration", all.spectrum}}}};
+}
+
+}  // namespace breach::motion

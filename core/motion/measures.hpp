@@ -1,0 +1,36 @@
+// What engineers measure a motion by.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "core/motion/series.hpp"
+
+namespace breach::motion {
+
+inline constexpr double spectrum_damping = 0.05;  ///< of critical [-]
+
+/// Pseudo-acceleration omega^2 max |u| of an oscillator of this period [s] under the motion, by the
+/// exact solution for an acceleration that is straight between samples (Nigam & Jennings 1969).
+/// [m/s2]
+double spectral_acceleration(const Series& acceleration, double period,
+                             double damping = spectrum_damping);
+
+struct Measures {
+    double pga;         ///< [m/s2]
+    double pgv;         ///< [m/s]
+    double pgd;         ///< of the motion with its baseline corrected [m]
+    double arias;       ///< [m/s]
+    StrongPart strong;  ///< D5-95 is its duration
+    double cav;         ///< cumulative absolute velocity, integral of |a| [m/s]
+    /// Modified acceleration spectrum intensity: integral of the 5 % pseudo-acceleration over
+    /// periods of 0.1 to 2 s, after Von Thun et al. (1988), who take 0.1 to 0.5 s [m/s]
+    double masi;
+    std::vector<double> periods;   ///< [s]
+    std::vector<double> spectrum;  ///< 5 % pseudo-acceleration [m/s2]
+};
+
+Measures measures_of(const Series& acceleration);
+nlohmann::json as_json(const Measures& measures);
+
+}  // namespace breach::motion
