@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """Runouts do not hang on the wave speed: column, slope, flow slope and Mochikoshi, each on four lattices of points, with the speed
 that the program chooses, three times as fast, and at full stiffness.
 
