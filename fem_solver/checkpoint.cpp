@@ -291,7 +291,8 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
         const Kept& kept = checkpoint.kept;
         const bool whole = fits(kept.motion, model) && fits(kept.beginning, model) &&
                            empty_or(kept.excess_pressure_max, model.body.nodes) &&
-                           empty_or(kept.stage_force, model.mesh.nodes.size() * 2);
+                           empty_or(kept.stage_force, model.mesh.nodes.size() * 2) &&
+                           kept.crest_time.size() == kept.crest_acceleration.size();
         if (whole) return checkpoint;
     } catch (const std::out_of_range&) {
         // An array is missing or too short: said below.

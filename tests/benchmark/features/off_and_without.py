@@ -1,7 +1,8 @@
+#!/usr/bin/python3
 """What being off costs: instructions per step of a scene with every feature off, in the program as it is and in one built without
 the code that asks for them.
 
-    off_and_without.py FOLDER [--program fem_solver|mpm_solver] [--write docs/what_is_left_out.md] [--most PER_CENT]
+    off_and_without.py [FOLDER] [--program fem_solver|mpm_solver] [--most PER_CENT]
     off_and_without.py --check      builds nothing: are all the texts that are taken out there?
 
 Copies the sources to FOLDER, builds them, takes out what EDITS says, builds again, and counts both by valgrind as what_is_left_out.py
@@ -182,20 +183,6 @@ def answer(program, programs, scene, folder):
     return count, {key: value for key, value in result.items() if "second" not in key and key not in ("peak_memory_MB", "provenance")}
 
 
-PAGE = f"""{features.WITHOUT}
-
-The two scenes above with every feature off (the FEM keeps its law, Mohr-Coulomb), in the program as it is and in one that was built after the code that asks
-for the features was taken out of its sources. Both give the same `result.json`, to the last digit. Not taken out: softening and tension, which
-are the law's own (the MPM compiles another loop without them); gauges and telemetry, which ask once per step. The FEM's step has a tenth of
-the instructions of everything on, so what is asked in every element weighs more here than in the bound above. Written by
-
-    tests/benchmark/features/off_and_without.py FOLDER --write docs/what_is_left_out.md
-
-| | instructions per step, off | without the code | off costs | taken out |
-|---|---|---|---|---|
-"""
-
-
 def row_of(program, folder):
     whole, stripped = folder / "whole", folder / f"without_{program}"
     for each in (whole, stripped):
@@ -219,7 +206,6 @@ def main():
     options = argparse.ArgumentParser()
     options.add_argument("folder", type=pathlib.Path, nargs="?")
     options.add_argument("--program", choices=list(EDITS))
-    options.add_argument("--write", type=pathlib.Path)
     options.add_argument("--most", type=float, default=float("inf"), metavar="PER_CENT")
     options.add_argument("--check", action="store_true")
     asked = options.parse_args()
@@ -233,9 +219,6 @@ def main():
         for program in chosen:
             rows.append(row_of(program, asked.folder or pathlib.Path(name)))
             print(rows[-1][0], flush=True)
-    if asked.write:
-        page = asked.write.read_text().partition(features.WITHOUT)[0].rstrip()
-        asked.write.write_text(page + "\n\n" + PAGE + "\n".join(row for row, _ in rows) + "\n")
     if any(cost > asked.most for _, cost in rows):
         raise SystemExit(f"off costs more than {asked.most} %")
 

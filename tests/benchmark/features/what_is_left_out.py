@@ -1,10 +1,10 @@
+#!/usr/bin/python3
 """What a scene does not need: instructions per step and bytes with every feature on, and with one at a time off.
 
-    what_is_left_out.py [--write docs/what_is_left_out.md]
+    what_is_left_out.py      prints the tables of docs/what_is_left_out.md (workflows/verification/write)
 
 Instructions are counted by valgrind's cachegrind without its caches: they do not hang on the machine's load. Per step: a run of
 twice the steps less a run of them, so that reading, meshing and the first matrix drop out. Bytes are those of --plan --measure."""
-import argparse
 import copy
 import json
 import math
@@ -175,43 +175,18 @@ def section(title, program, base, features, size):
     least, tests = math.inf, 0.0
     for name, count, share, some, leaves, counts in rows(program, base, features, size.replace("element", "elements").replace("point", "points")):
         lines.append(f"| {name} | {count:,.0f} | {100 * share:.1f} % | {some:,.0f} | {leaves} |")
-        print(lines[-1], flush=True)
         least = min(least, count)
         # MPM: floor and terrain are asked for at every node. FEM: as if every feature were asked for in every element.
         places = 2 * counts["nodes in use"] if "nodes in use" in counts else len(features) * counts["elements"]
         tests = max(tests, len(features) + places)
     lines += ["", f"Tests that are left when all is off: at most {tests:,.0f} per step, at three instructions each (load, compare, jump) "
               f"{100 * 3 * tests / least:.2f} % of the cheapest step above.", ""]
-    print(lines[-2], flush=True)
     return lines
 
 
-HEAD = """# What a scene does not need costs nothing
-
-Each row leaves one feature out of a scene that has them all. Written by
-
-    tests/benchmark/features/what_is_left_out.py --write docs/what_is_left_out.md
-
-Instructions are counted by valgrind (they do not hang on the machine's load): a run of twice the steps less a run of them. A row
-changes the physics as well: a FEM whose soil yields less needs fewer iterations, and a row may then save more than its feature
-costs, or less. Bytes are those of `--plan --measure`: in the MPM points, grid and the cells of anti-locking; in the FEM the whole program at its
-most. Features are resolved before the loop (`mpm_solver/body/choose.cpp` picks compiled loops; the FEM gives what is off no unknowns);
-the tests that remain are counted under each table, and measured against a program without them at the end.
-
-"""
-WITHOUT = "## Off, and not there at all"  # the section that off_and_without.py writes
-
-
 def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("--write")
-    asked = options.parse_args()
-    text = HEAD + "\n".join(section("MPM: 1,600 points, a step of 0.5 ms", "mpm_solver", mpm_scene, MPM, "point") +
-                            section("FEM: 200 elements and two columns, a step of 5 ms", "fem_solver", fem_scene, FEM, "element"))
-    if asked.write:
-        page = pathlib.Path(asked.write)
-        measured = page.read_text().partition(WITHOUT) if page.exists() else ("", "", "")
-        page.write_text(text.rstrip() + "\n" + ("\n" + measured[1] + measured[2] if measured[1] else ""))
+    print("\n".join(section("MPM: 1,600 points, a step of 0.5 ms", "mpm_solver", mpm_scene, MPM, "point") +
+                    section("FEM: 200 elements and two columns, a step of 5 ms", "fem_solver", fem_scene, FEM, "element")))
 
 
 if __name__ == "__main__":

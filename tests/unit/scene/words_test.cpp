@@ -112,6 +112,8 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<Interpolation>({transfer + "/interpolation"});
     words.are_those_of<SofteningStart>({transfer + "/softening_start"});
     words.are_those_of<LiquefiedWhen>({transfer + "/liquefied/properties/when"});
+    words.are_those_of<BaseDisplacement>({transfer + "/base_displacement"});
+    words.are_those_of<OutOfPlaneStress>({transfer + "/sigma_zz"});
     words.are_those_of<Entangled>({transfer + "/entangled"});
     words.are_those_of<TransferredStress>({transfer + "/stress"});
     words.are_those_of<Kernel>({mpm + "/kernel"});

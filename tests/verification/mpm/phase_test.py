@@ -203,13 +203,12 @@ def test_group_without_points(scratch):
     brittle["law"]["softening"] = {"epsilon_q_start": 0.01, "epsilon_q_end": 0.1, "c_residual_kPa": 0, "phi_residual_deg": 10}
     brittle["nonlocal_length"] = 4
     scene["mpm"]["softening_length"] = scene["mpm"]["cell_size"]
-    for at, code in ((name, 0), ("spare", 65)):
+    for at in (name, "spare"):
         file = os.path.join(scratch, f"{at}.json")
         json.dump({**scene, "materials": {**scene["materials"], at: brittle}}, open(file, "w"))
         ended = run(os.path.join(scratch, at), "--set", "/mpm/duration=0.02", scene=file)
-        assert ended.returncode == code, (ended.returncode, ended.stderr)
-    assert "/materials/spare/nonlocal_length" in ended.stderr and "leave the length out" in ended.stderr, ended.stderr
-    print("nonlocal softening of a material that no region has: refused with exit 65")
+        assert ended.returncode == 0, (ended.returncode, ended.stderr)
+    print("a length in the softening of a material that no region has changes nothing")
 
 
 def test_terrain(scratch):
