@@ -1,5 +1,8 @@
 // The form of a new run as a reader of the page finds his way in it.
 
+/// Clicks the line of one that is closed; looked at and clicked at once, as the page opens some itself.
+const open = (fold) => fold.evaluate((each) => each.open || each.querySelector(":scope > summary").click());
+
 /// Opens groups and rows by their lines, where they are closed: ["scene", "fem", "stages", "0"].
 export async function open_groups(page, way) {
     let root = page.locator("#form");
@@ -8,8 +11,8 @@ export async function open_groups(page, way) {
         const fold = (await row.count()) ? row : root.locator(`.rows > li > details:has(> summary .fold-title:text-matches("^${name}( |$)"))`).first();
         if (!(await fold.count())) continue; // a choice has no line of its own
         const hidden = root.locator("details.more-members:not([open])").filter({ has: fold });
-        if (await hidden.count()) await hidden.first().locator("> summary").click();
-        if (!(await fold.evaluate((each) => each.open))) await fold.locator("> summary").click();
+        if (await hidden.count()) await open(hidden.first());
+        await open(fold);
         await page.evaluate(() => new Promise((filled) => requestAnimationFrame(() => setTimeout(filled)))); // when it has opened
         root = fold;
     }
@@ -21,6 +24,6 @@ export async function field_of(page, pointer) {
     const label = page.locator(`#form label[title="${pointer}"]`).first();
     await label.waitFor({ state: "attached" }); // a group is filled when it has opened
     const more = page.locator("#form details.more-members").filter({ has: page.locator(`label[title="${pointer}"]`) });
-    for (let i = 0; i < (await more.count()); i += 1) if (!(await more.nth(i).evaluate((each) => each.open))) await more.nth(i).locator("> summary").click();
+    for (let i = 0; i < (await more.count()); i += 1) await open(more.nth(i));
     return page.locator(`#${await label.getAttribute("for")}`);
 }
