@@ -15,10 +15,7 @@ namespace {
 constexpr const char* head =
     "# Error against run time\n"
     "\n"
-    "Written by `workflows/accuracy/write_page` from the results of the studies in "
-    "`workflows/accuracy`; no line of it is by hand. `breach accuracy STUDY --watch` does the "
-    "same for any scene. CPU seconds are of one run through all its phases on the machine that "
-    "ran them, shared with others.\n"
+    "Written by `report accuracy`. CPU seconds are of one run through all its phases.\n"
     "\n"
     "*Error* is that of the mean over the draws (repeats on moved lattices of points, or of the "
     "FEM with other steps and residuals), *of a run* is what one run is off: with what the "
