@@ -30,6 +30,9 @@ def studies(bases):
         ("a coefficient of variation of 30 for 0.30", study(uncertainty={"samples": 4, "parameters": [
             {"name": "c", "factor_on": ["/materials/slope_soil/law/c_kPa"], "distribution": {"type": "lognormal", "median": 1, "cov": 30}}]}),
          r"cov[\s\S]*%[\s\S]*0\.3"),
+        ("a line of a transfer that is not asked for", study("mochikoshi", transfer_times=[4], overrides=[
+            "/transfer/liquefied/line=[{\"transfer_time\":4,\"points\":[[60,5],[100,2]]},{\"transfer_time\":5,\"points\":[[60,5],[100,2]]}]"]),
+         r"line/1/transfer_time"),
         ("no draws", study(draws=0), r"draws"),
         ("draws by halves", study(draws=2.5), r"draws"),
         ("more draws than anyone waits for", study(draws=5000), r"draws"),
