@@ -41,14 +41,12 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
         database_.finds(
             "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", {run});
     if (goes_on) return Removal::going_on;
-    const std::vector<std::string> recipes = database_.texts(
-        "SELECT DISTINCT recipe FROM tasks WHERE run=? AND recipe IS NOT NULL", {run});
     for (const char* each : rows_of_run) database_.change(each, {run});
-    for (const std::string& each : recipes)
-        database_.change(
-            "DELETE FROM recipes WHERE hash=?1 AND NOT EXISTS (SELECT 1 FROM tasks WHERE "
-            "recipe=?1)",
-            {each});
+    // Tasks that a trigger has still to make stand in the firing plan of their run.
+    database_.change(
+        "DELETE FROM recipes WHERE NOT EXISTS (SELECT 1 FROM tasks WHERE recipe=hash) AND "
+        "NOT EXISTS (SELECT 1 FROM firing_plans WHERE instr(tasks, hash) > 0)",
+        {});
     removes_events_ = true;
     database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
     add_run_event(run, {{"event", "remove"}, {"why", why}});

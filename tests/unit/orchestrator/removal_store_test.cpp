@@ -87,6 +87,26 @@ TEST_F(RemovalStore, TakesEveryRowOfARunAndNoneOfAnother) {
     EXPECT_EQ(rows().at("recipes"), 0) << "nobody asks for it any more";
 }
 
+// Of two equal runs the one is removed before the other's trigger has fired.
+TEST_F(RemovalStore, LeavesRecipesThatATriggerOfAnotherRunHasStillToUse) {
+    Store store(file());
+    const auto waiting_run = [&] {
+        NewRun run = small_run();
+        run.recipes = {{std::string(64, 'f'), "mpm_solver", 1, "{}"}};
+        run.firing_plan = run.tasks;
+        for (TaskPlan& each : run.firing_plan) each.recipe = std::string(64, 'f');
+        store.write([&](Transaction& t) { t.add_run(run); });
+        return run.id;
+    };
+    const std::string first = waiting_run(), second = waiting_run();
+    for (const std::string& each : {first, second})
+        store.write([&](Transaction& t) { t.cancel_run(each, ""); });
+    EXPECT_EQ(removed(store, first), Removal::done);
+    EXPECT_EQ(rows().at("recipes"), 1);
+    EXPECT_EQ(removed(store, second), Removal::done);
+    EXPECT_EQ(rows().at("recipes"), 0);
+}
+
 TEST_F(RemovalStore, OpenTriggerKeepsARunFromBeingOver) {
     Store store(file());
     const std::string run = whole_run(store);
