@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runouts do not hang on the wave speed: column, slope, flow slope and Mochikoshi, each on four lattices of points, with the speed
+"""Runouts do not hang on the wave speed: column, flow slope and Mochikoshi, each on four lattices of points, with the speed
 that the program chooses, three times as fast, and at full stiffness.
 
     stiffness_test.py [--json] [SCENE...]   all of them; --json: the table alone, for workflows/verification
@@ -19,8 +19,7 @@ solver = pathlib.Path(os.environ["BREACH_BIN"]) / "mpm_solver"
 shifts = ([0, 0], [0.31, 0.12], [0.77, 0.34], [0.14, 0.59])
 quick = {
     "column": [],
-    "slope": ["/mpm/cell_size=0.5", "/mpm/fill_points=3", "/mpm/overlap_correction/rate=5"],
-    "flow_slope": ["/mpm/cell_size=0.5"],
+    "flow_slope": [],
 }
 changes = quick | {
     "mochikoshi_runout": ["/mpm/cell_size=2.5", "/materials/embankment/nonlocal_length=4",
