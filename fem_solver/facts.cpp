@@ -8,7 +8,6 @@
 #include <numbers>
 #include <sstream>
 
-#include "core/check/applied_motion.hpp"
 #include "core/motion/measures.hpp"
 #include "core/phases/files.hpp"
 #include "fem_solver/model/stages.hpp"
@@ -197,23 +196,20 @@ nlohmann::json facts_of_time(const Course& course) {
             {"output", spent.output},     {"free_ground", course.seconds_for_free_ground}};
 }
 
-}  // namespace
-
-/// What the motion is measured by as it was applied, at the base beneath the free-field columns, and
-/// at the crest as far as the analysis went.
+/// What the motion is measured by at the base beneath the free-field columns, and at the crest as
+/// far as the analysis went.
 void report_motions(Course& course) {
-    if (!course.fem.motion || course.crest_time.empty()) return;
-    const motion::Recording input = check::applied_motion(*course.fem.motion);
-    auto& motions = course.session.result()["motions"];
-    if (input.quantity == motion::Quantity::acceleration)
-        motions["input"] = as_json(motion::measures_of(input.series));
+    auto& facts = course.session.result();
+    if (!facts.contains("motion") || course.crest_time.empty()) return;
     const exchange::BaseMotion& base = course.beginning.base_motion;
     if (base.any())
-        motions["base"] =
+        facts["motions"]["base"] =
             as_json(motion::measures_of(motion::derivative({base.time_step, base.velocity})));
-    motions["crest"] = as_json(motion::measures_of(
-        motion::equally_spaced(course.crest_time, course.crest_acceleration, input.series.dt)));
+    facts["motions"]["crest"] = as_json(motion::measures_of(motion::equally_spaced(
+        course.crest_time, course.crest_acceleration, facts["motion"]["time_step"])));
 }
+
+}  // namespace
 
 void report_end(Course& course) {
     process::Session& session = course.session;

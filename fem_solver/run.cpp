@@ -8,6 +8,7 @@
 #include "core/check/applied_motion.hpp"
 #include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/motion/measures.hpp"
 #include "core/motion/plausibility.hpp"
 #include "core/phases/files.hpp"
 #include "fem_solver/analysis.hpp"
@@ -34,6 +35,8 @@ void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
                                   {"pgv", peaks.velocity},
                                   {"duration", applied.series.duration()},
                                   {"time_step", applied.series.dt}};
+    if (applied.quantity == motion::Quantity::acceleration)
+        session.result()["motions"]["input"] = as_json(motion::measures_of(applied.series));
 }
 
 }  // namespace

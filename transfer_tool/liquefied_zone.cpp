@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/exchange/excess_pressure.hpp"
+#include "core/geometry/polyline.hpp"
 #include "core/words/number.hpp"
 #include "transfer_tool/points.hpp"
 
@@ -123,19 +124,10 @@ std::vector<LiquefiedGap> LiquefiedZone::gaps() const {
     return gaps;
 }
 
-namespace {
-
-bool is_above(const scene::LiquefiedLine& line, const Vec2& place) {
-    const auto& [left, right] = line.points;
-    if (place.x() > right.x()) return false;
-    const double share = std::max(0.0, (place.x() - left.x()) / (right.x() - left.x()));
-    return place.y() >= left.y() + share * (right.y() - left.y());
-}
-
-}  // namespace
-
 bool LiquefiedZone::holds(const Vec2& place) const {
-    if (line_ && is_above(*line_, place)) return true;
+    const bool below_line = line_.empty() || place.x() > line_.back().x() ||
+                            place.y() < geometry::level_at(line_, place.x());
+    if (!below_line) return true;
     const auto after = level_from_.upper_bound(place.x());
     return after != level_from_.begin() && place.y() >= std::prev(after)->second;
 }

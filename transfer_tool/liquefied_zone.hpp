@@ -40,7 +40,9 @@ class LiquefiedZone {
                   double threshold, scene::LiquefiedWhen when, double narrowest_wall = 0.0);
 
     /// What lies above the line counts, too.
-    void add(const scene::LiquefiedLine& line) { line_ = line; }
+    void add(const scene::LiquefiedLine& line) {
+        line_.assign(line.points.begin(), line.points.end());
+    }
 
     /// Whether the place [m] lies in the zone.
     bool holds(const Vec2& place) const;
@@ -58,8 +60,8 @@ class LiquefiedZone {
     void close_walls(double narrowest);
 
     std::map<double, double> level_from_;  ///< x where it begins -> level; +infinity: none
-    std::optional<scene::LiquefiedLine> line_;
-    double highest_, lowest_;  ///< of the soil that can liquefy [m]
+    std::vector<Vec2> line_;               ///< what lies above it counts, too; empty: none [m]
+    double highest_, lowest_;              ///< of the soil that can liquefy [m]
     std::size_t nodes_ = 0;
     double closed_width_ = 0.0;
     double deepest_;

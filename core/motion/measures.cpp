@@ -12,7 +12,7 @@ namespace {
 const std::vector<double> periods{0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3,
                                   0.4,  0.5,  0.6,  0.75, 1.0,   1.5, 2.0,  3.0, 4.0,  5.0};
 
-/// Share of a step at whose ends the response is looked at, at least this many times a period.
+/// The response is looked at, at least so many times a period.
 constexpr double looks_per_period = 40.0;
 
 /// u'' + 2 xi omega u' + omega^2 u = -a over one step, from u and v; a goes straight from a_0 by
@@ -36,19 +36,22 @@ struct Oscillator {
     }
 };
 
-double integral_of(const std::vector<double>& y, double dx) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < y.size(); ++i) sum += 0.5 * dx * (y[i - 1] + y[i]);
-    return sum;
+double whole_integral(const Series& series) {
+    return series.values.empty() ? 0.0 : integral(series).values.back();
 }
 
 double masi_of(const Series& acceleration) {
     constexpr double first = 0.1, step = 0.02;
     constexpr int count = 96;  // to 2 s
-    std::vector<double> values;
+    Series over_period{step, {}};
     for (int i = 0; i < count; ++i)
-        values.push_back(spectral_acceleration(acceleration, first + step * i));
-    return integral_of(values, step);
+        over_period.values.push_back(spectral_acceleration(acceleration, first + step * i));
+    return whole_integral(over_period);
+}
+
+double cav_of(Series acceleration) {
+    for (double& value : acceleration.values) value = std::abs(value);
+    return whole_integral(acceleration);
 }
 
 }  // namespace
@@ -76,13 +79,10 @@ Measures measures_of(const Series& acceleration) {
                  .pgd = peak(integral(integral(base_corrected(acceleration)))),
                  .arias = arias_intensity(acceleration),
                  .strong = strong_part(acceleration),
-                 .cav = 0.0,
+                 .cav = cav_of(acceleration),
                  .masi = masi_of(acceleration),
                  .periods = periods,
                  .spectrum = {}};
-    for (std::size_t i = 1; i < acceleration.values.size(); ++i)
-        all.cav += 0.5 * acceleration.dt *
-                   (std::abs(acceleration.values[i - 1]) + std::abs(acceleration.values[i]));
     for (const double period : periods)
         all.spectrum.push_back(spectral_acceleration(acceleration, period));
     return all;

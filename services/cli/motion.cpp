@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/check/applied_motion.hpp"
 #include "core/motion/measures.hpp"
-#include "core/motion/read_motion.hpp"
 #include "services/cli/table.hpp"
 
 namespace breach::cli {
@@ -13,15 +13,13 @@ using nlohmann::json;
 namespace {
 
 motion::Series acceleration_in(const MotionWish& wish) {
-    const motion::Recording recording = motion::read_motion(wish.file);
-    if (recording.quantity != motion::Quantity::acceleration)
-        throw fault::BadInput(wish.file.string(),
-                              {{"", "is no acceleration", "give the acceleration of the record"}});
-    motion::Series a = recording.series;
-    if (wish.corrected) a = motion::base_corrected(std::move(a));
-    if (wish.scale_to_pga_g)
-        a = motion::scaled_to_peak(std::move(a), *wish.scale_to_pga_g * motion::standard_gravity);
-    return a;
+    const motion::Recording motion = check::applied_motion(
+        {.file = wish.file,
+         .scale_to_pga_g = wish.scale_to_pga_g,
+         .baseline = wish.corrected ? scene::Baseline::corrected : scene::Baseline::as_recorded});
+    if (motion.quantity == motion::Quantity::acceleration) return motion.series;
+    throw fault::BadInput(wish.file.string(),
+                          {{"", "is no acceleration", "give the acceleration of the record"}});
 }
 
 std::string as_text(const json& all) {

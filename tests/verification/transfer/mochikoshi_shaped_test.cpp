@@ -97,7 +97,7 @@ TEST_F(MochikoshiShaped, PointsStandWhereTheSectionWasDrawnWithoutTheBasesDispla
     const auto placed = [&](const exchange::MeshSnapshot& mesh) {
         return transferred_with(*scene_, mesh, [](auto& t) {
             t.base_displacement = scene::BaseDisplacement::subtracted;
-            t.points_per_cell.reset();  // which points there are hangs on where the cells lie
+            t.points_per_cell.reset();  // cells elsewhere would make other points
         });
     };
     const Transferred here = placed(*mesh_), there = placed(moved);
