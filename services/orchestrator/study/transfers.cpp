@@ -120,7 +120,7 @@ void check_lines(const scene::Scene& scene, const Study& study, std::vector<Faul
     const auto& lines = scene.transfer->liquefied->lines;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const double time = lines[i].transfer_time;
-        const auto is_its = [&](double each) { return std::abs(each - time) < 1e-6; };
+        const auto is_its = [&](double each) { return std::abs(each - time) < microsecond; };
         if (std::ranges::any_of(study.transfer_times, is_its)) continue;
         faults.push_back({"/scene/transfer/liquefied/line/" + std::to_string(i) + "/transfer_time",
                           "is " + words::text_of(time) + " s, which is no transfer time",
