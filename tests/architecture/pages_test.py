@@ -1,4 +1,5 @@
-"""workflows/verification/write: the pages that have been measured are what their templates and results give, and what does not hold is told.
+"""workflows/verification/write: the pages that have been measured are what their templates and results give; it names a result that is
+of other inputs, numerics, commit or machine.
 
     pages_test.py PAGE..."""
 import importlib.machinery
@@ -18,7 +19,7 @@ loader.exec_module(write)
 
 def told(result, measurements):
     return " ".join(write.inconsistencies({"sweep": result, "other": result | {"measured": result["measured"] | {"machine": "another"}}},
-                                          measurements, programs))
+                                          measurements, write.numerics(programs)))
 
 
 def main():
@@ -32,6 +33,8 @@ def main():
 
     rows = write.Rows([{"variant": "a", "time": 1.0, "x": 2.0}, {"variant": "a", "time": 2.0, "x": None}, {"variant": "b", "time": 1.0, "x": 3.0}])
     assert rows.of(variant="a").all("x") == [2.0] and rows.of(time=1).value("x") == 2.0 and rows.of(variant="c").value("x") is None
+    repeats = write.Rows([{"variant": each} for each in ("wall", "wall_d2", "wall_d10", "wall_deep", "other")])
+    assert [each["variant"] for each in repeats.draws("wall")] == ["wall", "wall_d2", "wall_d10"]
     assert write.number(-0.001, 1) == "0.0" and write.number(None) == "-" and write.number(12.345, 1) == "12.3"
 
     if sys.argv[1:]:
