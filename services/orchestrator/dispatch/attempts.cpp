@@ -45,8 +45,8 @@ void Attempts::adopt() {
     }
 }
 
-/// An attempt whose files cannot be read does not hold up the others: its progress gives the reason,
-/// and it is observed again in the next round.
+/// Where the files of an attempt cannot be read, its progress gives the reason, the others go on, and
+/// it is observed again in the next round.
 void Attempts::look() {
     const std::vector<int> changed = watch_.changes();
     stop_cancelled();

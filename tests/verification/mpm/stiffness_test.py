@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runouts do not hang on the wave speed: column, flow slope and Mochikoshi, each on four lattices of points, with the speed
+"""Runouts do not depend on the wave speed: column, flow slope and Mochikoshi, each on four lattices of points, with the speed
 that the program chooses, three times as fast, and at full stiffness.
 
     stiffness_test.py [--json] [SCENE...]   all of them; --json: the table alone, for workflows/verification
