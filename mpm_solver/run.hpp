@@ -6,7 +6,7 @@
 namespace breach::mpm {
 
 /// Raised when the numbers change for the same input: the cache takes no result of another one.
-inline constexpr int numerics = 13;
+inline constexpr int numerics = 14;
 
 /// What the scene needs of this phase and what it does not.
 process::Plan plan(const scene::Scene& scene);

@@ -9,7 +9,7 @@ namespace breach::scene {
 
 namespace {
 
-constexpr double waves_per_flow = 20.0;
+constexpr double waves_per_flow = 10.0;
 
 /// The materials that points can be; those that the scene lacks are left out.
 std::vector<const Material*> materials_of_points(const Scene& scene) {

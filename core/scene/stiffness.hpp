@@ -1,5 +1,5 @@
 // How stiff soil is in the runout. Its compression waves set the time step; a flow needs no faster
-// ones than 20 times its own speed, and undrained soil has some of 2 km/s.
+// ones than ten times a free fall, and undrained soil has some of 2 km/s.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace breach::scene {
 /// lowest ground [m/s].
 double fall_speed(const Scene& scene, const Mpm& mpm);
 
-/// What `"stiffness_scale": "auto"` holds compression waves to [m/s]: 20 times fall_speed. Nothing
+/// What `"stiffness_scale": "auto"` holds compression waves to [m/s]: 10 times fall_speed. Nothing
 /// where soil keeps its stiffness: no material yields, the time step is given, the shaking goes on,
 /// there is no gravity.
 std::optional<double> wave_speed_limit(const Scene& scene, const Mpm& mpm);

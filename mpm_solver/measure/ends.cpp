@@ -115,6 +115,9 @@ double crest_edge(const std::vector<double>& places, const std::vector<double>& 
     return places[k];
 }
 
+/// Of tailings upstream of the crest: docs/mochikoshi_authors.md. Its 317 m are 10.8 heights.
+constexpr double enough_heights = 10.5;
+
 /// Soil that has left lowers the surface.
 std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowView& view,
                                          const Depths& depths) {
@@ -127,24 +130,31 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
     const double told = std::max(0.05 * H, 0.5 * view.width);
     while (k < places.size() && depths.first[k] - depths.last[k] <= told) ++k;
     if (k == places.size() || places[k] - end > H) return std::nullopt;
-    const bool narrow = crest_edge(places, depths.first) - end < H;
+    const double pond = crest_edge(places, depths.first) - end;
     const std::string fact = "the failure reached x = " + text_of(places[k], 9) + " m, " +
                              text_of(places[k] - end) +
                              " m from the upstream end (x = " + text_of(end, 9) +
                              " m; the mobile soil is " + text_of(H) + " m high)";
-    if (narrow)
+    if (pond < H)
         return Flag{"upstream_wall", Severity::warning,
                     fact +
                         ", behind a crest narrower than that: right where a wall or a plane of "
                         "symmetry stands; where soil goes on upstream, draw it, or the runout is "
                         "too short",
                     "/section/regions"};
+    if (pond >= enough_heights * H)
+        return Flag{"upstream_wall", Severity::warning,
+                    fact + "; the soil goes on " + text_of(pond / H, 2) +
+                        " heights upstream of the crest, and from " + text_of(enough_heights, 2) +
+                        " on Mochikoshi's runout changed by less than 5 %",
+                    "/section/regions"};
     return Flag{"upstream_wall", Severity::questionable,
                 fact +
                     ": the section is too short, soil that would have followed is missing, and "
-                    "the runout is too short (unsafe); draw the section and begin domain_x at "
-                    "least " +
-                    text_of(std::ceil(5.0 * H)) + " m farther upstream, until this flag is gone",
+                    "the runout is too short (unsafe); draw the section and begin domain_x " +
+                    text_of(std::ceil(enough_heights * H - pond)) +
+                    " m farther upstream: from " + text_of(enough_heights, 2) +
+                    " heights upstream of the crest on Mochikoshi's runout changed by less than 5 %",
                 "/section/regions"};
 }
 
