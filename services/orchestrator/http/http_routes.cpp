@@ -15,6 +15,7 @@ void add_all_routes(Router& router, Service& service, const std::atomic<bool>& s
     add_run_routes(router, service);
     add_accuracy_routes(router, service);
     add_uncertainty_routes(router, service);
+    add_motion_routes(router, service);
     add_trigger_routes(router, service);
     add_output_routes(router, service);
     add_outflow_routes(router, service);

@@ -17,6 +17,7 @@ void add_run_routes(Router& router, Service& service);
 void add_accuracy_routes(Router& router, Service& service);
 /// What samples say of a result.
 void add_uncertainty_routes(Router& router, Service& service);
+void add_motion_routes(Router& router, Service& service);
 /// Triggers: what became of them, and new ones while a run goes on.
 void add_trigger_routes(Router& router, Service& service);
 /// What the phases wrote: logs, telemetry, frames, artifacts.

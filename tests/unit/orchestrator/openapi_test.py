@@ -223,6 +223,7 @@ class Described(unittest.TestCase):
         get(route, f"/v1/runs/{uncertain}/uncertainty?format=hdf5")
         get(route, f"/v1/runs/{uncertain}/uncertainty?quantity=nonsense", 400)
         get(route, f"/v1/runs/{run}/uncertainty", 404)
+        get("/v1/runs/{id}/motions", f"/v1/runs/{run}/motions", 404)
 
         check = "/v1/runs/{id}/accuracy/check"
         made = post(check, f"/v1/runs/{accurate}/accuracy/check?repeats=2&ladder=cells&step=1&mean_of=2", 202)

@@ -1,0 +1,38 @@
+// What a study of several motions says: which measure of a motion goes with liquefaction and runout,
+// from which liquefied depth on soil passes the toe, and how probable that is at a given motion.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace breach::findings {
+
+/// A FEM and what came of it.
+struct Shaken {
+    std::string variant;
+    std::vector<double> measures;  ///< of the input, in the order of motion_measures
+    double liquefaction_depth;     ///< largest [m]
+    std::optional<double> runout =
+        {};                    ///< beyond the toe, the largest of its runouts; 0: the dam stood [m]
+    bool lower_bound = false;  ///< of the runout
+};
+
+struct MotionMeasure {
+    const char* name;  ///< in the FEM's result, /motions/input
+    const char* title;
+    const char* unit;
+};
+
+const std::vector<MotionMeasure>& motion_measures();
+
+/// Fewer say nothing.
+inline constexpr std::size_t fewest_motions = 5;
+
+/// {"rows", "measures": [{"name", "title", "unit", "with_depth", "with_runout", "fragility"}], "best",
+/// "onset", "saturation", "sentences"}; what each is: services/orchestrator/http/openapi.json. shaken:
+/// at least fewest_motions.
+nlohmann::json motions_of(const std::vector<Shaken>& shaken);
+
+}  // namespace breach::findings
