@@ -487,14 +487,29 @@ class CommandLine {
 
     void add_motion() {
         MotionWish& wish = a_.motion;
-        CLI::App* sub =
-            add("motion", "what a record is measured by: PGA, PGV, Arias, spectrum, ...",
-                "record.AT2 --scale-to-pga-g 0.3",
-                [this](Server&, const Console& c) { return show_motion(a_.motion, c); });
-        sub->add_option("FILE", wish.file, "acceleration: PEER, CSV or two columns")->required();
+        CLI::App* sub = add(
+            "motion",
+            "what records are measured by: PGA, PGV, Arias, MASI, spectrum; or what a study of "
+            "several says",
+            "record.AT2 --scale-to-pga-g 0.3",
+            [this](Server& server, const Console& c) { return show_motion(server, a_.motion, c); });
+        CLI::Option_group* what = sub->add_option_group("what");
+        CLI::Option* file = what->add_option(
+            "FILE", wish.file, "acceleration: PEER, CSV or two columns; or a folder of them");
+        what->add_option("--of", wish.run, "instead: the run of a study of several motions");
+        what->require_option(1);
         sub->add_option("--scale-to-pga-g", wish.scale_to_pga_g, "peak acceleration [g]")
-            ->check(CLI::PositiveNumber);
-        sub->add_flag("--corrected", wish.corrected, "correct the baseline first");
+            ->check(CLI::PositiveNumber)
+            ->needs(file);
+        sub->add_flag("--corrected", wish.corrected, "correct the baseline first")->needs(file);
+        CLI::Option* scene =
+            sub->add_option("--scene", wish.scene,
+                            "of a folder: print a study that shakes this scene by each record");
+        scene->needs(file)->check(CLI::ExistingFile);
+        sub->add_option("--pga-g", wish.pga_g, "with --scene: scaled to each of these, 0.1,0.3")
+            ->delimiter(',')
+            ->check(CLI::PositiveNumber)
+            ->needs(scene);
     }
 
     void add_import() {

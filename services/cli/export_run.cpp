@@ -87,6 +87,7 @@ class Export {
             keep_text("samples.csv", server_.get_text(found + "?format=csv").body,
                       "one row per sample: draws and results");
         }
+        keep_motions(path_of({"runs", id, "motions"}), tasks);
         for (const json& each : tasks) task(each.at("id"));
         if (study.contains("uncertainty"))
             keep_json("envelopes.json", server_.get(path_of({"runs", id, "envelopes"})),
@@ -98,6 +99,17 @@ class Export {
     }
 
   private:
+    /// Of a study of several motions.
+    void keep_motions(const std::string& path, const json& tasks) {
+        const auto is_fem = [](const json& each) { return each.at("phase") == "fem_solver"; };
+        if (std::ranges::count_if(tasks, is_fem) < 2) return;
+        try {
+            keep_json("motions.json", server_.get(path), "what the motions say of the results");
+        } catch (const Refused& none) {
+            if (none.status() != 404) throw;
+        }
+    }
+
     /// Where a scene beside it finds what it names by its content.
     void sent_file(const json& file) {
         const auto reference = scene::file_reference(file.at("reference").get<std::string>());

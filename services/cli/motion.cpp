@@ -1,6 +1,8 @@
 #include "services/cli/motion.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "core/check/applied_motion.hpp"
 #include "core/motion/measures.hpp"
@@ -12,13 +14,13 @@ using nlohmann::json;
 
 namespace {
 
-motion::Series acceleration_in(const MotionWish& wish) {
+motion::Series acceleration_in(const std::filesystem::path& file, const MotionWish& wish) {
     const motion::Recording motion = check::applied_motion(
-        {.file = wish.file,
+        {.file = file,
          .scale_to_pga_g = wish.scale_to_pga_g,
          .baseline = wish.corrected ? scene::Baseline::corrected : scene::Baseline::as_recorded});
     if (motion.quantity == motion::Quantity::acceleration) return motion.series;
-    throw fault::BadInput(wish.file.string(),
+    throw fault::BadInput(file.string(),
                           {{"", "is no acceleration", "give the acceleration of the record"}});
 }
 
@@ -41,14 +43,137 @@ std::string as_text(const json& all) {
            as_table({{"period s", Align::right}, {"5 % S_a m/s2", Align::right}}, spectrum);
 }
 
+struct Measured {
+    std::filesystem::path file;
+    json measures;
+};
+
+/// Records of a folder by name; what is none is told and left out.
+std::vector<Measured> records_in(const MotionWish& wish, const Console& console) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& each : std::filesystem::directory_iterator(wish.file))
+        if (each.is_regular_file()) files.push_back(each.path());
+    std::ranges::sort(files);
+    std::vector<Measured> found;
+    for (const auto& each : files) {
+        try {
+            found.push_back(
+                {each, motion::as_json(motion::measures_of(acceleration_in(each, wish)))});
+        } catch (const fault::BadInput& error) {
+            console.notes << each.filename().string() << ": left out: " << error.what() << "\n";
+        }
+    }
+    if (found.empty())
+        throw fault::BadInput(wish.file.string(),
+                              {{"", "holds no record", "give a folder of accelerations"}});
+    return found;
+}
+
+/// The record's name as variants may be called, with its peak: "el_centro_30".
+std::string variant_named(const std::filesystem::path& file, std::optional<double> pga_g) {
+    std::string name;
+    for (const char letter : file.stem().string()) {
+        const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+        name += plain ? static_cast<char>(std::tolower(static_cast<unsigned char>(letter))) : '_';
+    }
+    name.erase(0, name.find_first_not_of('_'));
+    const std::string peak = pga_g ? "_" + std::to_string(std::lround(100.0 * *pga_g)) : "";
+    return shortened(name, 32 - peak.size()) + peak;
+}
+
+/// A study that shakes the scene by each record, at each peak, and transfers in the middle of its window.
+json study_of(const std::vector<Measured>& records, const MotionWish& wish) {
+    json variants = json::array();
+    const auto add = [&](const Measured& each, std::optional<double> pga_g) {
+        const auto file = std::filesystem::absolute(each.file).lexically_normal().string();
+        json overrides{"/fem/motion/file=" + file};
+        if (pga_g) overrides.push_back("/fem/motion/scale_to_pga_g=" + cell(json(*pga_g)));
+        variants.push_back({{"name", variant_named(each.file, pga_g)}, {"overrides", overrides}});
+    };
+    for (const Measured& each : records) {
+        if (wish.pga_g.empty()) add(each, std::nullopt);
+        for (const double pga_g : wish.pga_g) add(each, pga_g);
+    }
+    return {{"format", "breachline-study/1"},
+            {"name", "motions"},
+            {"scene", std::filesystem::absolute(wish.scene).lexically_normal().string()},
+            {"variants", variants},
+            {"triggers",
+             {{{"kind", "window"},
+               {"name", "window"},
+               {"lower", "liquefaction_depth >= critical_depth and failure_surfaces >= 1"},
+               {"upper", "jacobian_centre_avg < 0.97 or epsilon_q_avg > 0.2"},
+               {"pick", "midpoint"}}}}};
+}
+
+std::string as_text(const std::vector<Measured>& records) {
+    std::vector<Cells> rows;
+    for (const auto& [file, all] : records)
+        rows.push_back({file.filename().string(), cell(all, "pga_g"), cell(all, "pgv"),
+                        cell(all, "pgd"), cell(all, "arias"), cell(all, "strong_duration"),
+                        cell(all, "cav"), cell(all, "masi")});
+    return as_table({{"record", Align::left},
+                     {"PGA g", Align::right},
+                     {"PGV m/s", Align::right},
+                     {"PGD m", Align::right},
+                     {"Arias m/s", Align::right},
+                     {"D5-95 s", Align::right},
+                     {"CAV m/s", Align::right},
+                     {"MASI m/s", Align::right}},
+                    rows);
+}
+
+std::string interval(const json& found) {
+    return found.is_null() ? "-"
+                           : cell(found, "value") + " (" + cell(found, "low") + " to " +
+                                 cell(found, "high") + ")";
+}
+
+std::string found_as_text(const json& found) {
+    std::string text;
+    for (const json& each : found.at("sentences")) text += harmless(each.get<std::string>()) + "\n";
+    std::vector<Cells> rows;
+    for (const json& each : found.at("measures")) {
+        const json& curve = each.at("fragility");
+        rows.push_back({each.at("title"), interval(each.at("with_depth")),
+                        interval(each.at("with_runout")),
+                        curve.contains("refused")
+                            ? curve.at("refused").get<std::string>()
+                            : cell(curve, "median") + " " + each.at("unit").get<std::string>() +
+                                  " (" + cell(curve, "low") + " to " + cell(curve, "high") + ")"});
+    }
+    return text + "\n" +
+           as_table({{"measure", Align::left},
+                     {"with liquefied depth", Align::left},
+                     {"with runout", Align::left},
+                     {"half past the toe", Align::left}},
+                    rows);
+}
+
 }  // namespace
 
-fault::ExitCode show_motion(const MotionWish& wish, const Console& console) {
-    const json all = motion::as_json(motion::measures_of(acceleration_in(wish)));
-    if (console.style == Style::json)
-        show_json(all, console);
-    else
-        console.out << as_text(all);
+fault::ExitCode show_motion(Server& server, const MotionWish& wish, const Console& console) {
+    const auto show = [&](const json& answer, const auto& text) {
+        if (console.style == Style::json)
+            show_json(answer, console);
+        else
+            console.out << text();
+    };
+    if (!wish.run.empty()) {
+        const json found = server.get(path_of({"runs", run_named(server, wish.run), "motions"}));
+        show(found, [&] { return found_as_text(found); });
+    } else if (std::filesystem::is_directory(wish.file)) {
+        const auto records = records_in(wish, console);
+        json all;
+        for (const auto& [file, measures] : records) all[file.filename().string()] = measures;
+        if (!wish.scene.empty())
+            show_json(study_of(records, wish), console);
+        else
+            show(all, [&] { return as_text(records); });
+    } else {
+        const json all = motion::as_json(motion::measures_of(acceleration_in(wish.file, wish)));
+        show(all, [&] { return as_text(all); });
+    }
     return fault::ExitCode::done;
 }
 

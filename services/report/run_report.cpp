@@ -63,7 +63,7 @@ Document filled(const Run& run, const Choice& choice) {
         document.left_out.push_back({"motion, course of the finite elements, meshes and transfers",
                                      "the scene is static: it has no FEM"});
     } else {
-        for (const auto add : {add_motion, add_shaking, add_mesh, add_transfer})
+        for (const auto add : {add_motion, add_motions, add_shaking, add_mesh, add_transfer})
             add(material, document);
     }
     if (phase_named(run, phases::mpm.program)) {

@@ -57,6 +57,11 @@ class Run:
         return Table.of(self._source.results())
 
     @cached_property
+    def motions(self) -> Document:
+        """Of a study of several motions: which measures go with liquefaction and runout, onset, fragility."""
+        return self._source.motions()
+
+    @cached_property
     def _documents(self) -> list[Document]:
         return self._source.tasks()
 

@@ -26,6 +26,8 @@ class Source(Protocol):
 
     def results(self) -> Document: ...
 
+    def motions(self) -> Document: ...
+
     def tasks(self) -> list[Document]: ...
 
     def file(self, task: Document, name: str) -> Path:
@@ -54,6 +56,9 @@ class Exported:
 
     def results(self) -> Document:
         return dict(self._read("results.json"))
+
+    def motions(self) -> Document:
+        return dict(self._read("motions.json"))
 
     def tasks(self) -> list[Document]:
         found = [self._read(f"tasks/{each.parent.name}/task.json") for each in self.folder.glob("tasks/*/task.json")]
@@ -120,6 +125,9 @@ class Served:
 
     def results(self) -> Document:
         return dict(self.api.json_at(self.path + "/results"))
+
+    def motions(self) -> Document:
+        return dict(self.api.json_at(self.path + "/motions"))
 
     def tasks(self) -> list[Document]:
         return list(self.detail["tasks"])

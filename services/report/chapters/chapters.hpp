@@ -61,6 +61,7 @@ void add_inputs(const Material& from, Document& document);
 void add_stability(const Material& from, Document& document);
 void add_element_tests(const Material& from, Document& document);
 void add_motion(const Material& from, Document& document);
+void add_motions(const Material& from, Document& document);
 void add_shaking(const Material& from, Document& document);
 void add_mesh(const Material& from, Document& document);
 void add_transfer(const Material& from, Document& document);

@@ -220,6 +220,7 @@ Run read_run(const fs::path& folder) {
         }
         run.uncertainty = read_if_there(folder / "uncertainty.json");
         run.envelopes = read_if_there(folder / "envelopes.json");
+        run.motions = read_if_there(folder / "motions.json");
         run.name = run.scene.at("name");
         run.title = run.scene.value("title", run.name);
         if (about.is_object()) {

@@ -49,6 +49,7 @@ struct Run {
     /// Of a study over distributions, as the service tells them; null where the folder has none
     nlohmann::json uncertainty = {};
     nlohmann::json envelopes = {};
+    nlohmann::json motions = {};  ///< of a study of several motions; null where the folder has none
 };
 
 /// A folder belongs to a phase when it holds scene.completed.json, or the task.json of an export, and

@@ -113,6 +113,15 @@ export const results_csv = (run, means) => path_of("runs", run, "results") + (me
 /// Percentiles, importance, samples of a study over distributions.
 export const read_uncertainty = (run) => get_json(path_of("runs", run, "uncertainty"));
 export const uncertainty_file = (run, format) => `${path_of("runs", run, "uncertainty")}?format=${format}`;
+/// What a study of several motions says; null: the run is none.
+export async function read_motions(run) {
+    try {
+        return await get_json(path_of("runs", run, "motions"));
+    } catch (fault) {
+        if (fault instanceof Problem && fault.status === 404) return null;
+        throw fault;
+    }
+}
 /// What the samples reach along x; null where none of them tells, or of an earlier service.
 export async function read_envelopes(run) {
     try {

@@ -5,6 +5,7 @@ import { Cost } from "./cost.js";
 import { Database } from "./database.js";
 import { by_id, set_text } from "./dom.js";
 import { is_active, variants_of } from "./format.js";
+import { Motions } from "./motions.js";
 import { Particles } from "./particles.js";
 import { Plot } from "./plot.js";
 import { Provenance } from "./provenance.js";
@@ -37,6 +38,7 @@ const database = new Database();
 const compare = new Compare();
 const telemetry = new Telemetry();
 const tasks = new Tasks();
+const motions = new Motions();
 const uncertainty = new Uncertainty({ open_task: (id) => tasks.open(id), ask: (sample) => ask(results.rows.find((row) => row.variant === sample), "runout") });
 const head = new RunHead(() => look_soon());
 new SubmitDialog((run) => {
@@ -107,7 +109,7 @@ async function look() {
 
 // ---- the open run: no number of the one before stands under its name; a part is seen when its own have come
 
-const parts_of_a_run = ["uncertainty", "runouts", "particles", "telemetry", "cost", "tasks"];
+const parts_of_a_run = ["uncertainty", "motions", "runouts", "particles", "telemetry", "cost", "tasks"];
 let expected = "";
 
 function expect_parts_of(id) {
@@ -161,7 +163,7 @@ async function show_open_run() {
         return uncertainty.show(run, rows);
     }), "runouts", "cost", "uncertainty");
     const parts = await Promise.allSettled([
-        sweep, arrives(telemetry.show(run), "telemetry"), arrives(particles.show(run), "particles"),
+        sweep, arrives(motions.show(run), "motions"), arrives(telemetry.show(run), "telemetry"), arrives(particles.show(run), "particles"),
     ]);
     const broken = parts.find((part) => part.status === "rejected");
     if (broken) throw broken.reason;
