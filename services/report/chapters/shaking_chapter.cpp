@@ -149,6 +149,33 @@ std::string end_of(const PhaseFolder& fem) {
     return entanglement_of(fem);
 }
 
+/// What happens when, and when in the paper; nothing where nothing is known.
+std::optional<Figure> timeline_of(const Material& from) {
+    std::vector<PaperValue> events{{"window_lower", "window of transfer times opens", "s", 0.0},
+                                   {"window_upper", "window closes", "s", 0.0},
+                                   {"time_entangled", "mesh entangles", "s", 0.0}};
+    if (from.paper) events = from.paper->values;
+    Figure figure{"timeline",
+                  {"What happens when", {"time [s]"}, {"", Scale::linear, {"here"}}, {}},
+                  "By the telemetry."};
+    if (from.paper) figure.chart.y.names.push_back("paper");
+    for (const PaperValue& each : events) {
+        if (!each.key.starts_with("time_") && !each.key.starts_with("window_")) continue;
+        Series series{each.what, {}, {}, Style::points};
+        if (const auto here = from.measures.find(each.key); here != from.measures.end()) {
+            series.x.push_back(here->second.value);
+            series.y.push_back(0.0);
+        }
+        if (from.paper) {
+            series.x.push_back(each.value);
+            series.y.push_back(1.0);
+        }
+        if (!series.x.empty()) figure.chart.series.push_back(std::move(series));
+    }
+    if (figure.chart.series.empty()) return std::nullopt;
+    return figure;
+}
+
 }  // namespace
 
 void mark_window(const WindowEdges& window, std::vector<Mark>& marks) {
@@ -172,6 +199,7 @@ void add_shaking(const Material& from, Document& document) {
     const Telemetry telemetry = telemetry_of(from.run, *fem);
     Chapter chapter{"Motion and failure",
                     which_of_several(from.run, *fem, "finite element analyses") + end_of(*fem)};
+    if (auto figure = timeline_of(from)) chapter.figures.push_back(std::move(*figure));
     for (const Plan& plan : plans(fem->scene.value("fem", json::object()))) {
         Figure figure{plan.file, {plan.title, {"time [s]"}, {plan.label}, {}}, plan.caption};
         const bool needed = *plan.needs == 0 || fem->scene.contains(json::json_pointer(plan.needs));
