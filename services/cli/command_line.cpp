@@ -21,6 +21,7 @@
 #include "services/cli/scenes.hpp"
 #include "services/cli/stored.hpp"
 #include "services/cli/table.hpp"
+#include "services/cli/verify.hpp"
 #include "services/cli/watch.hpp"
 
 namespace breach::cli {
@@ -64,6 +65,7 @@ struct Arguments {
     std::filesystem::path scene;
     DrawWish draw;
     MotionWish motion;
+    VerifyWish verify;
     NewWish make;
     ImportWish import;
     ScenesWish scenes;
@@ -119,6 +121,7 @@ class CommandLine {
         add_templates();
         add_drawing();
         add_motion();
+        add_verify();
         add_import();
         add_storage_commands();
         add_scenes();
@@ -483,6 +486,19 @@ class CommandLine {
                          "/json/pointer=value, changes the scene; repeatable")
             ->allow_extra_args(false);
         draw_->add_flag("--mesh", a_.draw.mesh, "draw the FEM's mesh, too; made once and kept");
+    }
+
+    void add_verify() {
+        VerifyWish& wish = a_.verify;
+        CLI::App* sub = add(
+            "verify", "compare the programs with closed forms, published tables and other programs",
+            "--quick --output verification",
+            [this](Server&, const Console& c) { return verify(a_.verify, c); });
+        sub->add_flag("--quick", wish.quick, "without the slow cases; else all of them (--full)");
+        sub->add_flag("!--full", wish.quick, "all cases; the default");
+        sub->add_option("--output", wish.output, "folder of the pages")->capture_default_str();
+        sub->add_option("--catalogue", wish.catalogue, "folder of other cases")
+            ->check(CLI::ExistingDirectory);
     }
 
     void add_motion() {

@@ -1,0 +1,19 @@
+// `verify`: the programs against closed forms, published tables and independent programs.
+#pragma once
+
+#include <filesystem>
+
+#include "services/cli/commands.hpp"
+
+namespace breach::cli {
+
+struct VerifyWish {
+    std::filesystem::path output = "verification";
+    std::filesystem::path catalogue;  ///< empty: the one that is shipped
+    bool quick = false;
+};
+
+/// breakdown where a comparison fails.
+fault::ExitCode verify(const VerifyWish& wish, const Console& console);
+
+}  // namespace breach::cli

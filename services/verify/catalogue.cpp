@@ -1,0 +1,150 @@
+#include "services/verify/catalogue.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/fault/fault.hpp"
+
+namespace breach::verify {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One entry of a file, and what is wrong with it.
+class Entry {
+  public:
+    Entry(const json& of, std::string pointer, std::vector<fault::Fault>& faults)
+        : of_(of), pointer_(std::move(pointer)), faults_(faults) {}
+
+    void blame(const std::string& key, const std::string& cause, const std::string& remedy) {
+        faults_.push_back({pointer_ + "/" + key, cause, remedy});
+    }
+    std::string text(const std::string& key, const std::string& remedy) {
+        if (of_.contains(key) && of_.at(key).is_string() && of_.at(key) != "") return of_.at(key);
+        blame(key, "is missing", remedy);
+        return "";
+    }
+    double number(const std::string& key, const std::string& remedy) {
+        if (of_.contains(key) && of_.at(key).is_number()) return of_.at(key);
+        blame(key, "is missing", remedy);
+        return 0.0;
+    }
+    /// Of a list that must have something.
+    std::vector<std::pair<json, std::string>> list(const std::string& key) {
+        std::vector<std::pair<json, std::string>> items;
+        const json given = of_.value(key, json::array());
+        for (std::size_t k = 0; k < given.size(); ++k)
+            items.emplace_back(given[k], pointer_ + "/" + key + "/" + std::to_string(k));
+        if (items.empty()) blame(key, "is empty", "give at least one");
+        return items;
+    }
+    void only(const std::set<std::string>& known) {
+        for (const auto& [key, value] : of_.items())
+            if (!known.contains(key)) blame(key, "is not known", "take it out");
+    }
+    const json& of() const { return of_; }
+
+  private:
+    const json& of_;
+    std::string pointer_;
+    std::vector<fault::Fault>& faults_;
+};
+
+Quantity quantity_from(Entry entry) {
+    entry.only(
+        {"what", "file", "at", "where", "right", "relative", "absolute", "because", "scale"});
+    const json& of = entry.of();
+    Quantity made{
+        .what = entry.text("what", "name it"),
+        .place = {of.value("file", "result.json"), entry.text("at", "say where it stands"), ""},
+        .right = entry.number("right", "give the right value"),
+        .allowed = 0.0,
+        .relative = of.contains("relative"),
+        .because = entry.text("because", "say why so much is allowed"),
+        .scale = of.value("scale", 1.0)};
+    if (of.contains("where") && of.at("where").size() == 1) {
+        made.place.key = of.at("where").begin().key();
+        made.place.value = of.at("where").begin().value();
+    }
+    made.allowed =
+        entry.number(made.relative ? "relative" : "absolute", "say how far it may be off");
+    if (!(made.allowed > 0.0))
+        entry.blame("relative", "is not positive", "no two programs agree to the last digit");
+    return made;
+}
+
+Case case_from(Entry entry, const json& file, const fs::path& folder,
+               std::vector<fault::Fault>& faults) {
+    entry.only(
+        {"id", "question", "source", "kind", "scene", "set", "commands", "slow", "quantities"});
+    const json& of = entry.of();
+    Case made{.id = entry.text("id", "name it"),
+              .question = entry.text("question", "say what is asked"),
+              .source = entry.text("source", "say where the right value is from"),
+              .kind = entry.text("kind", "closed form, published or program"),
+              .scene = {},
+              .commands = of.value("commands", std::vector<std::vector<std::string>>()),
+              .slow = of.value("slow", false),
+              .quantities = {}};
+    if (of.contains("scene")) made.scene = folder / of.at("scene").get<std::string>();
+    if (!made.scene.empty() && !fs::exists(made.scene))
+        entry.blame("scene", "is no file: " + made.scene.string(), "put it beside the catalogue");
+    if (made.commands.empty()) {
+        std::vector<std::string> command{
+            file.value("program", ""), "{input}", "--output", "{output}", "--progress", "none"};
+        for (const std::string& each : of.value("set", std::vector<std::string>()))
+            command.insert(command.end(), {"--set", each});
+        made.commands.push_back(std::move(command));
+    }
+    for (const auto& [item, pointer] : entry.list("quantities"))
+        made.quantities.push_back(quantity_from({item, pointer, faults}));
+    return made;
+}
+
+Topic topic_in(const fs::path& path) {
+    std::ifstream stream(path);
+    const json file = json::parse(stream, nullptr, false);
+    if (!file.is_object())
+        throw fault::BadInput(path.string(), {{"", "is no JSON object", "mend it"}});
+    std::vector<fault::Fault> faults;
+    Entry entry(file, "", faults);
+    entry.only({"title", "phase", "text", "program", "cases"});
+    Topic made{.id = path.stem().string(),
+               .title = entry.text("title", "name it"),
+               .phase = entry.text("phase", "LEM, FEM, transfer, MPM or chain"),
+               .text = file.value("text", ""),
+               .cases = {}};
+    for (const auto& [item, pointer] : entry.list("cases"))
+        made.cases.push_back(case_from({item, pointer, faults}, file, path.parent_path(), faults));
+    if (!faults.empty()) throw fault::BadInput(path.string(), std::move(faults));
+    return made;
+}
+
+}  // namespace
+
+std::vector<Topic> catalogue_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const auto& each : fs::directory_iterator(folder))
+        if (each.path().extension() == ".json") files.push_back(each.path());
+    std::ranges::sort(files);
+    std::vector<Topic> topics;
+    std::set<std::string> ids;
+    for (const fs::path& each : files) {
+        topics.push_back(topic_in(each));
+        for (const Case& one : topics.back().cases)
+            if (!ids.insert(one.id).second)
+                throw fault::BadInput(
+                    each.string(),
+                    {{"/cases", "has a second case \"" + one.id + "\"", "name it otherwise"}});
+    }
+    if (topics.empty())
+        throw fault::BadInput(folder.string(),
+                              {{"", "holds no catalogue", "give a folder of *.json"}});
+    return topics;
+}
+
+}  // namespace breach::verify

@@ -1,0 +1,220 @@
+#include "services/verify/comparison.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "core/fault/fault.hpp"
+#include "core/phases/phases.hpp"
+
+namespace breach::verify {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+double Found::used() const {
+    if (!value || !std::isfinite(*value)) return std::numeric_limits<double>::infinity();
+    const double scale = quantity->relative ? std::abs(quantity->right) : 1.0;
+    return std::abs(difference()) / (quantity->allowed * scale);
+}
+
+namespace {
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
+        text.replace(at, what.size(), by);
+    return text;
+}
+
+/// Its exit code and CPU seconds; what it says goes to log.txt.
+std::pair<int, double> run_program(std::vector<std::string> words, const fs::path& folder) {
+    std::vector<char*> arguments;
+    for (std::string& each : words) arguments.push_back(each.data());
+    arguments.push_back(nullptr);
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    const std::string log = (folder / "log.txt").string();
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
+                                     O_WRONLY | O_CREAT | O_APPEND, 0644);
+    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    pid_t child = 0;
+    const int failed =
+        posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) return {127, 0.0};
+    int status = 0;
+    rusage spent{};
+    while (wait4(child, &status, 0, &spent) < 0 && errno == EINTR) {
+    }
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128,
+            seconds(spent.ru_utime) + seconds(spent.ru_stime)};
+}
+
+std::optional<double> number_in(const json& document, const std::string& pointer) {
+    const json::json_pointer at(pointer);
+    if (!document.contains(at) || !document.at(at).is_number()) return std::nullopt;
+    return document.at(at).get<double>();
+}
+
+/// (key, value) of each line that has both.
+std::vector<std::pair<double, double>> lines_in(const fs::path& file, const Place& place) {
+    std::vector<std::pair<double, double>> found;
+    std::ifstream stream(file);
+    std::vector<std::string> heads;
+    for (std::string line; std::getline(stream, line);) {
+        if (line.empty() || line.front() == '#') continue;
+        if (file.extension() == ".csv") {
+            std::vector<std::string> cells;
+            std::istringstream each(line);
+            for (std::string cell; std::getline(each, cell, ',');) cells.push_back(cell);
+            if (heads.empty()) {
+                heads = cells;
+                continue;
+            }
+            std::optional<double> key = place.key.empty() ? std::optional(0.0) : std::nullopt,
+                                  value;
+            for (std::size_t k = 0; k < std::min(heads.size(), cells.size()); ++k) {
+                char* end = nullptr;
+                const double number = std::strtod(cells[k].c_str(), &end);
+                if (end == cells[k].c_str()) continue;
+                if (heads[k] == place.key) key = number;
+                if (heads[k] == place.at) value = number;
+            }
+            if (key && value) found.emplace_back(*key, *value);
+        } else {
+            const json document = json::parse(line, nullptr, false);
+            if (!document.is_object()) continue;
+            const auto key =
+                place.key.empty() ? std::optional(0.0) : number_in(document, place.key);
+            if (const auto value = number_in(document, place.at); key && value)
+                found.emplace_back(*key, *value);
+        }
+    }
+    return found;
+}
+
+/// By a straight line between the first two lines that enclose it; without a key the last line's.
+std::optional<double> at_key(const std::vector<std::pair<double, double>>& lines,
+                             const Place& place) {
+    if (lines.empty()) return std::nullopt;
+    if (place.key.empty()) return lines.back().second;
+    for (std::size_t k = 0; k < lines.size(); ++k) {
+        const double near = 1e-9 * std::max(std::abs(place.value), 1e-12);
+        if (std::abs(lines[k].first - place.value) <= near) return lines[k].second;
+        if (k == 0) continue;
+        const auto [a, u] = lines[k - 1];
+        const auto [b, v] = lines[k];
+        if ((a - place.value) * (b - place.value) < 0.0)
+            return u + (v - u) * (place.value - a) / (b - a);
+    }
+    return std::nullopt;
+}
+
+Found found_in(const fs::path& folder, const Quantity& quantity) {
+    Found found{&quantity};
+    const fs::path file = folder / quantity.place.file;
+    if (!fs::exists(file)) {
+        found.problem = "no " + quantity.place.file;
+    } else if (file.extension() == ".json") {
+        std::ifstream stream(file);
+        found.value = number_in(json::parse(stream, nullptr, false), quantity.place.at);
+    } else {
+        found.value = at_key(lines_in(file, quantity.place), quantity.place);
+    }
+    if (found.value)
+        *found.value *= quantity.scale;
+    else if (found.problem.empty())
+        found.problem = "no number at " + quantity.place.at + " in " + quantity.place.file;
+    return found;
+}
+
+Outcome outcome_of(const Case& of, const Settings& settings) {
+    const fs::path folder = settings.output / "cases" / of.id;
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    Outcome outcome{&of};
+    std::string broke;
+    for (std::vector<std::string> words : of.commands) {
+        for (std::string& each : words)
+            each =
+                replaced(replaced(each, "{input}", of.scene.string()), "{output}", folder.string());
+        const std::string program = words.front();
+        words.front() = (settings.programs / program).string();
+        const auto [code, seconds] = run_program(std::move(words), folder);
+        outcome.cpu_seconds += seconds;
+        if (code == 0) continue;
+        broke = program + " ended with exit code " + std::to_string(code) + ": " +
+                (folder / "log.txt").string();
+        break;
+    }
+    for (const Quantity& each : of.quantities)
+        outcome.found.push_back(broke.empty() ? found_in(folder, each) : Found{&each, {}, broke});
+    return outcome;
+}
+
+}  // namespace
+
+std::vector<Outcome> compare(const std::vector<Topic>& catalogue, const Settings& settings,
+                             const std::function<void(const Outcome&, std::size_t of)>& said) {
+    std::vector<Outcome> outcomes;
+    for (const Topic& topic : catalogue)
+        for (const Case& each : topic.cases)
+            if (!settings.quick || !each.slow) outcomes.push_back({&each});
+    std::atomic<std::size_t> next = 0;
+    std::mutex saying;
+    std::exception_ptr failed;
+    const auto work = [&] {
+        for (std::size_t k; (k = next++) < outcomes.size();) {
+            try {
+                outcomes[k] = outcome_of(*outcomes[k].of, settings);
+                const std::lock_guard lock(saying);
+                said(outcomes[k], outcomes.size());
+            } catch (...) {
+                const std::lock_guard lock(saying);
+                failed = std::current_exception();
+                next = outcomes.size();
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> workers;
+        for (unsigned k = 0; k < std::max(1U, settings.slots); ++k) workers.emplace_back(work);
+    }
+    if (failed) std::rethrow_exception(failed);
+    return outcomes;
+}
+
+std::string versions_of(const Settings& settings) {
+    std::string versions;
+    const fs::path folder = settings.output / "versions";
+    for (const phases::Phase& each : phases::all) {
+        fs::remove_all(folder);
+        fs::create_directories(folder);
+        if (run_program({(settings.programs / each.program).string(), "--version"}, folder).first !=
+            0)
+            throw fault::IoError((settings.programs / each.program).string() + ": cannot be run");
+        std::ifstream log(folder / "log.txt");
+        std::string version, numerics;
+        std::getline(log, version);
+        std::getline(log, numerics);
+        versions += (versions.empty() ? "" : ", ") + version + " (" + numerics + ")";
+    }
+    fs::remove_all(folder);
+    return versions;
+}
+
+}  // namespace breach::verify
