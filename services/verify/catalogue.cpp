@@ -118,8 +118,13 @@ Topic topic_in(const fs::path& path) {
                .phase = entry.text("phase", "LEM, FEM, transfer, MPM or chain"),
                .text = file.value("text", ""),
                .cases = {}};
-    for (const auto& [item, pointer] : entry.list("cases"))
-        made.cases.push_back(case_from({item, pointer, faults}, file, path.parent_path(), faults));
+    try {
+        for (const auto& [item, pointer] : entry.list("cases"))
+            made.cases.push_back(
+                case_from({item, pointer, faults}, file, path.parent_path(), faults));
+    } catch (const json::exception& wrong) {
+        faults.push_back({"/cases", wrong.what(), "see the cases that are shipped"});
+    }
     if (!faults.empty()) throw fault::BadInput(path.string(), std::move(faults));
     return made;
 }

@@ -103,7 +103,7 @@ TEST(Counts, CracksThinWeakLayersAndBoundsAreSearchedFor) {
     EXPECT_GT(searches_of(shipped("slope", {R"(/lem/tension_crack={"depth":2})"})).slices,
               3.0 * alone);
     const scene::Scene seam =
-        scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/acads4_scene.json");
+        scene::read_scene(BREACH_ROOT "/workflows/verification/catalogue/lem/acads_4.json");
     scene::Scene sound = seam;
     for (scene::Material& each : sound.materials) each = sound.materials.front();
     EXPECT_GT(searches_of(seam).slices, 1.5 * searches_of(sound).slices);
@@ -128,7 +128,7 @@ TEST(Cost, OfLimitEquilibriumIsWithinTwoOfWhatItTook) {
     expect(shipped("slope", {R"(/lem/tension_crack={"depth":2})"}), 0.562);
     expect(shipped("slope", {R"(/lem/sensitivity={"surface":"searched"})"}), 0.640);
     expect(shipped("slope", {R"(/lem/non_circular={"vertices":13})"}), 0.494);
-    expect(scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/acads4_scene.json"), 0.587);
+    expect(scene::read_scene(BREACH_ROOT "/workflows/verification/catalogue/lem/acads_4.json"), 0.587);
     expect(shipped("mochikoshi", {R"(/lem/sensitivity={"surface":"searched"})"}), 5.735);
 }
 

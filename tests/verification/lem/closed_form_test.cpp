@@ -70,7 +70,7 @@ TEST(FrictionlessCircle, HasFelleniusFactorWithFewSlices) {
 }
 
 TEST(BishopFactor, ConvergesWithTheNumberOfSlices) {
-    const json scene = cases::scene_json(cases::load("12_fk1_case1"));
+    const json scene = cases::load("fk1_case1");
     const double exact = factor_of(scene, 5000);
     double previous = 1.0;
     for (const int slices : {10, 20, 40, 80}) {
@@ -84,7 +84,7 @@ TEST(BishopFactor, ConvergesWithTheNumberOfSlices) {
 }
 
 TEST(BishopFactor, SatisfiesItsOwnEquation) {
-    const scene::Scene scene = cases::scene_of(cases::load("03_acads_1c_circle"));
+    const scene::Scene scene = cases::scene_of("acads_1c_circle");
     const Model model = make_model(scene);
     Slices s = make_slices(model.strata, model.slices);
     cut(model.strata, model.soils, masses_of(model.strata, *scene.lem->circle)[0], model.slices, s);

@@ -22,13 +22,13 @@ double factor_of(const json& text) {
     return bishop(slices, slide_of(slices), model.k_h).factor_of_safety;
 }
 
-json fredlund_krahn() { return cases::scene_json(cases::load("12_fk1_case1")); }
+json fredlund_krahn() { return cases::load("fk1_case1"); }
 
 TEST(Submergence, DeepWaterIsBuoyantWeightWhateverItsDepth) {
-    const double shallow = factor_of(cases::scene_json(cases::load("16a_submerged_75")));
-    json deeper = cases::scene_json(cases::load("16a_submerged_75"));
+    const double shallow = factor_of(cases::load("submerged_75"));
+    json deeper = cases::load("submerged_75");
     for (json& vertex : deeper["lem"]["water"]["line"]) vertex[1] = 400.0;
-    const double buoyant = factor_of(cases::scene_json(cases::load("16c_buoyant")));
+    const double buoyant = factor_of(cases::load("buoyant"));
     std::printf("75 ft %.5f, 400 ft %.5f, buoyant weight without water %.5f\n", shallow,
                 factor_of(deeper), buoyant);
     // Bishop's vertical equilibrium sees the water's thrust by slices only: the same to the slices'

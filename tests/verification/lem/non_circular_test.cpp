@@ -157,7 +157,7 @@ TEST(Optimised, IsThePublishedOneWithWater) {
 }
 
 TEST(Optimised, IsThePublishedOneInAWeakLayer) {
-    const json facts = optimised(cases::scene_json(cases::load("11_arai_ex2_weak")));
+    const json facts = optimised(cases::load("arai_ex2_weak"));
     // the case's layers are digitised to 0.2 m; its file has the value
     compare("Arai & Tagyo 2, Spencer, Slide's", facts.at("factor_of_safety"), 0.422, 0.03);
 }

@@ -46,7 +46,7 @@ Analysed analysed(const json& text) { return analysed(small::parsed(text)); }
 // Giam & Donald (1989), EX4: published answers 0.69 to 0.78, the referee's 0.78.
 TEST(OneAnswer, OfAcads4IsTheLeastOfItsSurfaces) {
     scene::Scene scene =
-        scene::read_scene(BREACH_ROOT "/tests/verification/lem/cases/acads4_scene.json");
+        scene::read_scene(BREACH_ROOT "/workflows/verification/catalogue/lem/acads_4.json");
     for (const bool asked : {true, false}) {
         if (!asked) scene.lem->non_circular.reset();
         const Analysed found = analysed(scene);

@@ -28,7 +28,7 @@ double F_of(const json& text, const char* method = nullptr) {
 
 TEST(CosSquared, DoesNotAskARoundingWhetherALineOnTheGroundIsBelowIt) {
     // the seepage face of 29c follows a slope of 45 degrees, where cos^2 is a half
-    const json text = cases::scene_json(cases::load("29c_pyslope_c_R3"));
+    const json text = cases::load("pyslope_c_r3");
     const double F = F_of(text);
     for (const double shift : {1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6}) {
         json moved = text;
@@ -43,8 +43,8 @@ TEST(CosSquared, DoesNotAskARoundingWhetherALineOnTheGroundIsBelowIt) {
 TEST(Ordinary, OfASlopeUnderWaterIsThatOfItsBuoyantWeight) {
     // Duncan & Wright's fig. 6.27 (cases 16a, 16c): water up to the crest at 45 ft, 30, 60 and
     // 355 ft above it
-    const double buoyant = F_of(cases::scene_json(cases::load("16c_buoyant")), "ordinary");
-    json text = cases::scene_json(cases::load("16a_submerged_75"));
+    const double buoyant = F_of(cases::load("buoyant"), "ordinary");
+    json text = cases::load("submerged_75");
     for (const double level : {45.0, 75.0, 105.0, 400.0}) {
         for (json& point : text["lem"]["water"]["line"]) point[1] = level;
         Slices slices;

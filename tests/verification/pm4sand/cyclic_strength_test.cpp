@@ -76,24 +76,5 @@ TEST(CyclicStrength, ReferenceSchemeCountsTheCyclesOfOpenSeesInEveryRow) {
     for (const Row& row : reference_rows()) expect_parity(row);
 }
 
-/// The default scheme at the step of a field analysis against itself at a fine step.
-void expect_converged(const Row& row) {
-    const double fine = cycles(row, 1e-6, {.tolerance = 1e-6}).N_strain;
-    const double usual = cycles(row, 1e-4, {}).N_strain;
-    std::printf(
-        "%-12s %3.0f kPa CSR %.2f: N to 3 %% at steps of 1e-4 %.5f, of 1e-6 %.5f relative "
-        "%.1e (allowed 3e-3), reference %.5f relative %.1e\n",
-        row.material.c_str(), row.sigma_v, row.CSR, usual, fine, usual / fine - 1.0, row.N_3,
-        usual / row.N_3 - 1.0);
-    EXPECT_NEAR(usual / fine, 1.0, 3e-3);
-    EXPECT_NEAR(usual / row.N_3, 1.0, 3e-3);
-}
-
-TEST(CyclicStrength, DefaultSchemeIsConvergedAtStepsOfAFieldInEveryRow) {
-    for (const Row& row : reference_rows()) {
-        if (!row.consolidation_strain) expect_converged(row);
-    }
-}
-
 }  // namespace
 }  // namespace breach::testing::cyclic_strength_test

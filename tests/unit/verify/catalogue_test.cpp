@@ -1,0 +1,145 @@
+// The catalogue refuses what nobody could check; a program that fails is a row; numbers are found where
+// programs leave them.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/fault/fault.hpp"
+#include "services/verify/page.hpp"
+#include "tests/folder.hpp"
+
+namespace breach::verify::catalogue_test {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+json quantity(double right) {
+    return {{"what", "answer"},
+            {"at", "/answer"},
+            {"right", right},
+            {"relative", 0.01},
+            {"because", "three digits"}};
+}
+
+json topic(const json& quantities) {
+    const json one{{"id", "one"},
+                   {"question", "q"},
+                   {"source", "s"},
+                   {"kind", "closed form"},
+                   {"commands", json::array({json::array({"program", "{output}"})})},
+                   {"quantities", quantities}};
+    return {{"title", "T"}, {"phase", "LEM"}, {"cases", json::array({one})}};
+}
+
+/// A catalogue of one file, and a program that writes these files into its output.
+class Bench {
+  public:
+    explicit Bench(const json& file,
+                   const std::string& script = "echo '{\"answer\": 1.005}' > \"$1/result.json\"") {
+        fs::create_directories(folder_.path() / "catalogue");
+        std::ofstream(folder_.path() / "catalogue/topic.json") << file.dump();
+        std::ofstream(folder_.path() / "program") << "#!/bin/sh\n" << script << "\n";
+        fs::permissions(folder_.path() / "program", fs::perms::owner_all);
+    }
+    std::vector<Topic> catalogue() const { return catalogue_in(folder_.path() / "catalogue"); }
+    std::vector<Outcome> outcomes(const std::vector<Topic>& topics, bool quick = false) const {
+        return compare(topics,
+                       {.programs = folder_.path(),
+                        .output = folder_.path() / "out",
+                        .quick = quick,
+                        .slots = 2},
+                       [](const Outcome&, std::size_t) {});
+    }
+
+  private:
+    test::Folder folder_;
+};
+
+std::string pointer_of_refusal(const json& file) {
+    try {
+        Bench(file).catalogue();
+    } catch (const fault::BadInput& refusal) {
+        return refusal.faults().front().pointer;
+    }
+    return "accepted";
+}
+
+TEST(Catalogue, RefusesAQuantityWithoutToleranceReasonOrRightValue) {
+    for (const char* key : {"right", "relative", "because", "what", "at"}) {
+        json without = quantity(1.0);
+        without.erase(key);
+        const std::string named = std::string(key) == "relative" ? "absolute" : key;
+        EXPECT_EQ(pointer_of_refusal(topic(json::array({without}))),
+                  "/cases/0/quantities/0/" + named);
+    }
+}
+
+TEST(Catalogue, RefusesACaseWithoutSourceAndAWordItDoesNotKnow) {
+    json file = topic(json::array({quantity(1.0)}));
+    file["cases"][0].erase("source");
+    EXPECT_EQ(pointer_of_refusal(file), "/cases/0/source");
+    file = topic(json::array({quantity(1.0)}));
+    file["cases"][0]["tolerence"] = 1;
+    EXPECT_EQ(pointer_of_refusal(file), "/cases/0/tolerence");
+    file = topic(json::array({quantity(1.0)}));
+    file["cases"].push_back(file["cases"][0]);
+    EXPECT_EQ(pointer_of_refusal(file), "/cases") << "two of one id";
+}
+
+TEST(Comparison, IsWithinOrBeyondItsTolerance) {
+    const Bench bench(topic(json::array({quantity(1.0), quantity(1.02)})));
+    const auto topics = bench.catalogue();
+    const auto outcomes = bench.outcomes(topics);
+    ASSERT_EQ(outcomes.size(), 1U);
+    EXPECT_TRUE(outcomes[0].found[0].passed());
+    EXPECT_NEAR(outcomes[0].found[0].used(), 0.5, 1e-12);
+    EXPECT_FALSE(outcomes[0].found[1].passed());
+    const Sum sum = sum_of(outcomes);
+    EXPECT_EQ(sum.comparisons, 2U);
+    EXPECT_EQ(sum.passed, 1U);
+}
+
+TEST(Comparison, AProgramThatFailsIsARow) {
+    const Bench bench(topic(json::array({quantity(1.0)})), "exit 70");
+    const auto topics = bench.catalogue();
+    const auto outcomes = bench.outcomes(topics);
+    EXPECT_FALSE(outcomes[0].found[0].passed());
+    EXPECT_NE(outcomes[0].found[0].problem.find("exit code 70"), std::string::npos);
+    EXPECT_NE(as_markdown(topics, outcomes, {}, "figures").find("**failed**"), std::string::npos);
+}
+
+TEST(Comparison, ANumberThatIsNotThereFails) {
+    json other = quantity(1.0);
+    other["at"] = "/elsewhere";
+    const Bench bench(topic(json::array({other})));
+    const auto topics = bench.catalogue();
+    EXPECT_EQ(bench.outcomes(topics)[0].found[0].problem, "no number at /elsewhere in result.json");
+}
+
+TEST(Comparison, ReadsLinesBetweenTwoTimesAndColumnsOfCsv) {
+    json line = quantity(1.5), column = quantity(30.0);
+    line["file"] = "telemetry.jsonl", line["where"] = {{"/time", 0.5}};
+    column["file"] = "table.csv", column["at"] = "depth", column["where"] = {{"x", 3}};
+    const Bench bench(
+        topic(json::array({line, column})),
+        "echo '{\"time\":0,\"answer\":1}\n{\"time\":1,\"answer\":2}' > \"$1/telemetry.jsonl\"; "
+        "printf '# remark\\nx,depth\\n2,20\\n3,30\\n' > \"$1/table.csv\"");
+    const auto topics = bench.catalogue();
+    const auto outcomes = bench.outcomes(topics);
+    EXPECT_DOUBLE_EQ(outcomes[0].found[0].value.value(), 1.5);
+    EXPECT_DOUBLE_EQ(outcomes[0].found[1].value.value(), 30.0);
+}
+
+TEST(Comparison, LeavesSlowCasesOutOfQuick) {
+    json file = topic(json::array({quantity(1.0)}));
+    file["cases"][0]["slow"] = true;
+    const Bench bench(file);
+    const auto topics = bench.catalogue();
+    EXPECT_TRUE(bench.outcomes(topics, true).empty());
+    EXPECT_EQ(bench.outcomes(topics, false).size(), 1U);
+}
+
+}  // namespace
+}  // namespace breach::verify::catalogue_test
