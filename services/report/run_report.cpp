@@ -72,7 +72,7 @@ Document filled(const Run& run, const Choice& choice) {
     } else {
         document.left_out.push_back({"runout, flow and deposit", "the run has no runout"});
     }
-    for (const auto add : {add_variants, add_numbers}) add(material, document);
+    for (const auto add : {add_variants, add_checklist, add_numbers}) add(material, document);
     for (const auto& each : choice.companions) add_companion(each, paper, document);
     return document;
 }

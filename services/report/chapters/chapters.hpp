@@ -71,5 +71,6 @@ void add_outflow(const Material& from, Document& document);
 void add_ground(const Material& from, Document& document);
 void add_variants(const Material& from, Document& document);
 void add_numbers(const Material& from, Document& document);
+void add_checklist(const Material& from, Document& document);
 
 }  // namespace breach::report

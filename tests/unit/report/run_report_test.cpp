@@ -472,6 +472,29 @@ TEST_F(WetRun, OpensWithWhatWasAskedWhatComesOutAndWhatItIsWorth) {
         EXPECT_LT(html.find(before), html.find("<nav>")) << before;
 }
 
+TEST_F(WetRun, AnswersWhatAReviewerAsksFromItsOwnFindings) {
+    const Table asked = table(document(), "checklist");
+    const auto answer = [&](const std::string& begin) {
+        for (const auto& row : asked.rows)
+            if (row[0].starts_with(begin)) return row[1];
+        throw std::runtime_error("no question " + begin);
+    };
+    EXPECT_EQ(answer("Which laws"), "not modelled") << "the scene has no materials";
+    EXPECT_NE(answer("What is left out").find("plane section"), std::string::npos);
+    EXPECT_NE(answer("Was the soil calibrated").find("--element-tests"), std::string::npos);
+    EXPECT_EQ(answer("How far may").find("no estimate"), 0U) << answer("How far may");
+    for (const auto& row : asked.rows) EXPECT_FALSE(row[1].empty()) << row[0];
+}
+
+TEST_F(WetRun, DrawsWhatHappensWhenBesideThePaper) {
+    const Chart chart = figure(document(), "timeline").chart;
+    EXPECT_EQ(chart.y.names, (std::vector<std::string>{"here", "paper"}));
+    const auto entangled =
+        std::ranges::find(chart.series, "time at which the mesh entangles", &Series::name);
+    ASSERT_NE(entangled, chart.series.end());
+    EXPECT_EQ(entangled->x, (std::vector<double>{21.0, 23.0}));
+}
+
 TEST_F(WetRun, SaysWhichRunoutsAreShakenOnAndOfAnUnshakenSectionNothing) {
     const auto limits = [&] { return in_one(front_of(read_run(folder_)).limits); };
     EXPECT_NE(limits().find("and the shaking ends with it."), std::string::npos) << limits();
