@@ -1,0 +1,112 @@
+"""Random studies against an independent answer (answer.py), with phases that compute known functions (known.py).
+
+    properties_test.py [--studies N] [--seed N] [--only PROPERTY] [--case FILE]
+
+The seed is printed first; the smallest failing case is written to a file that --case reads."""
+import argparse
+import json
+import os
+import pathlib
+import sys
+import tempfile
+import time
+import traceback
+
+import hypothesis
+
+import answer
+import slips
+import studies
+from bench import Bench
+from journey import journey
+
+
+def moved_by(run):
+    """Overrides of each variant that the service made, by name."""
+    study = run["study"]
+    return {each["name"]: each["overrides"] for each in study.get("variants", []) if each.get("made_by") == "draws"}
+
+
+def comes_to_its_answer(bench, case):
+    """Whatever happens on the way, the rows, means, state and verdict are those of the answer."""
+    for study, run in journey(bench, case):
+        end = bench.wait(run)
+        found = answer.differences(answer.answer(study, moved_by(end)), end, bench.results(run))
+        assert not found, f"run {run}: " + "; ".join(found[:12])
+
+
+def is_refused_everywhere(bench, case):
+    """A slip is refused with its pointer, by the API and by what --dry-run asks, and nothing is stored."""
+    before = bench.newest()
+    answers = [bench.post(path, case["study"]) for path in ("/v1/cost", "/v1/runs")]
+    assert [status for status, _ in answers] == [422, 422], f"{case['how']} at {case['slip']}: cost, runs: {answers}"[:900]
+    faults = [sorted((fault["pointer"], fault["cause"]) for fault in refusal["faults"]) for _, refusal in answers]
+    assert faults[0] == faults[1], f"{case['how']} at {case['slip']}: cost {faults[0]}, runs {faults[1]}"
+    assert any(slips.is_about(pointer, case) for pointer, _ in faults[0]), f"{case['how']} at {case['slip']}: {faults[0]}"
+    assert bench.newest() == before, "a refused study is stored"
+
+
+properties = {
+    "sweeps": (comes_to_its_answer, studies.cases),
+    "slips": (is_refused_everywhere, slips.slips),
+}
+
+
+def look_for_a_failure(name, bench, count, seed, shrink):
+    """The smallest case that fails, and how; None: none was found."""
+    holds, strategy = properties[name]
+    failed, runs = {}, []
+
+    @hypothesis.seed(seed)
+    @hypothesis.settings(max_examples=count, deadline=None, database=None, print_blob=False, report_multiple_bugs=False,
+                         phases=[hypothesis.Phase.generate] + [hypothesis.Phase.shrink] * shrink,
+                         suppress_health_check=list(hypothesis.HealthCheck))
+    @hypothesis.given(strategy())
+    def search(case):
+        runs.append(case)
+        try:
+            holds(bench, case)
+        except Exception:
+            failed["case"], failed["how"] = case, traceback.format_exc(limit=-2)  # the last one is the smallest
+            raise
+
+    try:
+        search()
+    except Exception:
+        return failed or {"case": None, "how": traceback.format_exc()}, runs
+    return None, runs
+
+
+def main():
+    words = argparse.ArgumentParser()
+    words.add_argument("--studies", type=int, default=300)
+    words.add_argument("--seed", type=int, default=1)
+    words.add_argument("--only", choices=properties)
+    words.add_argument("--case", type=pathlib.Path)
+    words.add_argument("--as-found", action="store_true", help="do not look for a smaller failure")
+    words = words.parse_args()
+    print(f"seed {words.seed}", flush=True)
+    status = 0
+    with tempfile.TemporaryDirectory() as folder:
+        bench = Bench(pathlib.Path(folder) / "local")
+        try:
+            if words.case:
+                kept = json.loads(words.case.read_text())
+                properties[kept["property"]][0](bench, kept["case"])
+                return 0
+            for name in [words.only] if words.only else properties:
+                began, cpu = time.monotonic(), sum(os.times()[:4])
+                failed, runs = look_for_a_failure(name, bench, words.studies, words.seed, not words.as_found)
+                print(f"{name}: {len(runs)} cases, {time.monotonic() - began:.1f} s, own CPU {sum(os.times()[:4]) - cpu:.1f} s", flush=True)
+                if failed:
+                    file = pathlib.Path(tempfile.gettempdir()) / f"failed_{name}_{words.seed}.json"
+                    file.write_text(json.dumps({"property": name, "case": failed["case"]}, indent=1))
+                    print(f"{failed['how']}\nagain: {sys.argv[0]} --case {file}", flush=True)
+                    status = 1
+        finally:
+            bench.stop()
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())
