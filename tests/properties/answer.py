@@ -84,7 +84,7 @@ def same_results(study, rows):
         if each["runout"] is not None:
             numbers.setdefault(each["variant"], {})[each["transfer_time"]] = [each[name] for name in [*averaged, "factor_of_safety"]]
     groups = []
-    for name in [each["name"] for each in study.get("variants", [])]:
+    for name in [name for _, name, _ in variants_of(study)]:
         for group in groups:
             if all((both := numbers.get(name, {}).keys() & numbers.get(other, {}).keys()) and
                    all(numbers[name][t] == numbers[other][t] for t in both) for other in group):
@@ -95,13 +95,15 @@ def same_results(study, rows):
     return [group for group in groups if len(group) > 1]
 
 
-def verdict(study, scenes, rows):
+def verdict(study, scenes, rows, without):
     """How far the results can be used (docs/reading_results.md)."""
     factors = [known.lem(each) for each in scenes] if "lem" in study["scene"] and study.get("stability", True) else []
     falls = [each is not None and each < 1 for each in factors] if not study.get("known_failure") else []
-    if falls and all(falls) or all(each["state"] == "not_reached" for each in rows):
+    missing = [each["variant"] for each in without] + [name for name in {each["variant"] for each in rows} if all(
+        each["state"] == "not_reached" for each in rows if each["variant"] == name)]
+    if falls and all(falls) or len(missing) == len(scenes):
         return "no"
-    if any(falls) or any(each["questionable"] for each in rows) or any(each["state"] == "not_reached" for each in rows):
+    if any(falls) or any(each["questionable"] for each in rows) or missing:
         return "questionable"
     if None in factors or any(each["state"] in ("failed", "skipped") for each in rows) or any(breaks_down(each) for each in scenes):
         return "in_part"
@@ -118,28 +120,60 @@ def state(study, scenes, rows):
     broken = None in lems or any(each["state"] in ("failed", "skipped") for each in rows) or any(map(breaks_down, scenes))
     if broken:
         return "partial" if any(each["runout"] is not None for each in rows) else "failed"
-    if all(each["state"] == "not_reached" for each in rows):
+    if all(each["state"] == "not_reached" for each in rows):  # also where there is none
         return "partial"
     return "questionable" if any(each["questionable"] for each in rows) else "succeeded"
 
 
+def transfers_of(study, scene):
+    """(time, what made it: None where it is one of several, whether a trigger's condition was met)"""
+    if "fem" not in scene:
+        return [(None, "")], False
+    made = {time: "at_time" for time in study.get("transfer_times", [])}
+    met = False
+    for trigger in study.get("triggers", []):
+        time, was_met = fired(trigger, scene)
+        met = met or was_met
+        if time is not None:
+            made[time] = None if time in made else trigger["name"]
+    return sorted(made.items()), met
+
+
+def without_transfer(scene, variant, met):
+    how = known.fem(scene)[1]
+    return {"variant": variant, "state": "failed" if how == "breakdown" else "not_reached", "stood": how == "complete" and not met}
+
+
 def answer(study, moved):
     """`moved`: overrides of each variant by name, as stored, which say where draws have their lattices and steps."""
-    rows, means, scenes = [], [], []
+    rows, means, scenes, without = [], [], [], []
     for own, name, _ in variants_of(study):
         scene = scene_of(study, {"overrides": moved.get(name, own.get("overrides", []))})
         scenes.append(scene)
         shift = (scene["transfer"] if "fem" in scene else scene["mpm"]).get("point_shift" if "fem" in scene else "fill_shift", [0, 0])[0]
-        for time in study.get("transfer_times", [None]) if "fem" in scene else [None]:
-            rows.append(row(study, scene, name, time, shift))
+        made, met = transfers_of(study, scene)
+        for time, by in made:
+            rows.append({**row(study, scene, name, time, shift), "trigger": by})
+        if not made:
+            without.append(without_transfer(scene, name, met))
     if study.get("draws", 1) > 1:
         for own in study.get("variants") or [{"name": ""}]:
             names = [name for each, name, _ in variants_of(study) if each["name"] == own["name"]]
-            for time in dict.fromkeys(each["transfer_time"] for each in rows):
+            for time in sorted({each["transfer_time"] for each in rows if each["variant"] in names}, key=lambda time: time or 0):
                 of = [each for each in rows if each["variant"] in names and each["transfer_time"] == time]
                 means.append({"variant": own["name"], **mean(of, study["draws"])})
-    return {"rows": rows, "means": means, "state": state(study, scenes, rows), "verdict": verdict(study, scenes, rows),
-            "same_results": same_results(study, rows)}
+    return {"rows": rows, "means": means, "state": state(study, scenes, rows), "verdict": verdict(study, scenes, rows, without),
+            "same_results": same_results(study, rows), "without_transfer": without, **counts(scenes, rows)}
+
+
+def counts(scenes, rows):
+    """Of results with flags, by their codes, and of those that are questionable."""
+    fems = {known.fem(each)[0]: known.fem(each)[1] for each in scenes if "fem" in each}
+    found = {"entangled": sum(how == "entangled" for how in fems.values())}
+    for code in ("still_moving", "overlap"):
+        found[code] = sum(code in each.get("flags", []) for each in rows)
+    return {"flag_counts": {code: count for code, count in found.items() if count},
+            "questionable": sum(each["questionable"] is True for each in rows), "fems": len(fems)}
 
 
 def differs(wanted, got):
@@ -159,10 +193,21 @@ def differences(wanted, run, results):
         for key in shown.keys() & asked.keys():
             for name, value in asked[key].items():
                 got = shown[key][name]
+                if name == "trigger" and value is None:
+                    continue
                 if name == "flags":
                     got = sorted(flag["code"] for flag in got or [])
                 if differs(value, got) and not (name == "reason" and value.startswith(" failed") and str(got).endswith(value)):
                     found.append(f"{what} {key}: {name} is {got!r} for {value!r}")
+    listed = [{name: each[name] for name in ("variant", "state", "stood")} for each in results["without_transfer"]]
+    if listed != wanted["without_transfer"]:
+        found.append(f"without_transfer is {listed} for {wanted['without_transfer']}")
+    for name in ("flag_counts", "questionable"):
+        if run[name] != wanted[name]:
+            found.append(f"{name} is {run[name]} for {wanted[name]}")
+    fems = sum(task["phase"] == "fem_solver" for task in run["tasks"])
+    if fems != wanted["fems"]:
+        found.append(f"{fems} FEMs for {wanted['fems']}")
     if results["same_results"] != wanted["same_results"]:
         found.append(f"same_results is {results['same_results']} for {wanted['same_results']}")
     if run["state"] != wanted["state"]:
@@ -171,3 +216,45 @@ def differences(wanted, run, results):
         found.append(f"the verdict is {results['verdict']['usable']} for {wanted['verdict']}: "
                      f"{[reason['text'] for reason in results['verdict']['reasons']]}")
     return found
+
+
+# Triggers ------------------------------------------------------------------------------------------------------------------------
+
+def truth(condition, whole, time):
+    """Of "FIELD > NUMBER"."""
+    field, limit = condition.split(" > ")
+    return {"time": time, "crest_displacement": known.crest(whole, time)}[field] > float(limit)
+
+
+def fired(trigger, scene):
+    """(transfer time or None, whether the condition was met) of a FEM. Fields here only grow, snapshots are taken at every line."""
+    whole, _, when = known.fem(scene)
+    lines = [round(k * known.step, 6) for k in range(1, round(when / known.step) + 1)]
+    hold = trigger.get("hold_s", 0)
+
+    def became_true(condition):
+        return next((t for t in lines if truth(condition, whole, t)), None)
+
+    def held(since):
+        """The line on which it has been true for the hold."""
+        return None if since is None else next((t for t in lines if t >= since + hold - 1e-9), None)
+
+    if trigger["kind"] == "criterion":
+        since = became_true(trigger["when"])
+        return held(since), since is not None
+    since = became_true(trigger["lower"])
+    lower, upper = since, became_true(trigger["upper"])
+    if held(lower) is None:
+        return None, since is not None
+    if held(upper) is None:
+        upper = None
+    if upper is not None and upper <= lower:
+        return None, True  # no window
+    end = lines[-1] if upper is None else upper
+    pick = trigger.get("pick", "midpoint")
+    if pick == "first":
+        return lower, True
+    if pick == "midpoint":
+        return next(t for t in lines if t >= (lower + end) / 2 - 1e-9), True
+    before = [t for t in lines if lower <= t < end or upper is None and t == end]
+    return before[-1], True

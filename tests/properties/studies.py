@@ -7,6 +7,8 @@ import pathlib
 
 from hypothesis import strategies as st
 
+import known
+
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 times = [0.3, 0.5, 0.9, 1.2, 1.6]
 
@@ -67,6 +69,28 @@ def sweeps(draw):
         if draw(st.integers(0, 3)) == 0:
             study[key] = value
     return study
+
+
+@st.composite
+def triggered(draw):
+    """A criterion or a window on a few variants, seldom beside times."""
+    study = draw(sweeps().filter(lambda each: "fem" in each["scene"]))
+    if draw(st.integers(0, 3)):
+        del study["transfer_times"]
+    study.pop("draws_of", None)  # refused: each draw's FEM would have a time of its own
+    if study.get("draws", 1) > 2:
+        study["draws"] = 2
+    condition = st.builds("{} > {}".format, st.sampled_from(["crest_displacement", "time"]), st.sampled_from([0.25, 0.45, 0.75, 1.25, 1.75, 2.5]))
+    trigger = {"kind": draw(st.sampled_from(["criterion", "window"])), "name": "t", "snapshot_interval_s": known.step}
+    if trigger["kind"] == "criterion":
+        trigger["when"] = draw(condition)
+    else:
+        trigger |= {"lower": draw(condition), "upper": draw(condition)}
+        pick = draw(st.sampled_from([None, "first", "midpoint", "last_before"]))
+        trigger |= {"pick": pick} if pick else {}
+    if draw(st.booleans()):
+        trigger["hold_s"] = draw(st.sampled_from([0.1, 0.2, 0.5]))
+    return study | {"triggers": [trigger]}
 
 
 @st.composite

@@ -1,0 +1,23 @@
+"""Faults of the product that the properties have found and that are not mended yet: a difference that matches one is counted, not failed.
+An entry goes with the commit that mends it."""
+import re
+
+known = [
+    ("the verdict of a run whose FEMs all entangled before every transfer time is not 'no'", r"the verdict is \w+ for (no|questionable): .*Entangled"),
+    ("a dam that stood in some variants is a remark, against docs/reading_results.md", r"the verdict is with_remarks for questionable: .*The dam may stand"),
+    ("the fault of an override that is no assignment points to /scene", r"^the override [^:]*: \[\('/scene', '--set"),
+    ("submission and --dry-run give different causes for a scene that is no object", r"cost \[\('/scene', 'is not the scene itself'\)\], runs"),
+]
+seen = {}
+
+
+def is_open(difference):
+    for name, pattern in known:
+        if re.search(pattern, difference):
+            seen[name] = seen.get(name, 0) + 1
+            return True
+    return False
+
+
+def unknown(differences):
+    return [each for each in differences if not is_open(each)]
