@@ -255,6 +255,6 @@ def fired(trigger, scene):
     if pick == "first":
         return lower, True
     if pick == "midpoint":
-        return next(t for t in lines if t >= (lower + end) / 2 - 1e-9), True
+        return min((t for t in lines if lower <= t <= end), key=lambda t: (round(abs(t - (lower + end) / 2), 6), t)), True  # the earlier of two
     before = [t for t in lines if lower <= t < end or upper is None and t == end]
     return before[-1], True

@@ -20,6 +20,11 @@ def journey(bench, case):
     times = study.get("transfer_times", [])
     piecewise = len(times) > 1 and on & {"extend", "extend_at_once"}
     first = dict(study, transfer_times=times[::2]) if piecewise else study
+    rest = {"transfer_times": times[1::2]}
+    uncertainty = study.get("uncertainty", {})
+    if on & {"extend", "extend_at_once"} and uncertainty.get("first_block", 99) < uncertainty.get("samples", 0):
+        piecewise, rest = True, {"samples": uncertainty["samples"]}
+        first = dict(study, uncertainty={**uncertainty, "samples": uncertainty["first_block"]})
     run = bench.submit({**first, "budget": {"cpu_seconds": 0.001}} if "budget" in on else first)
     if "remove" in on and "warm" in on:  # while the next one takes its files
         assert bench.delete(f"/v1/runs/{earlier}") in (200, 202, 204)
@@ -45,7 +50,7 @@ def journey(bench, case):
     if "budget" in on:
         ok(bench.post(f"/v1/sweeps/{run}/extend", {"budget": None}))
     if piecewise:
-        ok(bench.post(f"/v1/sweeps/{run}/extend", {"transfer_times": times[1::2]}))
+        ok(bench.post(f"/v1/sweeps/{run}/extend", rest))
     bench.wait(run)
     if "retry" in on:
         ok(bench.post(f"/v1/runs/{run}/retry"))

@@ -35,7 +35,7 @@ def soil(scene):
 def lem(scene):
     """Factor of safety; None: it breaks down."""
     slices = at(scene, "/lem/slices", 50)
-    return None if slices == 13 else number(0.7, 1.9, "lem", slices, soil(scene), float(at(scene, "/lem/seismic_coefficient", 0)))
+    return None if slices == 13 else number(0.7, 1.9, "lem", slices, soil(scene), float(at(scene, "/lem/search/minimum_depth", 0.5)))
 
 
 def fem(scene):

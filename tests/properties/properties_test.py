@@ -16,6 +16,7 @@ import hypothesis
 
 import answer
 import open_faults
+import samples
 import slips
 import studies
 from bench import Bench
@@ -34,6 +35,29 @@ def comes_to_its_answer(bench, case):
         end = bench.wait(run)
         found = open_faults.unknown(answer.differences(answer.answer(study, moved_by(end)), end, bench.results(run)))
         assert not found, f"run {run}: " + "; ".join(found[:12])
+
+
+def told(bench, case, differences):
+    """The same of a study that has an answer of its own: what `differences` finds for (study, run)."""
+    for study, run in journey(bench, case):
+        found = open_faults.unknown(differences(study, bench.wait(run)))
+        assert not found, f"run {run}: " + "; ".join(found[:12])
+
+
+def samples_say(bench, case):
+    told(bench, case, lambda study, run: samples.uncertainty_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")))
+
+
+def ladders_say(bench, case):
+    told(bench, case, lambda study, run: samples.accuracy_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/accuracy")))
+
+
+def a_target_is_found(bench, case):
+    told(bench, case, lambda study, run: samples.inverse_differences(study, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")))
+
+
+def a_plateau_is_found(bench, case):
+    told(bench, case, lambda study, run: samples.bisect_differences(bench.service.call(f"/v1/runs/{run['id']}/triggers")["triggers"]))
 
 
 def is_refused_everywhere(bench, case):
@@ -58,6 +82,10 @@ def is_refused_everywhere(bench, case):
 properties = {
     "sweeps": (comes_to_its_answer, studies.cases),
     "triggers": (comes_to_its_answer, lambda: studies.cases(studies.triggered())),
+    "samples": (samples_say, lambda: studies.cases(samples.uncertain())),
+    "ladders": (ladders_say, lambda: studies.cases(samples.ladders())),
+    "inverse": (a_target_is_found, lambda: studies.cases(samples.inverses())),
+    "bisect": (a_plateau_is_found, lambda: studies.cases(samples.bisections())),
     "slips": (is_refused_everywhere, slips.slips),
 }
 
