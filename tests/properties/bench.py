@@ -70,6 +70,10 @@ class Bench:
         raise AssertionError(f"run {run} is {answer['state']} after {seconds} s: "
                              f"{[(task['label'], task['state'], task['message']) for task in answer['tasks']]}")
 
+    def content(self, path):
+        with urllib.request.urlopen(self.service.url + path, timeout=60) as answer:
+            return answer.read()
+
     def results(self, run):
         return self.service.call(f"/v1/runs/{run}/results")
 

@@ -1,6 +1,6 @@
 """Random studies against an independent answer (answer.py), with phases that compute known functions (known.py).
 
-    properties_test.py [--studies N] [--seed N] [--only PROPERTY] [--case FILE]
+    properties_test.py [--studies N] [--seed N] [--only PROPERTY] [--case FILE] [--slurm] [--table FILE]
 
 The seed is printed first; the smallest failing case is written to a file that --case reads."""
 import argparse
@@ -16,9 +16,11 @@ import hypothesis
 
 import answer
 import open_faults
+import pairs
 import samples
 import slips
 import studies
+import views
 from bench import Bench
 from journey import journey
 
@@ -60,6 +62,13 @@ def a_plateau_is_found(bench, case):
     told(bench, case, lambda study, run: samples.bisect_differences(bench.service.call(f"/v1/runs/{run['id']}/triggers")["triggers"]))
 
 
+def views_agree(bench, case):
+    for _, run in journey(bench, case):
+        bench.wait(run)
+        found = open_faults.unknown(views.differences(bench, run, bench.folder))
+        assert not found, f"run {run}: " + "; ".join(found[:12])
+
+
 def is_refused_everywhere(bench, case):
     """A slip is refused with its pointer, by the API and by what --dry-run asks, and nothing is stored."""
     before, where = bench.newest(), f"{case['how']} at {case['slip']}"
@@ -86,8 +95,16 @@ properties = {
     "ladders": (ladders_say, lambda: studies.cases(samples.ladders())),
     "inverse": (a_target_is_found, lambda: studies.cases(samples.inverses())),
     "bisect": (a_plateau_is_found, lambda: studies.cases(samples.bisections())),
+    "views": (views_agree, lambda: studies.cases(studies.triggered() | studies.sweeps())),
     "slips": (is_refused_everywhere, slips.slips),
 }
+
+
+shares = {"sweeps": 0.3, "triggers": 0.2, "samples": 0.08, "ladders": 0.07, "inverse": 0.03, "bisect": 0.02, "views": 0.1, "slips": 0.2}
+
+
+def count_of(name, studies):
+    return max(1, round(shares[name] * studies))
 
 
 def look_for_a_failure(name, bench, count, seed, shrink):
@@ -121,26 +138,34 @@ def main():
     words.add_argument("--seed", type=int, default=1)
     words.add_argument("--only", choices=properties)
     words.add_argument("--case", type=pathlib.Path)
+    words.add_argument("--slurm", action="store_true", help="on the fake Slurm")
+    words.add_argument("--table", type=pathlib.Path, help="write the pairs of features that were met")
     words.add_argument("--as-found", action="store_true", help="do not look for a smaller failure")
     words = words.parse_args()
     print(f"seed {words.seed}", flush=True)
     status = 0
     with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(pathlib.Path(folder) / "local")
+        bench = Bench(pathlib.Path(folder) / "bench", words.slurm)
         try:
             if words.case:
                 kept = json.loads(words.case.read_text())
                 properties[kept["property"]][0](bench, kept["case"])
                 return 0
+            cases = []
             for name in [words.only] if words.only else properties:
                 began, cpu = time.monotonic(), sum(os.times()[:4])
-                failed, runs = look_for_a_failure(name, bench, words.studies, words.seed, not words.as_found)
+                failed, runs = look_for_a_failure(name, bench, count_of(name, words.studies) if not words.only else words.studies, words.seed, not words.as_found)
                 print(f"{name}: {len(runs)} cases, {time.monotonic() - began:.1f} s, own CPU {sum(os.times()[:4]) - cpu:.1f} s", flush=True)
+                cases += [each for each in runs if "disturbances" in each]
                 if failed:
                     file = pathlib.Path(tempfile.gettempdir()) / f"failed_{name}_{words.seed}.json"
                     file.write_text(json.dumps({"property": name, "case": failed["case"]}, indent=1))
                     print(f"{failed['how']}\nagain: {sys.argv[0]} --case {file}", flush=True)
                     status = 1
+            for name, count in open_faults.seen.items():
+                print(f"open fault, seen {count} times: {name}")
+            if words.table:
+                words.table.write_text(pairs.table(cases))
         finally:
             bench.stop()
     return status
