@@ -33,10 +33,19 @@ def moved_by(run):
 
 def comes_to_its_answer(bench, case):
     """Whatever happens on the way, the rows, means, state and verdict are those of the answer."""
+    extended = bool({"extend", "extend_at_once"} & set(case["disturbances"]))
     for study, run in journey(bench, case):
         end = bench.wait(run)
-        found = open_faults.unknown(answer.differences(answer.answer(study, moved_by(end)), end, bench.results(run)))
+        found = open_faults.unknown(answer.differences(answer.answer(study, moved_by(end)), end, bench.results(run), extended))
+        found += reuse_differences(study, case["disturbances"], bench.results(run)["rows"])
         assert not found, f"run {run}: " + "; ".join(found[:12])
+
+
+def reuse_differences(study, disturbances, rows):
+    """Without the cache nothing is reused; with it all that an equal run has computed."""
+    wanted = False if study.get("reuse") is False else True if "warm" in disturbances and "remove" not in disturbances else None
+    return [] if wanted is None else [f"row {row['variant'], row['transfer_time']}: reused is {row['reused']}" for row in rows
+                                      if row["runout"] is not None and row["reused"] is not wanted]
 
 
 def told(bench, case, differences):

@@ -88,7 +88,9 @@ def slips(draw):
 
 def is_about(fault, case):
     """The fault's pointer is that of the slip, above it by one, or below it. What an override puts into the scene may be told of the scene."""
-    at = [case["slip"]]
+    at, above = [case["slip"]], [case["slip"].rsplit("/", 1)[0]]
     if case["how"].startswith("the override /"):
-        at.append("/scene" + case["how"].removeprefix("the override ").split("=")[0])
-    return any(fault == slip or fault.startswith(slip + "/") or fault == slip.rsplit("/", 1)[0] != "/scene" for slip in at)
+        in_scene = "/scene" + case["how"].removeprefix("the override ").split("=")[0].removesuffix("/-")
+        at.append(in_scene)
+        above += [in_scene.rsplit("/", 1)[0]] * (in_scene.count("/") > 2)
+    return fault in above or any(fault == slip or fault.startswith(slip + "/") for slip in at)
