@@ -1,5 +1,6 @@
 """One service with stand-in phases, for many studies: submit, disturb, wait."""
 import itertools
+import json
 import os
 import pathlib
 import sys
@@ -46,12 +47,21 @@ class Bench:
         return self.service.post(path, {} if body is None else body)
 
     def delete(self, path):
-        request = urllib.request.Request(self.service.url + path, method="DELETE")
+        return self.send(path, method="DELETE")[0]
+
+    def send(self, path, body=None, method=None):
+        """(status, answer); a path with a query is got."""
+        data = None if "?" in path or method else json.dumps(body).encode()
+        request = urllib.request.Request(self.service.url + path, data, {"Content-Type": "application/json"}, method=method)
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:
-                return answer.status
+                status, text = answer.status, answer.read()
         except urllib.error.HTTPError as refusal:
-            return refusal.code
+            status, text = refusal.code, refusal.read()
+        try:
+            return status, json.loads(text)
+        except ValueError:
+            return status, {"text": text.decode(errors="replace")}
 
     def submit(self, study):
         status, answer = self.post("/v1/runs", {**study, "name": f"s{next(self.numbers)}"})

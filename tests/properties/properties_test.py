@@ -7,12 +7,14 @@ import argparse
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 import time
 import traceback
 
 import hypothesis
+from hypothesis import strategies as st
 
 import answer
 import open_faults
@@ -91,10 +93,29 @@ def is_refused_everywhere(bench, case):
             found.append(f"{where}: cost {faults[0]}, runs {faults[1]}")
         if not any(slips.is_about(pointer, case) for pointer, _ in faults[1]):
             found.append(f"{where}: {faults[1]}")
+    if case.get("by_command"):
+        file = bench.folder / "slip.json"
+        file.write_text(json.dumps(case["study"]))
+        done = subprocess.run([views.programs / "breach", "--server", bench.service.url, "submit", file, "--dry-run"], capture_output=True, text=True)
+        if done.returncode != 65:
+            found.append(f"{where}: --dry-run ends with {done.returncode}: {done.stdout[:200]}{done.stderr[:200]}")
     if bench.newest() != before:
         found.append(f"{where}: the study is stored")
     found = open_faults.unknown(found)
     assert not found, "; ".join(found)
+
+
+def a_wrong_request_changes_nothing(bench, case):
+    """Of a run that has ended: refused with 4xx and a problem's type."""
+    if not hasattr(bench, "ended"):
+        bench.ended = bench.submit({"format": "breachline-study/1", "scene": studies.scene(), "transfer_times": [0.5]})
+        bench.wait(bench.ended)
+    path, body = case["request"]
+    before = bench.service.call(f"/v1/runs/{bench.ended}")
+    status, answer = bench.send(path.format(run=bench.ended), body)
+    assert 400 <= status < 500 and str(answer.get("type", "")).startswith("/problems/"), f"{path} {body}: {status} {str(answer)[:300]}"
+    after = bench.service.call(f"/v1/runs/{bench.ended}")
+    assert after == before, f"{path} {body}: {[name for name in after if after[name] != before[name]]} changed"
 
 
 properties = {
@@ -105,11 +126,12 @@ properties = {
     "inverse": (a_target_is_found, lambda: studies.cases(samples.inverses())),
     "bisect": (a_plateau_is_found, lambda: studies.cases(samples.bisections())),
     "views": (views_agree, lambda: studies.cases(studies.triggered() | studies.sweeps())),
+    "requests": (a_wrong_request_changes_nothing, lambda: st.builds(lambda request: {"request": list(request)}, st.sampled_from(slips.requests))),
     "slips": (is_refused_everywhere, slips.slips),
 }
 
 
-shares = {"sweeps": 0.3, "triggers": 0.2, "samples": 0.08, "ladders": 0.07, "inverse": 0.03, "bisect": 0.02, "views": 0.1, "slips": 0.2}
+shares = {"sweeps": 0.3, "triggers": 0.2, "samples": 0.08, "ladders": 0.07, "inverse": 0.03, "bisect": 0.02, "views": 0.1, "slips": 0.17, "requests": 0.03}
 
 
 def count_of(name, studies):

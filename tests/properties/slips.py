@@ -65,7 +65,7 @@ def slips(draw):
     kind = draw(st.sampled_from(["value", "value", "override", "type", "type", "unknown", "missing"]))
     if kind == "value":
         how, pointer, value = draw(st.sampled_from(values))
-        return {"study": study, "slip": put(study, pointer, value), "how": how}
+        return {"study": study, "slip": put(study, pointer, value), "how": how, "by_command": draw(st.integers(0, 7)) == 0}
     if kind == "override":
         text = draw(st.sampled_from(overrides))
         in_variant = "variants" in study and draw(st.booleans())
@@ -84,6 +84,20 @@ def slips(draw):
     pointer, value = draw(st.sampled_from(found))
     other = draw(st.sampled_from(wrong[type(value)]))
     return {"study": study, "slip": put(study, pointer, other), "how": f"{other!r} for {value!r}"[:80]}
+
+
+requests = [("/v1/sweeps/{run}/extend", body) for body in (
+    {}, [], 3, None, {"x": 1}, {"transfer_times": []}, {"transfer_times": [-1]}, {"transfer_times": [50]}, {"transfer_times": "0.5"},
+    {"transfer_times": [1e308]}, {"transfer_times": {"from": 0, "to": 2, "step": 1e-9}}, {"transfer_times": {"from": 1, "to": 0.5, "step": 0.1}},
+    {"samples": 3}, {"samples": 0}, {"transfer_times": [0.5], "samples": 3}, {"budget": {}}, {"budget": {"cpu_seconds": 0}},
+    {"budget": {"cpu_seconds": 1e-9}}, {"budget": 3})] + [("/v1/runs/{run}/triggers", body) for body in (
+        {}, [], None, {"kind": "sometimes"}, {"kind": "criterion"}, {"kind": "manual"}, {"kind": "criterion", "when": "pore_joy > 1"},
+        {"kind": "criterion", "when": "time >"}, {"kind": "window", "lower": "time > 1"}, {"kind": "at_time", "times": [50]}, {"kind": "bisect", "seeds": 1},
+        {"kind": "criterion", "when": "time > 1", "hold_s": -1}, {"kind": "criterion", "when": "time > 1", "name": "A b"})] + [
+    ("/v1/runs/{run}/priority", body) for body in ({}, {"priority": 101}, {"priority": "high"}, {"priority": 1.5}, {"priority": 2**70})] + [
+    ("/v1/runs/{run}/title", body) for body in ({}, {"title": 3}, {"title": None}, [])] + [
+    ("/v1/runs/{run}/accuracy/check", body) for body in ({}, {"draws": 0})] + [
+    (f"/v1/runs/{{run}}/results?{query}", None) for query in ("format=xml", "limit=0", "limit=-1", "from=-1", "from=x", "state=happy", "table=all", "limit=1e3")]
 
 
 def is_about(fault, case):
