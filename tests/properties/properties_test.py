@@ -134,13 +134,19 @@ properties = {
 shares = {"sweeps": 0.3, "triggers": 0.2, "samples": 0.08, "ladders": 0.07, "inverse": 0.03, "bisect": 0.02, "views": 0.1, "slips": 0.17, "requests": 0.03}
 
 
+def nothing(bench, case):
+    pass
+
+
 def count_of(name, studies):
     return max(1, round(shares[name] * studies))
 
 
 def look_for_a_failure(name, bench, count, seed, shrink):
-    """The smallest case that fails, and how; None: none was found."""
+    """The smallest case that fails, and how; None: none was found. Without a bench the cases are only made."""
     holds, strategy = properties[name]
+    if bench is None:
+        holds = nothing
     failed, runs = {}, []
 
     @hypothesis.seed(seed)
@@ -171,12 +177,13 @@ def main():
     words.add_argument("--case", type=pathlib.Path)
     words.add_argument("--slurm", action="store_true", help="on the fake Slurm")
     words.add_argument("--table", type=pathlib.Path, help="write the pairs of features that were met")
+    words.add_argument("--plan", action="store_true", help="make the cases and run none")
     words.add_argument("--as-found", action="store_true", help="do not look for a smaller failure")
     words = words.parse_args()
     print(f"seed {words.seed}", flush=True)
     status = 0
     with tempfile.TemporaryDirectory() as folder:
-        bench = Bench(pathlib.Path(folder) / "bench", words.slurm)
+        bench = None if words.plan else Bench(pathlib.Path(folder) / "bench", words.slurm)
         try:
             if words.case:
                 kept = json.loads(words.case.read_text())
@@ -185,7 +192,8 @@ def main():
             cases = []
             for name in [words.only] if words.only else properties:
                 began, cpu = time.monotonic(), sum(os.times()[:4])
-                failed, runs = look_for_a_failure(name, bench, count_of(name, words.studies) if not words.only else words.studies, words.seed, not words.as_found)
+                count = words.studies if words.only else count_of(name, words.studies)
+                failed, runs = look_for_a_failure(name, bench, count, words.seed, not words.as_found)
                 print(f"{name}: {len(runs)} cases, {time.monotonic() - began:.1f} s, own CPU {sum(os.times()[:4]) - cpu:.1f} s", flush=True)
                 cases += [each for each in runs if "disturbances" in each]
                 if failed:
@@ -198,7 +206,8 @@ def main():
             if words.table:
                 words.table.write_text(pairs.table(cases))
         finally:
-            bench.stop()
+            if bench:
+                bench.stop()
     return status
 
 

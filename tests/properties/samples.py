@@ -60,10 +60,18 @@ def uncertain(draw):
         parameters.append({"name": "choice", "one_of": choices[quantity]})
     if not of_lem and draw(st.booleans()):
         parameters.append({"name": "lattice", "numerical": True, "draws": 2})
+    by_trigger = not of_lem and draw(st.integers(0, 2)) == 0
+    if by_trigger:  # which depends on the sample
+        del study["transfer_times"]
+        study["triggers"] = [{"kind": "criterion", "name": "t", "snapshot_interval_s": known.step,
+                              "when": f"crest_displacement > {draw(st.sampled_from([0.5, 1.5, 3]))}"}]
+        parameters[0]["factor_on"] = ["/materials/base_soil/density"]
     block = draw(st.sampled_from([3, 4, 5]))
-    count = block * draw(st.sampled_from([1, 2] if not of_lem else [1, 2, 4]))
+    count = block * draw(st.sampled_from([1] if by_trigger else [1, 2, 4] if of_lem else [1, 2]))
     study["uncertainty"] = {"quantity": quantity, "samples": count, "first_block": block, "seed": draw(st.integers(1, 99)),
                             "sampling": draw(st.sampled_from(["latin_hypercube", "sobol"])), "parameters": parameters}
+    if by_trigger and draw(st.booleans()):
+        study["uncertainty"]["transfer"] = {"trigger": "t"}
     if correlated:
         study["uncertainty"]["correlation"] = [["p0", "p1", draw(st.sampled_from([-0.7, 0.5, 0.9]))]]
     if draw(st.integers(0, 3)) == 0:
@@ -157,14 +165,17 @@ def uncertainty_differences(study, run, told):
     found, of_lem, rows = drawn_wrong(study, variants), study["uncertainty"]["quantity"] == "factor_of_safety", []
     for each in variants:
         scene = changed(copy.deepcopy(study["scene"]), study.get("overrides", []) + each["overrides"])
-        time = None if of_lem else study["transfer_times"][0]
+        time, met = (None, False) if of_lem else (study["transfer_times"][0], False) if "triggers" not in study else \
+            answer.fired(study["triggers"][0], scene)
         shift = scene.get("transfer", {}).get("point_shift", [0, 0])[0]
-        row = {"factor_of_safety": known.lem(scene)} if of_lem else answer.row(study, scene, each["name"], time, shift)
+        nothing = {"factor_of_safety": known.lem(scene), **dict.fromkeys(growing), "no_transfer": not met and known.fem(scene)[1] == "complete"}
+        row = nothing if of_lem or time is None else answer.row(study, scene, each["name"], time, shift)
         rows.append(row | {"values": each["sample"]["values"]})
     done = [row for row in rows if (row["factor_of_safety"] if of_lem else row["runout"]) is not None]
     moving = [row for row in done if row.get("lower_bound")]
     doubtful = [row for row in done if row.get("questionable") and not row["lower_bound"]]
-    wanted = {"planned": len(rows), "done": len(done), "failed": len(rows) - len(done), "open": 0, "no_transfer": 0, "moving": len(moving),
+    stood = sum(row.get("no_transfer", False) for row in rows) * (not of_lem)
+    wanted = {"planned": len(rows), "done": len(done), "failed": len(rows) - len(done) - stood, "open": 0, "no_transfer": stood, "moving": len(moving),
               "doubtful": len(doubtful), "questionable": len(moving) + len(doubtful)}
     got = {name: told["samples"][name] for name in wanted}
     if got != wanted:

@@ -53,11 +53,11 @@ def sweeps(draw):
     study = {"format": "breachline-study/1", "name": "random", "scene": scene(has_fem, draw(st.integers(0, 9999)))}
     if has_fem:
         study["transfer_times"] = sorted(draw(st.lists(st.sampled_from(times), min_size=1, max_size=3, unique=True)))
-    study["overrides"] = draw(changes_of(has_fem, 1))
+    study["overrides"] = draw(changes_of(has_fem, 2))
     room = 6 // len(study.get("transfer_times", [1]))  # for variants times draws
     count = draw(st.integers(0, min(3, room)))
     if count:
-        study["variants"] = [{"name": "abc"[k], "overrides": draw(changes_of(has_fem, 2))} for k in range(count)]
+        study["variants"] = [{"name": "abc"[k], "overrides": draw(changes_of(has_fem, 4))} for k in range(count)]
     draws = draw(st.integers(1, max(1, min(3, room // max(1, count)))))
     if draws > 1:
         study["draws"] = draws
@@ -96,7 +96,7 @@ def triggered(draw):
 @st.composite
 def cases(draw, studies=None):
     study = draw(studies if studies is not None else sweeps())
-    chosen = draw(st.lists(st.sampled_from(disturbances), max_size=3, unique=True))
+    chosen = draw(st.lists(st.sampled_from(disturbances), max_size=5, unique=True))
     return {"study": study, "disturbances": sorted(chosen, key=disturbances.index), "after_ms": draw(st.sampled_from([0, 30, 100, 300]))}
 
 
