@@ -35,7 +35,7 @@ def table(cases):
             counts[pair] = counts.get(pair, 0) + 1
     lines = ["| | " + " | ".join(map(str, range(1, len(names)))) + " |", "|---" * len(names) + "|"]
     for k, name in enumerate(names[1:], 1):
-        lines.append(f"| {k + 1} {name} | " + " | ".join(str(counts.get((other, name), 0)) for other in names[:k]) + " |" + " |" * (len(names) - 1 - k))
+        lines.append(f"| {k + 1} {name} | " + " | ".join(str(counts.get((other, name), "")) for other in names[:k]) + " |" + " |" * (len(names) - 1 - k))
     missed = [pair for pair in itertools.combinations(names, 2) if pair not in counts]
-    return "\n".join([f"{len(cases)} cases, {len(counts)} pairs of {len(names)} features met.", f"1 is {names[0] if names else ''}.", *lines,
-                      "Not met: " + "; ".join(f"{a} with {b}" for a, b in missed)]) + "\n"
+    return "\n".join([f"{len(cases)} cases, {len(counts)} of {len(names) * (len(names) - 1) // 2} pairs of {len(names)} features. Pairs that cannot be (a ladder "
+                      "and a distribution) are counted, too.\n", *lines, f"\n1 is {names[0] if names else ''}. Not met: " + "; ".join(f"{a} with {b}" for a, b in missed)]) + "\n"

@@ -7,6 +7,7 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -93,6 +94,7 @@ def is_refused_everywhere(bench, case):
             found.append(f"{where}: cost {faults[0]}, runs {faults[1]}")
         if not any(slips.is_about(pointer, case) for pointer, _ in faults[1]):
             found.append(f"{where}: {faults[1]}")
+        found += [f"{where}: {cause}" for _, cause in faults[1] if "exception" in cause or re.search(r"\b(nan|inf)\b", cause)]
     if case.get("by_command"):
         file = bench.folder / "slip.json"
         file.write_text(json.dumps(case["study"]))
@@ -204,7 +206,8 @@ def main():
             for name, count in open_faults.seen.items():
                 print(f"open fault, seen {count} times: {name}")
             if words.table:
-                words.table.write_text(pairs.table(cases))
+                words.table.write_text(f"# Pairs of features that random studies have met\n\nBy `properties_test.py --studies {words.studies} --seed "
+                                       f"{words.seed}{' --plan' * words.plan} --table FILE`.\n\n{pairs.table(cases)}")
         finally:
             if bench:
                 bench.stop()

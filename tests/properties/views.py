@@ -85,9 +85,20 @@ def differences(bench, run, folder):
 
     if json.loads(breach("--json", "results", run)) != answer:
         found.append("breach --json results is not the API's answer")
-    shown, marks = breach("results", run), sum(row["lower_bound"] is True for row in answer["rows"])
-    if (shown.count("≥") >= marks) is False or (marks == 0 and "≥" in shown and not any(mean["questionable_draws"] for mean in answer["means"])):
-        found.append(f"breach results has {shown.count('≥')} marks for {marks} lower bounds")
+    shown = breach("results", run)
+    for row in [row for row in answer["rows"] if row["runout"] is not None]:
+        for name in ("runout", "runout_beyond_toe", "runout_largest"):
+            if f"{'≥ ' if row['lower_bound'] else ' '}{row[name]:.4g}" not in shown:
+                found.append(f"breach results does not show {name} {row[name]} of {row['variant']}, lower bound: {row['lower_bound']}")
+    moving = {(row["variant"], row["transfer_time"]) for row in answer["rows"] if row["lower_bound"]}
+    for each in [each for each in answer["means"] if each["runout"] is not None]:
+        if f" {each['runout']:.4g}" not in shown:
+            found.append(f"breach results does not show the mean {each['runout']} of {each['variant']}")
+        draws = [name for name in each["questionable_draws"].split("; ") if (name, each["transfer_time"]) in moving]
+        if draws and f"≥ {each['runout']:.4g}" not in shown:
+            found.append(f"breach results does not mark the mean of {draws} as a lower bound")
+    if not moving and "≥" in shown:
+        found.append("breach results marks a lower bound where there is none")
     against = answer["verdict"]["usable"] in ("questionable", "no")
     if shown.startswith(f"Verdict: {answer['verdict']['words']}\n") != against:
         found.append(f"breach results begins with {shown[:40]!r}, the verdict is {answer['verdict']['words']}")
