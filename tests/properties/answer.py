@@ -7,8 +7,18 @@ import statistics
 import known
 from stand_in import changed
 
-averaged = ["runout", "runout_beyond_toe", "runout_largest", "area_beyond_toe", "volume_ratio", "numerical_share", "overlap",
-            "cpu_seconds", "kinetic_share", "end_time"]
+averaged = [
+    "runout",
+    "runout_beyond_toe",
+    "runout_largest",
+    "area_beyond_toe",
+    "volume_ratio",
+    "numerical_share",
+    "overlap",
+    "cpu_seconds",
+    "kinetic_share",
+    "end_time",
+]
 
 
 def scene_of(study, variant):
@@ -50,14 +60,26 @@ def flags_of_fem(scene):
 
 def row(study, scene, variant, time, shift):
     state, reason, result = runout(scene, time, shift)
-    found = {"variant": variant, "transfer_time": time, "state": state, "reason": reason,
-             "trigger": "" if time is None else "at_time", "questionable": None, "lower_bound": None}
+    found = {
+        "variant": variant,
+        "transfer_time": time,
+        "state": state,
+        "reason": reason,
+        "trigger": "" if time is None else "at_time",
+        "questionable": None,
+        "lower_bound": None,
+    }
     found["factor_of_safety"] = known.lem(scene) if "lem" in scene and study.get("stability", True) else None
     found |= dict.fromkeys([*averaged, "at_rest", "ended"])
     if result:
         found |= {name: result.get(name) for name in averaged if name != "numerical_share"}
-        found |= {"numerical_share": 0.01, "at_rest": result["at_rest"], "ended": result["ended"],
-                  "questionable": result["questionable"], "lower_bound": not result["at_rest"]}
+        found |= {
+            "numerical_share": 0.01,
+            "at_rest": result["at_rest"],
+            "ended": result["ended"],
+            "questionable": result["questionable"],
+            "lower_bound": not result["at_rest"],
+        }
         found["flags"] = sorted([flag["code"] for flag in result["flags"]] + (flags_of_fem(scene) if time is not None else []))
     return found
 
@@ -68,8 +90,14 @@ def mean(rows, draws):
     missing = [f"{each['variant']}: {each['state']}" for each in rows if each["runout"] is None]
     doubtful = [each["variant"] for each in done if each["questionable"]]
     state = "partial" if missing and done else rows[0]["state"] if missing else "questionable" if doubtful else "succeeded"
-    found = {"transfer_time": rows[0]["transfer_time"], "state": state, "draws": draws, "draws_done": len(done),
-             "missing_draws": "; ".join(missing), "questionable_draws": "; ".join(doubtful)}
+    found = {
+        "transfer_time": rows[0]["transfer_time"],
+        "state": state,
+        "draws": draws,
+        "draws_done": len(done),
+        "missing_draws": "; ".join(missing),
+        "questionable_draws": "; ".join(doubtful),
+    }
     for name in averaged:
         values = [each[name] for each in done if each[name] is not None]
         found[name] = statistics.fmean(values) if values else None
@@ -82,12 +110,17 @@ def same_results(study, rows):
     numbers = {}
     for each in rows:
         if each["runout"] is not None:
-            numbers.setdefault(each["variant"], {})[each["transfer_time"]] = [each[name] for name in [*averaged, "factor_of_safety"]]
+            numbers.setdefault(each["variant"], {})[each["transfer_time"]] = [
+                each[name] for name in [*averaged, "factor_of_safety"]
+            ]
     groups = []
     for name in [name for _, name, _ in variants_of(study)]:
         for group in groups:
-            if all((both := numbers.get(name, {}).keys() & numbers.get(other, {}).keys()) and
-                   all(numbers[name][t] == numbers[other][t] for t in both) for other in group):
+            if all(
+                (both := numbers.get(name, {}).keys() & numbers.get(other, {}).keys())
+                and all(numbers[name][t] == numbers[other][t] for t in both)
+                for other in group
+            ):
                 group.append(name)
                 break
         else:
@@ -99,8 +132,11 @@ def verdict(study, scenes, rows, without):
     """How far the results can be used (docs/reading_results.md)."""
     factors = [known.lem(each) for each in scenes] if "lem" in study["scene"] and study.get("stability", True) else []
     falls = [each < 1 for each in factors if each is not None] if not study.get("known_failure") else []
-    missing = [each["variant"] for each in without] + [name for name in {each["variant"] for each in rows} if all(
-        each["state"] == "not_reached" for each in rows if each["variant"] == name)]
+    missing = [each["variant"] for each in without] + [
+        name
+        for name in {each["variant"] for each in rows}
+        if all(each["state"] == "not_reached" for each in rows if each["variant"] == name)
+    ]
     if falls and all(falls) or len(missing) == len(scenes):
         return "no"
     if any(falls) or any(each["questionable"] for each in rows) or missing:
@@ -150,7 +186,9 @@ def answer(study, moved):
     for own, name, _ in variants_of(study):
         scene = scene_of(study, {"overrides": moved.get(name, own.get("overrides", []))})
         scenes.append(scene)
-        shift = (scene["transfer"] if "fem" in scene else scene["mpm"]).get("point_shift" if "fem" in scene else "fill_shift", [0, 0])[0]
+        shift = (scene["transfer"] if "fem" in scene else scene["mpm"]).get(
+            "point_shift" if "fem" in scene else "fill_shift", [0, 0]
+        )[0]
         made, met = transfers_of(study, scene)
         for time, by in made:
             rows.append({**row(study, scene, name, time, shift), "trigger": by})
@@ -162,8 +200,15 @@ def answer(study, moved):
             for time in sorted({each["transfer_time"] for each in rows if each["variant"] in names}, key=lambda time: time or 0):
                 of = [each for each in rows if each["variant"] in names and each["transfer_time"] == time]
                 means.append({"variant": own["name"], **mean(of, study["draws"])})
-    return {"rows": rows, "means": means, "state": state(study, scenes, rows), "verdict": verdict(study, scenes, rows, without),
-            "same_results": same_results(study, rows), "without_transfer": without, **counts(scenes, rows)}
+    return {
+        "rows": rows,
+        "means": means,
+        "state": state(study, scenes, rows),
+        "verdict": verdict(study, scenes, rows, without),
+        "same_results": same_results(study, rows),
+        "without_transfer": without,
+        **counts(scenes, rows),
+    }
 
 
 def counts(scenes, rows):
@@ -172,8 +217,11 @@ def counts(scenes, rows):
     found = {"entangled": sum(how == "entangled" for how in fems.values())}
     for code in ("still_moving", "overlap"):
         found[code] = sum(code in each.get("flags", []) for each in rows)
-    return {"flag_counts": {code: count for code, count in found.items() if count},
-            "questionable": sum(each["questionable"] is True for each in rows), "fems": len(fems)}
+    return {
+        "flag_counts": {code: count for code, count in found.items() if count},
+        "questionable": sum(each["questionable"] is True for each in rows),
+        "fems": len(fems),
+    }
 
 
 def differs(wanted, got):
@@ -213,12 +261,15 @@ def differences(wanted, run, results, extended=False):
     if run["state"] != wanted["state"]:
         found.append(f"the run is {run['state']} for {wanted['state']}")
     if results["verdict"]["usable"] != wanted["verdict"]:
-        found.append(f"the verdict is {results['verdict']['usable']} for {wanted['verdict']}: "
-                     f"{[reason['text'] for reason in results['verdict']['reasons']]}")
+        found.append(
+            f"the verdict is {results['verdict']['usable']} for {wanted['verdict']}: "
+            f"{[reason['text'] for reason in results['verdict']['reasons']]}"
+        )
     return found
 
 
 # Triggers ------------------------------------------------------------------------------------------------------------------------
+
 
 def truth(condition, whole, time):
     """Of "FIELD > NUMBER"."""
@@ -255,6 +306,9 @@ def fired(trigger, scene):
     if pick == "first":
         return lower, True
     if pick == "midpoint":
-        return min((t for t in lines if lower <= t <= end), key=lambda t: (round(abs(t - (lower + end) / 2), 6), t)), True  # the earlier of two
+        return (
+            min((t for t in lines if lower <= t <= end), key=lambda t: (round(abs(t - (lower + end) / 2), 6), t)),
+            True,
+        )  # the earlier of two
     before = [t for t in lines if lower <= t < end or upper is None and t == end]
     return before[-1], True

@@ -22,7 +22,18 @@ class Bench:
         (self.folder / "bin").mkdir(parents=True)
         for name in phases:
             (self.folder / "bin" / name).symlink_to(here / "phase")
-        self.options = ["--bin", str(self.folder / "bin"), "--slots", "3", "--tries", "3", "--retry-delay", "0.01", "--grace", "0.3"]
+        self.options = [
+            "--bin",
+            str(self.folder / "bin"),
+            "--slots",
+            "3",
+            "--tries",
+            "3",
+            "--retry-delay",
+            "0.01",
+            "--grace",
+            "0.3",
+        ]
         if slurm:
             commands = self.folder / "commands"
             commands.mkdir()
@@ -77,8 +88,10 @@ class Bench:
                 return answer
             time.sleep(pause)
             pause = min(0.3, 1.3 * pause)
-        raise AssertionError(f"run {run} is {answer['state']} after {seconds} s: "
-                             f"{[(task['label'], task['state'], task['message']) for task in answer['tasks']]}")
+        raise AssertionError(
+            f"run {run} is {answer['state']} after {seconds} s: "
+            f"{[(task['label'], task['state'], task['message']) for task in answer['tasks']]}"
+        )
 
     def content(self, path):
         with urllib.request.urlopen(self.service.url + path, timeout=60) as answer:

@@ -35,15 +35,27 @@ def soil(scene):
 def lem(scene):
     """Factor of safety; None: it breaks down."""
     slices = at(scene, "/lem/slices", 50)
-    return None if slices == 13 else number(0.7, 1.9, "lem", slices, soil(scene), float(at(scene, "/lem/search/minimum_depth", 0.5)))
+    return (
+        None if slices == 13 else number(0.7, 1.9, "lem", slices, soil(scene), float(at(scene, "/lem/search/minimum_depth", 0.5)))
+    )
 
 
 def fem(scene):
     """(a number that stands for the whole analysis, how it ends, when)"""
     ratio, iterations = at(scene, "/fem/least_jacobian_ratio", 0.01), at(scene, "/fem/largest_iterations", 25)
     stage = scene["fem"]["stages"][-1]
-    whole = number(0, 50, "fem", ratio, iterations, float(at(scene, "/fem/force_tolerance", 1e-6)), float(stage["time_step"]),
-                   len(at(scene, "/fem/surcharge", [])), at(scene, "/fem/newmark_beta", 0.3025), soil(scene))
+    whole = number(
+        0,
+        50,
+        "fem",
+        ratio,
+        iterations,
+        float(at(scene, "/fem/force_tolerance", 1e-6)),
+        float(stage["time_step"]),
+        len(at(scene, "/fem/surcharge", [])),
+        at(scene, "/fem/newmark_beta", 0.3025),
+        soil(scene),
+    )
     if iterations < 20:
         return whole, "breakdown", round(iterations / 10, 6)
     if ratio != 0.01:
@@ -68,22 +80,37 @@ def flag(code, severity):
 
 def mpm(scene, time, whole, added, shift):
     """The result of a runout from a FEM's snapshot at this time (None: from the section); None: it breaks down."""
-    cfl, share, size = (float(at(scene, f"/mpm/{name}", other)) for name, other in
-                        (("cfl", 0.4), ("rest_body_share", 0.005), ("cell_size", 1)))
+    cfl, share, size = (
+        float(at(scene, f"/mpm/{name}", other)) for name, other in (("cfl", 0.4), ("rest_body_share", 0.005), ("cell_size", 1))
+    )
     if cfl == 0.7:
         return None
     regions = scene["mpm"]["runout"]["regions"]
-    base = whole + added + number(1, 30, "mpm", cfl, share, len(regions), soil(scene)) if time is None else \
-        whole + added + number(1, 30, "mpm", cfl, share, len(regions), soil(scene)) + rise(time)
+    base = (
+        whole + added + number(1, 30, "mpm", cfl, share, len(regions), soil(scene))
+        if time is None
+        else whole + added + number(1, 30, "mpm", cfl, share, len(regions), soil(scene)) + rise(time)
+    )
     runout = round(base + size**2 + 100 * float(at(scene, "/mpm/damping_ratio", 0.1)) + shift, 6)
     moves = cfl == 0.5
     flags = [flag("still_moving", "questionable")] if moves else []
     if share >= 0.01:
         flags.append(flag("overlap", "questionable" if share >= 0.02 else "warning"))
-    return {"runout": runout, "runout_beyond_toe": max(0, round(runout - 40, 6)), "runout_largest": round(runout + 7, 6),
-            "area_beyond_toe": round(runout / 3, 6), "volume_ratio": 1.0, "energy": {"numerical": {"share": 0.01}},
-            "cpu_seconds": 0.5, "at_rest": not moves, "ended": "duration" if moves else "at_rest", "kinetic_share": 0.001,
-            "end_time": round(9 + size, 6), "flags": flags, "questionable": any(f["severity"] == "questionable" for f in flags)}
+    return {
+        "runout": runout,
+        "runout_beyond_toe": max(0, round(runout - 40, 6)),
+        "runout_largest": round(runout + 7, 6),
+        "area_beyond_toe": round(runout / 3, 6),
+        "volume_ratio": 1.0,
+        "energy": {"numerical": {"share": 0.01}},
+        "cpu_seconds": 0.5,
+        "at_rest": not moves,
+        "ended": "duration" if moves else "at_rest",
+        "kinetic_share": 0.001,
+        "end_time": round(9 + size, 6),
+        "flags": flags,
+        "questionable": any(f["severity"] == "questionable" for f in flags),
+    }
 
 
 def rise(time):

@@ -1,15 +1,24 @@
-"""Faults of the product that the properties have found and that are not mended yet: a difference that matches one is counted, not failed.
-An entry goes with the commit that mends it."""
+"""Faults of the product that the properties have found and that are not mended yet. A difference that matches one is counted,
+not failed. An entry goes with the commit that mends it."""
 import re
 
 known = [
-    ("the verdict of a run whose FEMs all entangled before every transfer time is not 'no'", r"the verdict is \w+ for (no|questionable): .*Entangled"),
-    ("a dam that stood in some variants is a remark, against docs/reading_results.md", r"the verdict is with_remarks for questionable: .*The dam may stand"),
+    (
+        "the verdict of a run whose FEMs all entangled before every transfer time is not 'no'",
+        r"the verdict is \w+ for (no|questionable): .*Entangled",
+    ),
+    (
+        "a dam that stood in some variants is a remark, against docs/reading_results.md",
+        r"the verdict is with_remarks for questionable: .*The dam may stand",
+    ),
     ("a mean over draws that still moved is not marked as a lower bound", r"^breach results does not mark the mean of"),
     ("the fault of an override that is no assignment points to /scene", r"^the override [^:]*: \[\('/scene', '--set"),
     ("the fault of an override whose place is no place tells the library's words", r"json\.exception"),
     ("a message has the number -inf", r"-inf m"),
-    ("submission and --dry-run give different causes for a scene that is no object", r"cost \[\('/scene', 'is not the scene itself'\)\], runs"),
+    (
+        "submission and --dry-run give different causes for a scene that is no object",
+        r"cost \[\('/scene', 'is not the scene itself'\)\], runs",
+    ),
 ]
 seen = {}
 

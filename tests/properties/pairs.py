@@ -19,10 +19,20 @@ def features(case):
     found |= {uncertainty["sampling"]} if "sampling" in uncertainty else set()
     found |= {"back-analysis"} if "target" in uncertainty else set()
     found |= {"correlation"} if "correlation" in uncertainty else set()
-    text = " ".join(study.get("overrides", []) + [each for variant in study.get("variants", []) for each in variant.get("overrides", [])])
-    for name, pattern in (("append", "/-="), ("FEM entangles", "least_jacobian"), ("FEM breaks down", "largest_iterations"), ("MPM breaks down", "cfl=0.7"),
-                          ("MPM tries again", "cfl=0.6"), ("lower bound", "cfl=0.5"), ("LEM breaks down", "slices=13"), ("transfer breaks down", "neighbours=13"),
-                          ("questionable", "share=0.02")):
+    text = " ".join(
+        study.get("overrides", []) + [each for variant in study.get("variants", []) for each in variant.get("overrides", [])]
+    )
+    for name, pattern in (
+        ("append", "/-="),
+        ("FEM entangles", "least_jacobian"),
+        ("FEM breaks down", "largest_iterations"),
+        ("MPM breaks down", "cfl=0.7"),
+        ("MPM tries again", "cfl=0.6"),
+        ("lower bound", "cfl=0.5"),
+        ("LEM breaks down", "slices=13"),
+        ("transfer breaks down", "neighbours=13"),
+        ("questionable", "share=0.02"),
+    ):
         found |= {name} if re.search(pattern, text) else set()
     return found
 
@@ -35,7 +45,21 @@ def table(cases):
             counts[pair] = counts.get(pair, 0) + 1
     lines = ["| | " + " | ".join(map(str, range(1, len(names)))) + " |", "|---" * len(names) + "|"]
     for k, name in enumerate(names[1:], 1):
-        lines.append(f"| {k + 1} {name} | " + " | ".join(str(counts.get((other, name), "")) for other in names[:k]) + " |" + " |" * (len(names) - 1 - k))
+        lines.append(
+            f"| {k + 1} {name} | "
+            + " | ".join(str(counts.get((other, name), "")) for other in names[:k])
+            + " |"
+            + " |" * (len(names) - 1 - k)
+        )
     missed = [pair for pair in itertools.combinations(names, 2) if pair not in counts]
-    return "\n".join([f"{len(cases)} cases, {len(counts)} of {len(names) * (len(names) - 1) // 2} pairs of {len(names)} features. Pairs that cannot be (a ladder "
-                      "and a distribution) are counted, too.\n", *lines, f"\n1 is {names[0] if names else ''}. Not met: " + "; ".join(f"{a} with {b}" for a, b in missed)]) + "\n"
+    return (
+        "\n".join(
+            [
+                f"{len(cases)} cases, {len(counts)} of {len(names) * (len(names) - 1) // 2} pairs of {len(names)} features. "
+                "Pairs that cannot be (a ladder and a distribution) are counted, too.\n",
+                *lines,
+                f"\n1 is {names[0] if names else ''}. Not met: " + "; ".join(f"{a} with {b}" for a, b in missed),
+            ]
+        )
+        + "\n"
+    )

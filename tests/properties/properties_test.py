@@ -47,8 +47,15 @@ def comes_to_its_answer(bench, case):
 def reuse_differences(study, disturbances, rows):
     """Without the cache nothing is reused; with it all that an equal run has computed."""
     wanted = False if study.get("reuse") is False else True if "warm" in disturbances and "remove" not in disturbances else None
-    return [] if wanted is None else [f"row {row['variant'], row['transfer_time']}: reused is {row['reused']}" for row in rows
-                                      if row["runout"] is not None and row["reused"] is not wanted]
+    return (
+        []
+        if wanted is None
+        else [
+            f"row {row['variant'], row['transfer_time']}: reused is {row['reused']}"
+            for row in rows
+            if row["runout"] is not None and row["reused"] is not wanted
+        ]
+    )
 
 
 def told(bench, case, differences):
@@ -59,19 +66,31 @@ def told(bench, case, differences):
 
 
 def samples_say(bench, case):
-    told(bench, case, lambda study, run: samples.uncertainty_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")))
+    told(
+        bench,
+        case,
+        lambda study, run: samples.uncertainty_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")),
+    )
 
 
 def ladders_say(bench, case):
-    told(bench, case, lambda study, run: samples.accuracy_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/accuracy")))
+    told(
+        bench,
+        case,
+        lambda study, run: samples.accuracy_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/accuracy")),
+    )
 
 
 def a_target_is_found(bench, case):
-    told(bench, case, lambda study, run: samples.inverse_differences(study, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")))
+    told(
+        bench, case, lambda study, run: samples.inverse_differences(study, bench.service.call(f"/v1/runs/{run['id']}/uncertainty"))
+    )
 
 
 def a_plateau_is_found(bench, case):
-    told(bench, case, lambda study, run: samples.bisect_differences(bench.service.call(f"/v1/runs/{run['id']}/triggers")["triggers"]))
+    told(
+        bench, case, lambda study, run: samples.bisect_differences(bench.service.call(f"/v1/runs/{run['id']}/triggers")["triggers"])
+    )
 
 
 def views_agree(bench, case):
@@ -98,7 +117,9 @@ def is_refused_everywhere(bench, case):
     if case.get("by_command"):
         file = bench.folder / "slip.json"
         file.write_text(json.dumps(case["study"]))
-        done = subprocess.run([views.programs / "breach", "--server", bench.service.url, "submit", file, "--dry-run"], capture_output=True, text=True)
+        done = subprocess.run(
+            [views.programs / "breach", "--server", bench.service.url, "submit", file, "--dry-run"], capture_output=True, text=True
+        )
         if done.returncode != 65:
             found.append(f"{where}: --dry-run ends with {done.returncode}: {done.stdout[:200]}{done.stderr[:200]}")
     if bench.newest() != before:
@@ -115,7 +136,9 @@ def a_wrong_request_changes_nothing(bench, case):
     path, body = case["request"]
     before = bench.service.call(f"/v1/runs/{bench.ended}")
     status, answer = bench.send(path.format(run=bench.ended), body)
-    assert 400 <= status < 500 and str(answer.get("type", "")).startswith("/problems/"), f"{path} {body}: {status} {str(answer)[:300]}"
+    assert 400 <= status < 500 and str(answer.get("type", "")).startswith(
+        "/problems/"
+    ), f"{path} {body}: {status} {str(answer)[:300]}"
     after = bench.service.call(f"/v1/runs/{bench.ended}")
     assert after == before, f"{path} {body}: {[name for name in after if after[name] != before[name]]} changed"
 
@@ -128,12 +151,25 @@ properties = {
     "inverse": (a_target_is_found, lambda: studies.cases(samples.inverses())),
     "bisect": (a_plateau_is_found, lambda: studies.cases(samples.bisections())),
     "views": (views_agree, lambda: studies.cases(studies.triggered() | studies.sweeps())),
-    "requests": (a_wrong_request_changes_nothing, lambda: st.builds(lambda request: {"request": list(request)}, st.sampled_from(slips.requests))),
+    "requests": (
+        a_wrong_request_changes_nothing,
+        lambda: st.builds(lambda request: {"request": list(request)}, st.sampled_from(slips.requests)),
+    ),
     "slips": (is_refused_everywhere, slips.slips),
 }
 
 
-shares = {"sweeps": 0.3, "triggers": 0.2, "samples": 0.08, "ladders": 0.07, "inverse": 0.03, "bisect": 0.02, "views": 0.1, "slips": 0.17, "requests": 0.03}
+shares = {
+    "sweeps": 0.3,
+    "triggers": 0.2,
+    "samples": 0.08,
+    "ladders": 0.07,
+    "inverse": 0.03,
+    "bisect": 0.02,
+    "views": 0.1,
+    "slips": 0.17,
+    "requests": 0.03,
+}
 
 
 def nothing(bench, case):
@@ -152,9 +188,15 @@ def look_for_a_failure(name, bench, count, seed, shrink):
     failed, runs = {}, []
 
     @hypothesis.seed(seed)
-    @hypothesis.settings(max_examples=count, deadline=None, database=None, print_blob=False, report_multiple_bugs=False,
-                         phases=[hypothesis.Phase.generate] + [hypothesis.Phase.shrink] * shrink,
-                         suppress_health_check=list(hypothesis.HealthCheck))
+    @hypothesis.settings(
+        max_examples=count,
+        deadline=None,
+        database=None,
+        print_blob=False,
+        report_multiple_bugs=False,
+        phases=[hypothesis.Phase.generate] + [hypothesis.Phase.shrink] * shrink,
+        suppress_health_check=list(hypothesis.HealthCheck),
+    )
     @hypothesis.given(strategy())
     def search(case):
         runs.append(case)
@@ -196,7 +238,10 @@ def main():
                 began, cpu = time.monotonic(), sum(os.times()[:4])
                 count = words.studies if words.only else count_of(name, words.studies)
                 failed, runs = look_for_a_failure(name, bench, count, words.seed, not words.as_found)
-                print(f"{name}: {len(runs)} cases, {time.monotonic() - began:.1f} s, own CPU {sum(os.times()[:4]) - cpu:.1f} s", flush=True)
+                print(
+                    f"{name}: {len(runs)} cases, {time.monotonic() - began:.1f} s, own CPU {sum(os.times()[:4]) - cpu:.1f} s",
+                    flush=True,
+                )
                 cases += [each for each in runs if "disturbances" in each]
                 if failed:
                     file = pathlib.Path(tempfile.gettempdir()) / f"failed_{name}_{words.seed}.json"
@@ -206,8 +251,10 @@ def main():
             for name, count in open_faults.seen.items():
                 print(f"open fault, seen {count} times: {name}")
             if words.table:
-                words.table.write_text(f"# Pairs of features that random studies have met\n\nBy `properties_test.py --studies {words.studies} --seed "
-                                       f"{words.seed}{' --plan' * words.plan} --table FILE`.\n\n{pairs.table(cases)}")
+                words.table.write_text(
+                    f"# Pairs of features that random studies have met\n\nBy `properties_test.py --studies {words.studies} --seed "
+                    f"{words.seed}{' --plan' * words.plan} --table FILE`.\n\n{pairs.table(cases)}"
+                )
         finally:
             if bench:
                 bench.stop()

@@ -13,7 +13,9 @@ def changed(scene, overrides):
         *path, last = pointer.strip("/").split("/")
         place = scene
         for key in path:
-            place = place[int(key)] if isinstance(place, list) else place.setdefault(key, [] if last == "-" and key == path[-1] else {})
+            place = (
+                place[int(key)] if isinstance(place, list) else place.setdefault(key, [] if last == "-" and key == path[-1] else {})
+            )
         try:
             value = json.loads(text)
         except ValueError:
@@ -48,7 +50,9 @@ def fem(scene, folder):
     with open(f"{folder}/telemetry.jsonl", "a") as lines:
         for k in range(1, round(when / known.step) + 1):
             time = round(k * known.step, 6)
-            lines.write(json.dumps({"step": k, "time": time, "dt": known.step, "crest_displacement": known.crest(whole, time)}) + "\n")
+            lines.write(
+                json.dumps({"step": k, "time": time, "dt": known.step, "crest_displacement": known.crest(whole, time)}) + "\n"
+            )
     if how == "breakdown":
         end_with(folder, 70, f"no convergence at {when:g} s")
     flags = [known.flag("entangled", "warning")] if how == "entangled" else []
@@ -97,9 +101,12 @@ def main(words):
         text = file.read()
     scene = changed(json.loads(text), [words[k + 1] for k, word in enumerate(words) if word == "--set"])
     publish(folder, "scene.completed.json", json.dumps(scene))
-    result = {"lem_tool": lambda: lem(scene, folder), "fem_solver": lambda: fem(scene, folder),
-              "transfer_tool": lambda: transfer(scene, folder, source),
-              "mpm_solver": lambda: mpm(scene, folder, source, "--resume" in words)}[name]()
+    result = {
+        "lem_tool": lambda: lem(scene, folder),
+        "fem_solver": lambda: fem(scene, folder),
+        "transfer_tool": lambda: transfer(scene, folder, source),
+        "mpm_solver": lambda: mpm(scene, folder, source, "--resume" in words),
+    }[name]()
     result = {"phase": name, "cpu_seconds": 0.5, **result}
     publish(folder, "result.json", json.dumps(result))
     print(json.dumps({"event": "result", "result": result}), flush=True)

@@ -15,12 +15,26 @@ times = [0.3, 0.5, 0.9, 1.2, 1.6]
 # One change each, and by which phase it is read first. known.py says what comes of it.
 changes = {
     "lem_tool": ["/lem/slices=31", "/lem/slices=13"],
-    "fem_solver": ["/fem/newmark_beta=0.4", "/fem/least_jacobian_ratio=0.006", "/fem/least_jacobian_ratio=0.012",
-                   "/fem/largest_iterations=10", "/fem/largest_iterations=4",
-                   '/fem/surcharge/-={"from":2,"to":4,"pressure_kPa":1}'],
+    "fem_solver": [
+        "/fem/newmark_beta=0.4",
+        "/fem/least_jacobian_ratio=0.006",
+        "/fem/least_jacobian_ratio=0.012",
+        "/fem/largest_iterations=10",
+        "/fem/largest_iterations=4",
+        '/fem/surcharge/-={"from":2,"to":4,"pressure_kPa":1}',
+    ],
     "transfer_tool": ["/transfer/neighbours=20", "/transfer/neighbours=13", '/transfer/stress="effective"'],
-    "mpm_solver": ["/mpm/cfl=0.3", "/mpm/cfl=0.5", "/mpm/cfl=0.6", "/mpm/cfl=0.7", "/mpm/rest_body_share=0.01",
-                   "/mpm/rest_body_share=0.02", "/mpm/cell_size=2", "/mpm/damping_ratio=0.2", '/mpm/runout/regions/-="base"'],
+    "mpm_solver": [
+        "/mpm/cfl=0.3",
+        "/mpm/cfl=0.5",
+        "/mpm/cfl=0.6",
+        "/mpm/cfl=0.7",
+        "/mpm/rest_body_share=0.01",
+        "/mpm/rest_body_share=0.02",
+        "/mpm/cell_size=2",
+        "/mpm/damping_ratio=0.2",
+        '/mpm/runout/regions/-="base"',
+    ],
     "all": ["/materials/base_soil/density=2100"],
 }
 
@@ -80,7 +94,9 @@ def triggered(draw):
     study.pop("draws_of", None)  # refused: each draw's FEM would have a time of its own
     if study.get("draws", 1) > 2:
         study["draws"] = 2
-    condition = st.builds("{} > {}".format, st.sampled_from(["crest_displacement", "time"]), st.sampled_from([0.25, 0.45, 0.75, 1.25, 1.75, 2.5]))
+    condition = st.builds(
+        "{} > {}".format, st.sampled_from(["crest_displacement", "time"]), st.sampled_from([0.25, 0.45, 0.75, 1.25, 1.75, 2.5])
+    )
     trigger = {"kind": draw(st.sampled_from(["criterion", "window"])), "name": "t", "snapshot_interval_s": known.step}
     if trigger["kind"] == "criterion":
         trigger["when"] = draw(condition)
@@ -97,7 +113,11 @@ def triggered(draw):
 def cases(draw, studies=None):
     study = draw(studies if studies is not None else sweeps())
     chosen = draw(st.lists(st.sampled_from(disturbances), max_size=5, unique=True))
-    return {"study": study, "disturbances": sorted(chosen, key=disturbances.index), "after_ms": draw(st.sampled_from([0, 30, 100, 300]))}
+    return {
+        "study": study,
+        "disturbances": sorted(chosen, key=disturbances.index),
+        "after_ms": draw(st.sampled_from([0, 30, 100, 300])),
+    }
 
 
 def reversed_variants(study):

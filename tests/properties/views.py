@@ -32,9 +32,12 @@ def csv_differences(what, text, columns, rows, without):
     for row, line in zip(rows, lines):
         if list(line) != [each["name"] for each in columns]:
             found.append(f"{what}: columns {list(line)}")
-        found += [f"{what}: {name} of {row['variant']} at {row['transfer_time']} is {text!r} for {row[name]!r}"
-                  for name, text in line.items() if not same(row[name], text)]
-    for each, line in zip(without, lines[len(rows):]):
+        found += [
+            f"{what}: {name} of {row['variant']} at {row['transfer_time']} is {text!r} for {row[name]!r}"
+            for name, text in line.items()
+            if not same(row[name], text)
+        ]
+    for each, line in zip(without, lines[len(rows) :]):
         if (line["variant"], line["state"], line["reason"], line["runout"]) != (each["variant"], each["state"], each["reason"], ""):
             found.append(f"{what}: {line} for {each}")
     return found
@@ -42,12 +45,18 @@ def csv_differences(what, text, columns, rows, without):
 
 def text_of(dataset):
     value = dataset[()]
-    return value.decode() if isinstance(value, bytes) else value.tobytes().decode() if value.dtype.kind in "iu" else "".join(
-        each.decode() if isinstance(each, bytes) else each for each in value.ravel().tolist())
+    return (
+        value.decode()
+        if isinstance(value, bytes)
+        else value.tobytes().decode()
+        if value.dtype.kind in "iu"
+        else "".join(each.decode() if isinstance(each, bytes) else each for each in value.ravel().tolist())
+    )
 
 
 def hdf5_differences(what, content, columns, rows, run):
     import h5py
+
     with h5py.File(io.BytesIO(content)) as file:
         root = file["breachline"]
         found = [] if text_of(root["texts/run"]) == run else [f"{what}: run {text_of(root['texts/run'])}"]
@@ -71,6 +80,7 @@ def hdf5_differences(what, content, columns, rows, run):
 def differences(bench, run, folder):
     """What the views of a run show otherwise than GET /v1/runs/{id}/results."""
     import breachline
+
     service, answer = bench.service, bench.results(run)
     found, at = [], f"/v1/runs/{run}/results?format="
     tables = [("runs", answer["columns"], answer["rows"], answer["without_transfer"])]
@@ -89,7 +99,9 @@ def differences(bench, run, folder):
     for row in [row for row in answer["rows"] if row["runout"] is not None]:
         for name in ("runout", "runout_beyond_toe", "runout_largest"):
             if f"{'≥ ' if row['lower_bound'] else ' '}{row[name]:.4g}" not in shown:
-                found.append(f"breach results does not show {name} {row[name]} of {row['variant']}, lower bound: {row['lower_bound']}")
+                found.append(
+                    f"breach results does not show {name} {row[name]} of {row['variant']}, lower bound: {row['lower_bound']}"
+                )
     moving = {(row["variant"], row["transfer_time"]) for row in answer["rows"] if row["lower_bound"]}
     for each in [each for each in answer["means"] if each["runout"] is not None]:
         if f" {each['runout']:.4g}" not in shown:
@@ -102,7 +114,9 @@ def differences(bench, run, folder):
     against = answer["verdict"]["usable"] in ("questionable", "no")
     if shown.startswith(f"Verdict: {answer['verdict']['words']}\n") != against:
         found.append(f"breach results begins with {shown[:40]!r}, the verdict is {answer['verdict']['words']}")
-    found += [f"breach results does not say: {each['reason']}" for each in answer["without_transfer"] if each["reason"] not in shown]
+    found += [
+        f"breach results does not say: {each['reason']}" for each in answer["without_transfer"] if each["reason"] not in shown
+    ]
     export = folder / run
     done = subprocess.run([programs / "breach", "--server", service.url, "export", run, export], capture_output=True, text=True)
     if done.returncode:
