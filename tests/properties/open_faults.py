@@ -22,6 +22,11 @@ known = [
 ]
 seen = {}
 
+# Removing an equal run takes the recipes with it that a trigger's transfers need: "FOREIGN KEY constraint failed" in every round of
+# the dispatcher, so that nothing of any run is started any more, after a restart neither (store/removal.cpp). Such a case would
+# stop the service of all others: the removal waits for the run's end. cases/removal_with_trigger.json does not wait.
+removal_waits = True
+
 
 def is_open(difference):
     for name, pattern in known:

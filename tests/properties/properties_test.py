@@ -230,6 +230,7 @@ def main():
         bench = None if words.plan else Bench(pathlib.Path(folder) / "bench", words.slurm)
         try:
             if words.case:
+                open_faults.removal_waits = False
                 kept = json.loads(words.case.read_text())
                 properties[kept["property"]][0](bench, kept["case"])
                 return 0
