@@ -2,6 +2,7 @@
 without dimension and place that also scaled, shifted and mirrored problems share."""
 import dataclasses
 import json
+import math
 import os
 import pathlib
 import signal
@@ -31,7 +32,8 @@ class Answer:
 
     def said(self):
         """Why it ended, in one line."""
-        return f"exit {self.code}: " + ("; ".join(f"{each['pointer']} {each['cause']}" for each in self.faults) or self.stderr[-300:].strip())
+        faults = "; ".join(f"{each['pointer']} {each['cause']}" for each in self.faults)
+        return f"exit {self.code}: {faults or self.stderr[-300:].strip()}"
 
 
 def command(phase, file, folder, arguments):
@@ -54,7 +56,9 @@ def run(phase, scene, folder, *arguments):
 
 
 def run_with_stops(phase, scene, folder, waits):
-    """Stops the run after each of the waits [s] that it outlasts, and resumes it; the answer of the last process, and how often it stopped."""
+    """Stops the run after each of the waits [s] that it outlasts, and resumes it.
+
+    Returns the answer of the last process, and how often the run stopped."""
     folder.mkdir(parents=True, exist_ok=True)
     file = folder.with_suffix(".json")
     file.write_text(json.dumps(scene))
@@ -126,7 +130,7 @@ def bits_that_differ(one, other, names_differ=False):
     yield from differences(first, second)
     a, b = arrays(last_file(one)), arrays(last_file(other))
     for name in sorted(a.keys() | b.keys()):
-        if name not in a or name not in b or a[name].shape != b[name].shape or not numpy.array_equal(a[name], b[name], equal_nan=True):
+        if name not in a or name not in b or not numpy.array_equal(a[name], b[name], equal_nan=True):
             yield f"{last_file(one).name}: {name}"
 
 
@@ -151,7 +155,9 @@ def moments(name, values, weights):
 
 
 def field_numbers(fields, weights, scales):
-    """fields: name -> values; scales: name -> the scene's own measure of it. Root mean squares as logarithms: their difference is relative."""
+    """fields: name -> values; scales: name -> the scene's own measure of it.
+
+    Root mean squares are given as logarithms, whose difference is relative."""
     numbers = {}
     for name, values in fields.items():
         square, found = moments(name, values, weights)
@@ -182,9 +188,10 @@ def mpm_numbers(answer, mirrored=False):
     place = place[chosen]
     x = (mpm["domain_x"][1] - place[:, 0] if mirrored else place[:, 0] - mpm["domain_x"][0]) / h
     sign = -1 if mirrored else 1
-    fields = {"x": x, "y": (place[:, 1] - mpm["floor"]["level"]) / h, "v_x": sign * data["velocity"][:, 0], "v_y": data["velocity"][:, 1],
-              "sigma_x": data["stress"][:, 0], "sigma_y": data["stress"][:, 1], "tau": sign * data["stress"][:, 3],
-              "epsilon_q": data["epsilon_q"]}
+    fields = {"x": x, "y": (place[:, 1] - mpm["floor"]["level"]) / h,
+              "v_x": sign * data["velocity"][:, 0], "v_y": data["velocity"][:, 1],
+              "sigma_x": data["stress"][:, 0], "sigma_y": data["stress"][:, 1],
+              "tau": sign * data["stress"][:, 3], "epsilon_q": data["epsilon_q"]}
     speed, stress = (g * h) ** 0.5, 2000 * g * h
     scales = {"x": 1, "y": 1, "v_x": speed, "v_y": speed, "sigma_x": stress, "sigma_y": stress, "tau": stress, "epsilon_q": 1}
     numbers = field_numbers(fields, data["mass"], scales)
@@ -225,6 +232,7 @@ def numbers_of(answer, mirrored=False):
     return measure(answer) if answer.phase == "lem_tool" else measure(answer, mirrored)
 
 
-def farthest_apart(one, other):
-    """(difference, name, both values) of the number that differs most."""
-    return max(((abs(one[name] - other[name]), name, one[name], other[name]) for name in one), key=lambda row: (row[0] != row[0], row[0]))
+def farthest_apart(one, other, names):
+    """(difference, name, both values) of the number that differs most; no number counts as infinitely far."""
+    rows = [(abs(one[name] - other[name]), name, one[name], other[name]) for name in names]
+    return max((math.inf if math.isnan(row[0]) else row[0], *row[1:]) for row in rows)

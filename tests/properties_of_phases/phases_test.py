@@ -1,10 +1,10 @@
-"""Phases on random small scenes: a change that cannot matter leaves the answer as it is, a scaled problem has the scaled answer, more
-strength is not less safe, and a scene with one slip is refused with the slip's pointer.
+"""Phases on random small scenes: a change that cannot matter leaves the answer as it is, a scaled problem has the scaled answer,
+more strength is not less safe, and a scene with one slip is refused with the slip's pointer.
 
     phases_test.py GROUP [--seed S] [--scenes N] [--scene K] [--checks NAME,...] [--shrink] [--keep DIR]
 
-GROUP: lem, mpm, fem, chain or slips. A failure prints the command that repeats it alone. --shrink: hypothesis looks for the smallest
-scene that fails in the same way (minutes)."""
+GROUP: lem, mpm, fem, chain or slips. A failure prints the command that repeats it alone. --shrink: hypothesis looks for the
+smallest scene that fails (minutes)."""
 import argparse
 import os
 import pathlib
@@ -43,11 +43,13 @@ def claim_same_bits(one, other, names_differ=False):
         claim(not found, f"{len(found)} differ: " + "; ".join(found[:4]))
 
 
-def claim_close(one, other, allowed, mirrored=False):
+def claim_close(one, other, allowed, mirrored=False, leave_out="none of them"):
     claim(one.code == other.code, f"{one.said()}, and then {other.said()}")
     if one.code != 0:
         return
-    apart, name, before, after = farthest_apart(numbers_of(one), numbers_of(other, mirrored))
+    numbers, others = numbers_of(one), numbers_of(other, mirrored)
+    names = [name for name in numbers if name in others and not name.startswith(leave_out)]
+    apart, name, before, after = farthest_apart(numbers, others, names)
     largest[0] = max(largest[0], apart)
     claim(apart <= allowed, f"{name}: {before:.9g}, and then {after:.9g} (apart {apart:.2g}, allowed {allowed:.1g})")
 
@@ -66,7 +68,9 @@ def check_change(phase, scene, base, alter, generator, folder):
     if name in change.EXACT[phase]:
         claim_same_bits(base, answer, names_differ=name in ("renamed", "reordered"))
     else:
-        claim_close(base, answer, change.ALLOWED[phase][name], name == "mirrored")
+        # An untouched layer that settles under its own weight takes part in the energies.
+        claim_close(base, answer, change.ALLOWED[phase][name], name == "mirrored",
+                    leave_out="share of" if name == "with_untouched_layer" else "none of them")
     return True
 
 
@@ -89,12 +93,16 @@ def check_stops(phase, scene, base, generator, folder):
 
 
 def check_snapshots(phase, scene, base, generator, folder):
-    """Snapshots where steps end: the FEM's at multiples of its step, the MPM's of a given step. Elsewhere the MPM cuts its steps."""
+    """Snapshots where steps end: the FEM's at multiples of its step, the MPM's of a given step.
+
+    Elsewhere the MPM cuts its steps to meet them (mpm_solver/simulation.cpp, next_step), which is another run within the error of a
+    step."""
     other = change.copy.deepcopy(scene)
     if phase == "fem_solver":
         stage = scene["fem"]["stages"][-1]
         steps = round(stage["duration"] / stage["time_step"])
-        other["fem"]["snapshot_times"] = sorted(stage["time_step"] * k for k in generator.sample(range(1, steps + 1), min(3, steps)))
+        chosen = generator.sample(range(1, steps + 1), min(3, steps))
+        other["fem"]["snapshot_times"] = sorted(stage["time_step"] * k for k in chosen)
     elif "time_step" in scene["mpm"]:
         other["mpm"]["snapshot_interval"] = scene["mpm"]["duration"] / generator.choice([2, 4])
     else:
@@ -104,8 +112,8 @@ def check_snapshots(phase, scene, base, generator, folder):
 
 
 def check_lem_monotony(alter, scene, base, generator, folder):
-    """Bishop's factor of every circle grows with strength and falls with pore pressure and shaking; the least of them does, too, but for
-    what the descents leave."""
+    """Bishop's factor of every circle grows with strength and falls with pore pressure and shaking; so does the least of them,
+    within what the descents leave."""
     other = alter(scene, generator)
     if other is None or base.code != 0:
         return False
@@ -113,7 +121,8 @@ def check_lem_monotony(alter, scene, base, generator, folder):
     claim(answer.code == 0, answer.said())
     before, after = numbers_of(base), numbers_of(answer)
     for name in before:
-        claim(after[name] >= before[name] * (1 - change.SLICES), f"{name}: {before[name]:.6g}, and {alter.__name__} {after[name]:.6g}")
+        claim(after[name] >= before[name] * (1 - change.SLICES),
+              f"{name}: {before[name]:.6g}, and {alter.__name__} {after[name]:.6g}")
     return True
 
 
@@ -248,7 +257,8 @@ class Slips:
         done.setdefault(kind, [0, 0.0])[0] += 1
 
 
-GROUPS = {"lem": lambda wanted: Group("lem_tool", scenes.lem_scenes(), wanted), "mpm": lambda wanted: Group("mpm_solver", scenes.mpm_scenes(), wanted),
+GROUPS = {"lem": lambda wanted: Group("lem_tool", scenes.lem_scenes(), wanted),
+          "mpm": lambda wanted: Group("mpm_solver", scenes.mpm_scenes(), wanted),
           "fem": lambda wanted: Group("fem_solver", scenes.fem_scenes(), wanted), "chain": Chain, "slips": Slips}
 done = {}
 

@@ -55,92 +55,89 @@ def put(document, pointer, value):
     parent[key] = value
 
 
-def out_of_range(schema):
-    """A number just outside what the schema allows; none: it allows all."""
-    if "minimum" in schema:
-        return schema["minimum"] - 1
-    if "exclusiveMinimum" in schema:
-        return schema["exclusiveMinimum"]
-    return None
+def overwritten(kind, pointer, value, *pointers):
+    """The slip of another value at one place; pointers: what may be named, when it is not the place itself."""
+    return kind, lambda document: put(document, pointer, value), pointers or (pointer,)
+
+
+def dropped(kind, pointer, key):
+    def drop(document):
+        parent, last = parent_of(document, f"{pointer}/{key}")
+        del parent[last]
+    return kind, drop, (pointer, f"{pointer}/{key}")
 
 
 def slips_of_schema(document):
+    """(kind, change of the document, pointers of which one must be named)"""
     for pointer, value, schema in entries(document, SCHEMA):
         if isinstance(value, dict):
             if schema.get("additionalProperties") is False:
-                yield "unknown key", pointer + "/surplus", lambda made, p=pointer: put(made, p + "/surplus", 1), [pointer + "/surplus"]
+                yield overwritten("unknown key", f"{pointer}/surplus", 1)
             for key in schema.get("required", []):
-                if key in value:
-                    yield ("missing key", pointer, lambda made, p=f"{pointer}/{key}": drop(made, p), [pointer, f"{pointer}/{key}"])
+                yield dropped("missing key", pointer, key)
         elif isinstance(value, list):
             if schema.get("minItems"):
-                yield ("short list", pointer, lambda made, p=pointer, v=value, n=schema["minItems"]: put(made, p, v[:n - 1]), [pointer])
-            yield "a word for a list", pointer, lambda made, p=pointer: put(made, p, "none"), [pointer]
+                yield overwritten("short list", pointer, value[:schema["minItems"] - 1])
+            yield overwritten("a word for a list", pointer, "none")
         elif isinstance(value, bool):
-            yield "a number for a switch", pointer, lambda made, p=pointer: put(made, p, 2), [pointer]
+            yield overwritten("a number for a switch", pointer, 2)
         elif isinstance(value, (int, float)):
-            yield "a list for a number", pointer, lambda made, p=pointer: put(made, p, [1]), [pointer]
-            yield "nothing for a number", pointer, lambda made, p=pointer: put(made, p, None), [pointer]
-            yield "a word for a number", pointer, lambda made, p=pointer: put(made, p, "much"), [pointer]
-            if out_of_range(schema) is not None:
-                yield "below the range", pointer, lambda made, p=pointer, n=out_of_range(schema): put(made, p, n), [pointer]
+            for kind, wrong in (("a list", [1]), ("nothing", None), ("a word", "much")):
+                yield overwritten(f"{kind} for a number", pointer, wrong)
+            if "minimum" in schema:
+                yield overwritten("below the range", pointer, schema["minimum"] - 1)
+            elif "exclusiveMinimum" in schema:
+                yield overwritten("below the range", pointer, schema["exclusiveMinimum"])
             if "maximum" in schema:
-                yield "above the range", pointer, lambda made, p=pointer, n=schema["maximum"] * 1.5 + 1: put(made, p, n), [pointer]
+                yield overwritten("above the range", pointer, schema["maximum"] * 1.5 + 1)
         elif "enum" in schema or "const" in schema:
-            yield "misspelt word", pointer, lambda made, p=pointer, v=value: put(made, p, v + "x"), [pointer]
+            yield overwritten("misspelt word", pointer, value + "x")
 
 
-def drop(document, pointer):
-    parent, key = parent_of(document, pointer)
-    del parent[key]
+def slips_of_regions(document):
+    regions = document["section"]["regions"]
+    for k, region in enumerate(regions):
+        here, ring = f"/section/regions/{k}", region["polygon"]
+        yield overwritten("unknown material", here + "/material", "clay")
+        yield overwritten("open polygon", here + "/polygon", ring[:-1])
+        yield overwritten("region without area", here + "/polygon", [ring[0], ring[1], ring[0], ring[0]])
+        if len(ring) == 5:
+            yield overwritten("crossed polygon", here + "/polygon", [ring[0], ring[2], ring[1], ring[3], ring[0]])
+        if k > 0:
+            yield overwritten("a name twice", here + "/name", regions[0]["name"])
+            either = [f"/section/regions/{n}{end}" for n in range(len(regions)) for end in ("", "/polygon")]
+            yield overwritten("overlap", here + "/polygon", [[x, y - 0.5] for x, y in ring], "/section/regions", *either)
 
 
 def slips_of_meaning(document):
-    for k, region in enumerate(document["section"]["regions"]):
-        here = f"/section/regions/{k}"
-        polygon = region["polygon"]
-        yield "unknown material", here, lambda made, p=here: put(made, p + "/material", "clay"), [here + "/material"]
-        yield "open polygon", here, lambda made, p=here, v=polygon: put(made, p + "/polygon", v[:-1]), [here + "/polygon"]
-        if len(polygon) == 5:
-            yield ("crossed polygon", here, lambda made, p=here, v=polygon: put(made, p + "/polygon", [v[0], v[2], v[1], v[3], v[0]]),
-                   [here + "/polygon"])
-        yield "region without area", here, lambda made, p=here, v=polygon: put(made, p + "/polygon", [v[0], v[1], v[0], v[0]]), [here + "/polygon"]
-        if k > 0:
-            yield ("a name twice", here, lambda made, p=here, v=document["section"]["regions"][0]["name"]: put(made, p + "/name", v),
-                   [here + "/name"])
-            moved = [[x, y - 0.5] for x, y in polygon]
-            others = [f"/section/regions/{n}{end}" for n in range(len(document["section"]["regions"])) for end in ("", "/polygon")]
-            yield "overlap", here, lambda made, p=here, v=moved: put(made, p + "/polygon", v), [*others, "/section/regions"]
-    lists = [("/mpm/runout/regions/0", "mpm"), ("/lem/undrained/0/region", "lem")]
-    for pointer, part in lists:
-        if part in document and (part != "lem" or "undrained" in document["lem"]):
-            yield "unknown region", pointer, lambda made, p=pointer: put(made, p, "nowhere"), [pointer]
-    ranges = {"lem": ["/lem/search/entry", "/lem/search/exit"], "mpm": ["/mpm/domain_x", "/mpm/domain_y"]}
-    for part, pointers in ranges.items():
-        for pointer in pointers if part in document else []:
-            parent, key = parent_of(document, pointer)
-            yield "descending range", pointer, lambda made, p=pointer, v=parent[key][::-1]: put(made, p, v), [pointer]
+    yield from slips_of_regions(document)
+    if "lem" in document:
+        for name in ("entry", "exit"):
+            yield overwritten("descending range", f"/lem/search/{name}", document["lem"]["search"][name][::-1])
+        if "undrained" in document["lem"]:
+            yield overwritten("unknown region", "/lem/undrained/0/region", "nowhere")
     if "mpm" in document:
-        x0, x1 = document["mpm"]["domain_x"]
-        yield "part of a cell", "/mpm/domain_x", lambda made: put(made, "/mpm/domain_x", [x0, x1 + 0.3]), ["/mpm/domain_x"]
-        yield "floor off the grid", "/mpm/floor/level", lambda made: made["mpm"]["floor"].update(level=-100), ["/mpm/floor/level"]
-        yield "gauge outside", "/mpm/gauges/0", lambda made: put(made, "/mpm/gauges/0/x", x1 + 5), ["/mpm/gauges/0/x"]
+        mpm = document["mpm"]
+        x0, x1 = mpm["domain_x"]
+        yield overwritten("unknown region", "/mpm/runout/regions/0", "nowhere")
+        for name in ("domain_x", "domain_y"):
+            yield overwritten("descending range", f"/mpm/{name}", mpm[name][::-1])
+        yield overwritten("part of a cell", "/mpm/domain_x", [x0, x1 + 0.3])
+        yield overwritten("floor below the grid", "/mpm/floor/level", -100)
+        yield overwritten("gauge outside", "/mpm/gauges/0/x", x1 + 5)
     if "fem" in document:
-        yield "nothing holds it", "/fem/supports", lambda made: put(made, "/fem/supports", made["fem"]["supports"][:2]), ["/fem/supports"]
-        far = [[9000, 0], [9001, 0]]
-        yield ("support in the air", "/fem/supports/0", lambda made: made["fem"]["supports"][0].update({"from": far[0], "to": far[1]}),
-               ["/fem/supports/0", "/fem/supports/0/from", "/fem/supports/0/to"])
-        yield ("a corner that is no vertex", "/section/regions/0/mesh", lambda made: put(made, "/section/regions/0/mesh/corners/0", [0.37, 77]),
-               ["/section/regions/0/mesh/corners/0"])
-        yield ("step longer than its stage", "/fem/stages/1", lambda made: put(made, "/fem/stages/1/time_step", 100),
-               ["/fem/stages/1/time_step", "/fem/stages/1"])
+        yield overwritten("nothing holds it", "/fem/supports", document["fem"]["supports"][:2])
+        away = {"from": [9000, 0], "to": [9001, 0]}
+        yield overwritten("support in the air", "/fem/supports/0", document["fem"]["supports"][0] | away,
+                          "/fem/supports/0", "/fem/supports/0/from", "/fem/supports/0/to")
+        yield overwritten("a corner that is no vertex", "/section/regions/0/mesh/corners/0", [0.37, 77])
 
 
 def slipped(scene, random):
-    """(kind, document, pointers of which one must be named)"""
+    """(kind, document with one slip, pointers of which one must be named)"""
     choice = list(slips_of_meaning(scene)) if random.random() < 0.5 else list(slips_of_schema(scene))
     kind = random.choice(sorted({each[0] for each in choice}))
-    _, _, change, pointers = random.choice([each for each in choice if each[0] == kind])
+    _, change, pointers = random.choice([each for each in choice if each[0] == kind])
     made = copy.deepcopy(scene)
     change(made)
     return kind, made, pointers
