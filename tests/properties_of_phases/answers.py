@@ -169,9 +169,9 @@ def field_numbers(fields, weights, scales):
 
 
 def lem_numbers(answer):
+    """Logarithms of the factors: their difference is relative."""
     result = answer.result
-    numbers = {"factor_of_safety": result["factor_of_safety"], "bishop": result["bishop"]["factor_of_safety"]}
-    return {name: float(value) for name, value in numbers.items()}
+    return {"log F": math.log(result["factor_of_safety"]), "log F of Bishop": math.log(result["bishop"]["factor_of_safety"])}
 
 
 def mpm_numbers(answer, mirrored=False):

@@ -4,7 +4,7 @@ more strength is not less safe, and a scene with one slip is refused with the sl
     phases_test.py GROUP [--seed S] [--scenes N] [--scene K] [--checks NAME,...] [--shrink] [--keep DIR]
 
 GROUP: lem, mpm, fem, chain or slips. A failure prints the command that repeats it alone. --shrink: hypothesis looks for the
-smallest scene that fails (minutes)."""
+smallest scene that fails the --checks (minutes)."""
 import argparse
 import os
 import pathlib
@@ -120,9 +120,11 @@ def check_lem_monotony(alter, scene, base, generator, folder):
     answer = run("lem_tool", other, folder / "other")
     claim(answer.code == 0, answer.said())
     before, after = numbers_of(base), numbers_of(answer)
-    for name in before:
-        claim(after[name] >= before[name] * (1 - change.SLICES),
-              f"{name}: {before[name]:.6g}, and {alter.__name__} {after[name]:.6g}")
+    # Stronger soil around a layer makes it a weak one, along which lem_tool then searches, too (lem_tool/weak_layers.cpp): a phi of
+    # 27 instead of 25 degrees around a layer of 24.2 lowered a factor from 1.2946 to 1.2920.
+    same_search = all((name in base.result) == (name in answer.result) for name in ("composite", "non_circular"))
+    for name in before if same_search else ["log F of Bishop"]:
+        claim(after[name] >= before[name] - change.SLICES, f"{name}: {before[name]:.6g}, and {alter.__name__} {after[name]:.6g}")
     return True
 
 
@@ -168,26 +170,27 @@ def checks_of(phase):
 
 # ------------------------------------------------------------------------------------------------------------ the groups
 
+def turn(names, at_once, number):
+    """Checks of this scene: each has its turn, as often as the others."""
+    return [names[(at_once * number + k) % len(names)] for k in range(min(at_once, len(names)))]
+
+
 class Group:
     """A scene and three of the checks."""
 
     def __init__(self, phase, strategy, wanted):
         self.phase, self.checks = phase, checks_of(phase)
-        names = wanted or sorted(self.checks)
-        at_once = min(3, len(names))
-        self.strategy = st.tuples(st.lists(st.sampled_from(names), min_size=at_once, max_size=at_once, unique=True),
-                                  st.integers(0, 2 ** 32 - 1), strategy)
+        self.names, self.at_once, self.strategy = wanted or sorted(self.checks), 3, strategy
 
-    def check(self, case, folder, fail):
-        names, salt, scene = case
+    def check(self, scene, number, folder, fail):
         base = run(self.phase, scene, folder / "base")
         counts["refused" if base.code == 65 else "broke down" if base.code == 70 else "ran"] += 1
         if base.code not in (0, 65, 70) or "internal fault" in base.stderr:
             fail("base", base.said())
-        for name in names:
+        for name in turn(self.names, self.at_once, number):
             largest[0] = 0.0
             try:
-                did = self.checks[name](scene, base, random.Random(salt), folder / name)
+                did = self.checks[name](scene, base, random.Random(number), folder / name)
             except Differs as failure:
                 fail(name, str(failure))
                 continue
@@ -201,10 +204,7 @@ class Chain:
 
     def __init__(self, wanted):
         self.changes = {each.__name__: each for each in change.changes_of("transfer_tool")}
-        names = wanted or sorted(self.changes)
-        at_once = min(2, len(names))
-        self.strategy = st.tuples(st.lists(st.sampled_from(names), min_size=at_once, max_size=at_once, unique=True),
-                                  st.integers(0, 2 ** 32 - 1), scenes.chain_scenes())
+        self.names, self.at_once, self.strategy = wanted or sorted(self.changes), 2, scenes.chain_scenes()
 
     @staticmethod
     def points(scene, folder):
@@ -213,13 +213,12 @@ class Chain:
             return fem
         return run("transfer_tool", scene, folder / "points", "--input", sorted(fem.folder.glob("snapshot_*.vtkhdf"))[-1])
 
-    def check(self, case, folder, fail):
-        names, salt, scene = case
+    def check(self, scene, number, folder, fail):
         base = self.points(scene, folder / "base")
         counts["refused" if base.code == 65 else "broke down" if base.code == 70 else "ran"] += 1
-        for name in names:
+        for name in turn(self.names, self.at_once, number):
             largest[0] = 0.0
-            other = self.changes[name](scene, random.Random(salt))
+            other = self.changes[name](scene, random.Random(number))
             if other is None:
                 continue
             try:
@@ -243,12 +242,12 @@ class Slips:
 
     def __init__(self, _):
         phases = {"lem_tool": scenes.lem_scenes(), "mpm_solver": scenes.mpm_scenes(), "fem_solver": scenes.fem_scenes()}
-        self.strategy = st.tuples(st.integers(0, 2 ** 32 - 1), st.sampled_from(sorted(phases)).flatmap(
-            lambda phase: st.tuples(st.just(phase), phases[phase])))
+        self.names, self.at_once = [], 0
+        self.strategy = st.sampled_from(sorted(phases)).flatmap(lambda phase: st.tuples(st.just(phase), phases[phase]))
 
-    def check(self, case, folder, fail):
-        salt, (phase, scene) = case
-        kind, wrong, pointers = slips.slipped(scene, random.Random(salt))
+    def check(self, case, number, folder, fail):
+        phase, scene = case
+        kind, wrong, pointers = slips.slipped(scene, random.Random(number))
         answer = run(phase, wrong, folder / "wrong")
         counts["refused" if answer.code == 65 else f"exit {answer.code}"] += 1
         found = [each["pointer"] for each in answer.faults]
@@ -278,9 +277,11 @@ def main(arguments=None):
     options.add_argument("--scenes", type=int, default=50)
     options.add_argument("--scene", type=int, help="only this one of them")
     options.add_argument("--checks", default="", help="only these: names of the printed table")
-    options.add_argument("--shrink", action="store_true")
+    options.add_argument("--shrink", action="store_true", help="look for the smallest scene that fails; with --checks")
     options.add_argument("--keep", help="folder for the scenes and runs of failures")
     asked = options.parse_args(arguments)
+    if asked.shrink and not asked.checks:
+        options.error("--shrink needs --checks: of which check the smallest scene is wanted")
     wanted = sorted(filter(None, asked.checks.split(",")))
     group, began, failures, number = GROUPS[asked.group](wanted), time.monotonic(), [], 0
     print(f"{asked.group}: {asked.scenes} scenes of seed {asked.seed}", flush=True)
@@ -306,7 +307,9 @@ def main(arguments=None):
                       f"--scenes {asked.scenes}{f' --checks {asked.checks}' * bool(wanted)} --scene {number}", flush=True)
                 if asked.keep:
                     shutil.copytree(folder, pathlib.Path(asked.keep) / f"{asked.group}_{asked.seed}_{number}", dirs_exist_ok=True)
-            group.check(case, folder, fail)
+            # The smallest scene is one for all of the checks, whichever turn it is.
+            group.at_once = len(group.names) if asked.shrink else group.at_once
+            group.check(case, 1 if asked.shrink else number, folder, fail)
 
     try:
         each()
