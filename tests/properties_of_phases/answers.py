@@ -197,14 +197,17 @@ def mpm_numbers(answer, mirrored=False):
     numbers = field_numbers(fields, data["mass"], scales)
     numbers["farthest point [cells]"] = float(x.max())
     numbers["points"] = float(len(x))
-    return numbers if mirrored or answer.phase == "transfer_tool" else numbers | told_by_mpm(answer.result, h)
+    lift = float(data["mass"].sum()) * g * h
+    return numbers if mirrored or answer.phase == "transfer_tool" else numbers | told_by_mpm(answer.result, h, lift)
 
 
-def told_by_mpm(result, h):
-    """Lengths in cells and shares of energies."""
+def told_by_mpm(result, h, lift):
+    """Lengths in cells, and energies by what lifts the points by a cell.
+
+    For a stable slope the result's own shares are of a fall of 2.5 cm (mpm_solver/README.md), which no similarity scales."""
     told = {"runout": result["runout"] / h, "volume_ratio": result["volume_ratio"],
             "deepest at the gauge": next(iter(result["gauges"].values()))["largest_depth"] / h if result.get("gauges") else 0.0}
-    told |= {f"share of {name} energy": result["energy"][name]["share"] for name in ("kinetic", "plastic", "friction", "numerical")}
+    told |= {f"energy, {name}": result["energy"][name]["J"] / lift for name in ("kinetic", "plastic", "friction", "numerical")}
     return {name: float(value) for name, value in told.items()}
 
 
