@@ -296,6 +296,9 @@ CHANGES = [shifted, mirrored, renamed, reordered, written_otherwise, begun_elsew
 SLICES = 5e-4
 # Other round-off sends a descent another way; it stops at a gain of 1e-5 (lem_tool/search.cpp).
 DESCENT = 2e-5
+# An optimised polyline halves its step some eight times, each after a round that gained less than 1e-4, and moves its vertices from
+# left to right (lem_tool/optimise.cpp).
+POLYLINE = 1e-3
 # Sums in another order (1e-15), grown by some hundred steps of plastic flow or by the tolerance of the iteration (1e-9).
 ORDER = 1e-7
 # Coordinates of 3e6 m have steps of 5e-10 m, each time step rounds them, and soil in failure amplifies it.
