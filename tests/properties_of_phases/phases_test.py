@@ -76,7 +76,7 @@ def check_change(phase, scene, base, alter, generator, folder):
         claim_same_bits(base, answer, names_differ=name in ("renamed", "reordered"))
     else:
         # An untouched layer that settles under its own weight takes part in the energies.
-        claim_close(base, answer, change.ALLOWED[phase][name], name == "mirrored",
+        claim_close(base, answer, change.allowed(phase, name, scene), name == "mirrored",
                     leave_out="energy" if name == "with_untouched_layer" else "none of them")
     return True
 
@@ -236,7 +236,7 @@ class Chain:
                 if name in change.EXACT["transfer_tool"]:
                     claim_same_bits(base, answer, names_differ=name in ("renamed", "reordered"))
                 else:
-                    claim_close(base, answer, change.ALLOWED["transfer_tool"][name], name == "mirrored")
+                    claim_close(base, answer, change.allowed("transfer_tool", name, scene), name == "mirrored")
             except Differs as failure:
                 fail(name, str(failure))
                 continue
