@@ -97,6 +97,7 @@ def mean(rows, draws):
         "draws_done": len(done),
         "missing_draws": "; ".join(missing),
         "questionable_draws": "; ".join(doubtful),
+        "lower_bound": any(each["lower_bound"] for each in done) if done else None,
     }
     for name in averaged:
         values = [each[name] for each in done if each[name] is not None]
@@ -137,7 +138,7 @@ def verdict(study, scenes, rows, without):
         for name in {each["variant"] for each in rows}
         if all(each["state"] == "not_reached" for each in rows if each["variant"] == name)
     ]
-    if falls and all(falls) or len(missing) == len(scenes):
+    if falls and all(falls) or missing and all(each["runout"] is None for each in rows):
         return "no"
     if any(falls) or any(each["questionable"] for each in rows) or missing:
         return "questionable"
@@ -310,5 +311,5 @@ def fired(trigger, scene):
             min((t for t in lines if lower <= t <= end), key=lambda t: (round(abs(t - (lower + end) / 2), 6), t)),
             True,
         )  # the earlier of two
-    before = [t for t in lines if lower <= t < end or upper is None and t == end]
-    return before[-1], True
+    before = [t for t in lines if lower <= t < end]  # the FEM's end closes a window without an upper edge
+    return (before[-1] if before else None), True

@@ -29,7 +29,8 @@ def number(low, high, *of):
 
 
 def soil(scene):
-    return float(at(scene, "/materials/base_soil/density", 0))
+    """Of the soil's weight."""
+    return round(float(at(scene, "/materials/base_soil/density", 0)) * float(at(scene, "/gravity", 9.81)) / 9.81, 3)
 
 
 def lem(scene):

@@ -35,7 +35,7 @@ changes = {
         "/mpm/damping_ratio=0.2",
         '/mpm/runout/regions/-="base"',
     ],
-    "all": ["/materials/base_soil/density=2100"],
+    "all": ["/materials/base_soil/density=2100", "/gravity=9.7"],
 }
 
 disturbances = ["extend", "extend_at_once", "twin", "warm", "remove", "pause", "cancel", "kill", "budget", "retry", "rename"]
