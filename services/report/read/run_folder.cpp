@@ -181,7 +181,7 @@ json rows_not_reached(const json& table, const json& study) {
     std::map<std::string, json> first;
     std::set<std::string> reached;
     for (const json& row : table.at("rows")) {
-        if (row.at("state") != "not_reached") reached.insert(row.at("variant"));
+        if (row.value("state", "") != "not_reached") reached.insert(row.at("variant"));
         first.emplace(row.at("variant"), row);
     }
     json found = json::array();

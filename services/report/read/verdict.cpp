@@ -154,7 +154,7 @@ findings::Facts facts_of(const Run& run) {
             {each.value("variant", ""), each.value("stood", false), each.value("reason", "")});
     for (const json& each : run.not_reached)
         facts.without_transfer.push_back(
-            {each.at("variant"), false, each.at("reason"), "/transfer_times"});
+            {each.at("variant"), false, each.value("reason", ""), "/transfer_times"});
     return facts;
 }
 
