@@ -217,8 +217,9 @@ def chain_scenes(draw):
     (x0, bottom), (x1, _) = low[0], low[1]
     size = (x1 - x0) / scene["section"]["regions"][0]["mesh"]["divisions"][0]
     cells = -(-(high[2][1] - bottom) // size) + 2
-    # One point per element loses the more of the kinetic energy the coarser the elements are.
-    scene["transfer"] = {"points_per_direction": draw(st.sampled_from([1, 2, 3])), "largest_kinetic_energy_loss": 1}
+    # Few points per element lose the more momentum and kinetic energy the coarser the elements are.
+    scene["transfer"] = {"points_per_direction": draw(st.sampled_from([1, 2, 3])), "largest_momentum_loss": 1,
+                         "largest_kinetic_energy_loss": 1}
     scene["mpm"] = {"cell_size": size, "allow_coarse_cells": True,
                     "domain_x": [x0, x1], "domain_y": [bottom, bottom + cells * size], "left": "roller", "right": "roller",
                     "floor": {"level": bottom}, "duration": 0.25, "snapshot_interval": 0.25,

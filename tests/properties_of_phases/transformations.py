@@ -302,8 +302,8 @@ ORDER = 1e-7
 FAR_AWAY = 1e-6
 
 # ssp with water stabilises the pressure with a time of 0.02 s that no entry scales (fem_solver/model/porous_element.hpp).
-# Measured: 1.6 % in the displacements of 8 such scenes.
-ALTERNATION = 0.03
+# Measured among 1,200 scenes of the FEM and 500 of the chain: at most 9.6 % in displacements and 4.6 % in velocities.
+ALTERNATION = 0.2
 
 ALLOWED = {
     "lem_tool": {"similar": 0.0, "shifted": DESCENT, "mirrored": DESCENT, "with_untouched_layer": DESCENT, "split": SLICES,
