@@ -57,7 +57,8 @@ def scene(has_fem=True, salt=0):
 def changes_of(has_fem, most):
     names = changes if has_fem else ("lem_tool", "mpm_solver", "all")
     one = st.sampled_from(list(names)).flatmap(lambda phase: st.sampled_from(changes[phase]))
-    return st.lists(one, max_size=most, unique_by=lambda each: each.split("=")[0])
+    appends = st.sampled_from([each for phase in names for each in changes[phase] if "/-=" in each])
+    return st.lists(one | one | one | appends, max_size=most, unique_by=lambda each: each.split("=")[0])
 
 
 @st.composite
@@ -97,7 +98,7 @@ def triggered(draw):
     condition = st.builds(
         "{} > {}".format, st.sampled_from(["crest_displacement", "time"]), st.sampled_from([0.25, 0.45, 0.75, 1.25, 1.75, 2.5])
     )
-    trigger = {"kind": draw(st.sampled_from(["criterion", "window"])), "name": "t", "snapshot_interval_s": known.step}
+    trigger = {"kind": draw(st.sampled_from(["criterion", "window", "window"])), "name": "t", "snapshot_interval_s": known.step}
     if trigger["kind"] == "criterion":
         trigger["when"] = draw(condition)
     else:
@@ -112,7 +113,8 @@ def triggered(draw):
 @st.composite
 def cases(draw, studies=None):
     study = draw(studies if studies is not None else sweeps())
-    chosen = draw(st.lists(st.sampled_from(disturbances), max_size=5, unique=True))
+    any_of_them = st.lists(st.sampled_from(disturbances), max_size=5, unique=True)
+    chosen = draw(any_of_them | any_of_them | any_of_them | st.just(["extend", "warm"]))
     return {
         "study": study,
         "disturbances": sorted(chosen, key=disturbances.index),
