@@ -17,13 +17,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string text(double value) {
     char words[32];
-    std::snprintf(words, sizeof words, "%.6g", value);
+    std::snprintf(words, sizeof words, "%.6g", value + 0.0);  // no "-0"
     return words;
 }
 
 std::string text(const Vec2& point) {
     char words[64];
-    std::snprintf(words, sizeof words, "(%.6g, %.6g)", point.x(), point.y());
+    std::snprintf(words, sizeof words, "(%.6g, %.6g)", point.x() + 0.0, point.y() + 0.0);
     return words;
 }
 

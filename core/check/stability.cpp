@@ -47,6 +47,7 @@ bool check_slices(const scene::Scene& scene, Findings& findings) {
 /// A range of x of which some lies over the section.
 bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                  const std::string& pointer, Findings& findings) {
+    if (range[0] > range[1]) return false;  // core/scene has refused it
     const geometry::Box box = extent(scene.section);
     const std::string ground = "the section's ground reaches from x = " + text(box.low.x()) +
                                " to " + metres(box.high.x());
@@ -54,6 +55,13 @@ bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
         refuse(findings, pointer,
                "lies beside the section: x from " + text(range[0]) + " to " + metres(range[1]),
                ground + ": give a range on it");
+        return false;
+    }
+    if (const geometry::Levels over = ground_over(scene.section, range[0], range[1]);
+        over.highest < over.lowest) {
+        refuse(findings, pointer,
+               "lies in a gap of the section: x from " + text(range[0]) + " to " + metres(range[1]),
+               "give a range with ground below it");
         return false;
     }
     const double near = 1e-9 * (box.high.x() - box.low.x());

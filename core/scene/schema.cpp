@@ -357,8 +357,8 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
     if (value.is_discarded()) value = text;
     try {
         document[json::json_pointer(pointer)] = std::move(value);
-    } catch (const json::exception& error) {
-        return {{pointer, std::string("cannot be set: ") + error.what(),
+    } catch (const json::exception&) {
+        return {{pointer, "cannot be set: no object or list that could hold it is there",
                  "name an entry that exists, or a new key of an existing object"}};
     }
     return {};

@@ -364,7 +364,8 @@ std::string as_mean_table(const json& answer) {
         line.push_back(cell(row, "state"));
         line.push_back(cell(row, "draws_done") + " of " + cell(row, "draws"));
         for (const char* each : {"runout", "runout_beyond_toe", "runout_largest"}) {
-            line.push_back(cell(row, each));
+            const bool bound = row.value("lower_bound", json()) == true;
+            line.push_back((bound ? "\u2265 " : "") + cell(row, each));
             line.push_back(cell(row, (each + std::string("_deviation")).c_str()));
         }
         line.push_back(cell(row, "runout_error"));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -142,28 +143,26 @@ Reason reason_of(const Early& early) {
             "/transfer_times"};
 }
 
-/// Variants without a transfer. Whether the dam stands is known only where its FEM ended without a failure.
+/// Variants without a transfer. The dam may stand only where its FEM ended without a failure.
 void add_without_transfer(const Facts& facts, std::vector<Reason>& reasons) {
-    for (const bool stood : {false, true}) {
+    std::map<std::pair<bool, std::string>, std::vector<const NoTransfer*>> alike;
+    for (const NoTransfer& each : facts.without_transfer)
+        alike[{each.stood, each.pointer}].push_back(&each);
+    for (const auto& [kind, variants] : alike) {
+        const auto& [stood, pointer] = kind;
         std::vector<std::string> names;
-        std::string why;
-        for (const NoTransfer& each : facts.without_transfer) {
-            if (each.stood != stood) continue;
-            names.push_back(each.variant);
-            if (why.empty()) why = each.reason;
-        }
-        if (names.empty()) continue;
+        for (const NoTransfer* each : variants) names.push_back(each->variant);
+        const std::string& why = variants.front()->reason;
         const std::string of = names.front().empty() ? ""
                                : names.size() == 1   ? " from " + names.front()
                                                      : " from " + std::to_string(names.size()) +
                                                          " variants (" + names.front() + ", ...)";
-        reasons.push_back(
-            {facts.has_runout ? (stood ? Usable::with_remarks : Usable::questionable) : Usable::no,
-             "no_transfer", "no transfer" + of + ": " + why,
-             "No transfer" + of + ", so there is no runout: " + why +
-                 (stood ? ". The dam may stand; then nothing runs out."
-                        : ". This does not mean that the dam stands."),
-             "/triggers"});
+        reasons.push_back({facts.has_runout ? Usable::questionable : Usable::no, "no_transfer",
+                           "no transfer" + of + ": " + why,
+                           "No transfer" + of + ", so there is no runout: " + why +
+                               (stood ? ". The dam may stand; then nothing runs out."
+                                      : ". This does not mean that the dam stands."),
+                           pointer});
     }
 }
 

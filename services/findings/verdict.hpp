@@ -29,11 +29,12 @@ struct Unstable {
     std::string variant;  ///< of the least; empty: the scene itself
 };
 
-/// A variant whose FEM ended and whose triggers never fired.
+/// A variant whose FEM ended before all its transfer times, or without that a trigger fired.
 struct NoTransfer {
     std::string variant;
     bool stood;  ///< the FEM ended without a failure
     std::string reason;
+    std::string pointer = "/triggers";  ///< what asked for a transfer
 };
 
 /// Transfers before the liquefied zone had most of the depth that it came to in the same FEM (its milestone "liquefied").

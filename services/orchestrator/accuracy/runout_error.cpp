@@ -36,11 +36,6 @@ struct Estimate {
 /// the section that of the MPM alone.
 using Question = std::tuple<std::string, std::string, std::string>;
 
-json& field(ResultRow& row, std::string_view name, std::span<const ResultColumn> columns) {
-    const auto found = std::ranges::find(columns, name, &ResultColumn::name);
-    return row[static_cast<std::size_t>(found - columns.begin())];
-}
-
 class Questions {
   public:
     explicit Questions(const Store& store) : store_(store) {}
@@ -333,13 +328,13 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             estimate = Estimate{std::nullopt,
                                 "no accuracy study has this scene at this setting, and the sweep "
                                 "has no draws and too few transfer times"};
-        if (estimate->error) field(row, "runout_error", result_columns()) = *estimate->error;
-        field(row, "runout_error_from", result_columns()) = estimate->from;
+        if (estimate->error) value_of(row, "runout_error") = *estimate->error;
+        value_of(row, "runout_error_from") = estimate->from;
     }
     std::map<std::string, std::optional<Estimate>> by_repeated;
     for (ResultRow& mean : means) {
         const auto value = [&](const char* name) -> json& {
-            return field(mean, name, mean_columns());
+            return value_of(mean, name, mean_columns());
         };
         const Place place = place_at(value("variant"), value("transfer_time"));
         auto known = by_repeated.find(place.first);

@@ -28,8 +28,8 @@ struct Sent {
 
 Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(resolved_study(service.store, body).text, "document");
-    if (is_study_document(document) && !document.contains("scene"))
-        sent_study(document, service);  // says what is missing
+    if (is_study_document(document) && !document.value("scene", json()).is_object())
+        sent_study(document, service);  // refuses it
     report::BaseScene base = report::base_scene_of(document);
     check::Checked checked = check_sent_scene(base.scene, base.overrides, files_of(service));
     checked.faults = seen_from_here(std::move(checked.faults));
@@ -140,8 +140,9 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
-    const auto [faults, warnings] = judged(service, document, draft);
-    if (!draft.faults.empty() || !faults.empty()) throw refusal_of(draft, faults);
+    std::vector<fault::Flag> warnings = draft.scene.warnings;
+    if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or its refusal
+    if (!draft.faults.empty()) throw refusal_of(draft, {});
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
     if (document.is_object() && document.contains("budget"))
         hold_against(checked_budget(document["budget"]), cost);

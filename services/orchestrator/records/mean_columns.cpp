@@ -30,6 +30,8 @@ class MeanColumns {
              "draws without a result, with their states; the mean is without them"});
         add({"questionable_draws", "", word, "", "",
              "draws whose results are not to be relied on; the mean has them in it"});
+        add({"lower_bound", "", yes_no, "", "",
+             "soil of a draw still moved at the end: mean distances and areas are lower bounds"});
         add({"runout_error", "", number, "m", "",
              "how far the mean runout is off: the bias that an accuracy study of an equal scene "
              "tells, "

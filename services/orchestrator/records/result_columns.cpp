@@ -86,11 +86,12 @@ std::span<const ResultColumn> result_columns() { return columns; }
 
 const char* name_of(ColumnKind kind) { return words::name_of(kind).data(); }
 
-json& value_of(ResultRow& row, std::string_view name) {
-    return const_cast<json&>(value_of(std::as_const(row), name));
+json& value_of(ResultRow& row, std::string_view name, std::span<const ResultColumn> columns) {
+    return const_cast<json&>(value_of(std::as_const(row), name, columns));
 }
 
-const json& value_of(const ResultRow& row, std::string_view name) {
+const json& value_of(const ResultRow& row, std::string_view name,
+                     std::span<const ResultColumn> columns) {
     const auto found = std::ranges::find(columns, name, &ResultColumn::name);
     assert(found != columns.end() && row.size() == columns.size());
     return row[static_cast<std::size_t>(found - columns.begin())];

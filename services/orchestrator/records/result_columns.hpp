@@ -44,8 +44,10 @@ struct ResultTable {
 };
 
 /// The value of the column with this name.
-const nlohmann::json& value_of(const ResultRow& row, std::string_view name);
-nlohmann::json& value_of(ResultRow& row, std::string_view name);
+const nlohmann::json& value_of(const ResultRow& row, std::string_view name,
+                               std::span<const ResultColumn> columns = result_columns());
+nlohmann::json& value_of(ResultRow& row, std::string_view name,
+                         std::span<const ResultColumn> columns = result_columns());
 
 /// "still_moving;implausible": the codes of a list of flags, each once.
 std::string codes_of(const nlohmann::json& flags);

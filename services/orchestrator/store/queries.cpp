@@ -1,5 +1,6 @@
 // The reading half of the store.
 #include <algorithm>
+#include <map>
 
 #include "core/phases/phases.hpp"
 #include "services/findings/flags.hpp"
@@ -443,10 +444,28 @@ std::vector<ResultRow> Store::means(const std::string& run) const {
     if (!database->finds("SELECT 1 FROM variants WHERE run=? AND draw_of IS NOT NULL LIMIT 1",
                          {run}))
         return {};
-    return database->select("SELECT " + selected_mean_columns() + " FROM (" +
-                                selected_means("AND run=?") +
-                                ") ORDER BY variant_place, transfer_time",
-                            {run}, result_from(mean_columns()));
+    std::map<std::pair<json, json>, bool> moves;  // by variant and transfer time
+    const auto given = [](auto value) { return value ? json(*std::move(value)) : json(); };
+    database->query(
+        R"(SELECT draw_of, transfer_time, at_rest, flag_list FROM sweep_results
+WHERE run=? AND draw_of IS NOT NULL AND runout IS NOT NULL)",
+        {run}, [&](const Row& row) {
+            moves[{row.text("draw_of"), given(row.optional_real("transfer_time"))}] |=
+                findings::still_moves(given(row.optional_yes("at_rest")),
+                                      given(row.optional_document("flag_list")));
+        });
+    auto found = database->select("SELECT " + selected_mean_columns() + " FROM (" +
+                                      selected_means("AND run=?") +
+                                      ") ORDER BY variant_place, transfer_time",
+                                  {run}, result_from(mean_columns()));
+    for (ResultRow& each : found) {
+        const auto value = [&](const char* name) -> json& {
+            return value_of(each, name, mean_columns());
+        };
+        const auto known = moves.find({value("variant"), value("transfer_time")});
+        if (known != moves.end()) value("lower_bound") = known->second;
+    }
+    return found;
 }
 
 namespace {

@@ -88,6 +88,21 @@ GROUP BY run, phase ORDER BY phase)",
         });
 }
 
+/// Of runs that are over: variants whose FEM ended before all their transfer times. Samples are counted as failed.
+void add_not_reached(Connection& database, const std::string& ids, std::vector<Run>& runs) {
+    database.query(
+        R"(SELECT run, variant, min(fault_summary) AS why FROM tasks JOIN runs ON runs.id = tasks.run
+WHERE run IN (SELECT value FROM json_each(?)) AND phase = ?
+    AND json_extract(study, '$.uncertainty') IS NULL
+GROUP BY run, variant HAVING min(not_reached) ORDER BY run, min(tasks.id))",
+        {ids, phases::mpm.program}, [&](const Row& row) {
+            Run& of = run_named(runs, row.text("run"));
+            if (of.finished)
+                of.facts.without_transfer.push_back(
+                    {row.text("variant"), false, row.text("why"), "/transfer_times"});
+        });
+}
+
 /// Of runs that are over. Looked for only where a FEM with expired triggers has no transfer: plans of many samples are long.
 void add_without_transfer(Connection& database, std::vector<Run>& runs) {
     for (Run& each : runs) {
@@ -123,6 +138,7 @@ void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
     add_unstable(database, ids, runs);
     add_early(database, ids, runs);
     add_broken(database, ids, runs);
+    add_not_reached(database, ids, runs);
     add_without_transfer(database, runs);
     for (Run& each : runs)
         if (const std::string line = line_of(findings::verdict_of(each.facts)); !line.empty())

@@ -101,19 +101,15 @@ void add_missing_tasks(TaskGraph graph, const std::map<std::string, Task>& prese
 Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                          const json& wanted) {
     std::map<std::string, Task> present;
-    std::vector<double> known;
-    for (const Task& each : run.tasks) {
-        if (each.phase == phases::transfer.program) known.push_back(*each.transfer_time);
-        present.emplace(each.label, each);
-    }
+    for (const Task& each : run.tasks) present.emplace(each.label, each);
+    // Not the times that a trigger has found in one variant: they are no times of the others.
+    const std::vector<double> known = read_again(run.study, run, data).transfer_times;
     Extension extension;
     for (const double time : study_with(run, data, wanted).transfer_times)
         if (!contains(known, time)) extension.times.push_back(time);
     std::vector<double> all = known;
     all.insert(all.end(), extension.times.begin(), extension.times.end());
     std::ranges::sort(all);
-    const auto repeated = std::ranges::unique(all);  // variants
-    all.erase(repeated.begin(), repeated.end());
 
     const Study study = study_with(run, data, all);
     extension.study = study.document;

@@ -4,6 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
+#include <set>
 #include <tuple>
 
 #include "core/fault/fault.hpp"
@@ -173,6 +175,21 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     }
 }
 
+/// The first row of each variant that has no others than "not_reached"; of samples none.
+json rows_not_reached(const json& table, const json& study) {
+    if (study.is_object() && study.contains("uncertainty")) return json::array();
+    std::map<std::string, json> first;
+    std::set<std::string> reached;
+    for (const json& row : table.at("rows")) {
+        if (row.value("state", "") != "not_reached") reached.insert(row.at("variant"));
+        first.emplace(row.at("variant"), row);
+    }
+    json found = json::array();
+    for (auto& [variant, row] : first)
+        if (!reached.contains(variant)) found.push_back(std::move(row));
+    return found;
+}
+
 /// The study's, without its variants' changes: a phase's own may be that of the run which its result
 /// came from. Of a folder without one that of the first phase that has begun; null: none has.
 json asked_scene(const Run& run) {
@@ -216,6 +233,7 @@ Run read_run(const fs::path& folder) {
         if (results.is_object()) {
             run.means = results.value("means", json::array());
             run.without_transfer = results.value("without_transfer", json::array());
+            run.not_reached = rows_not_reached(results, run.study);
             run.same_results = results.value("same_results", json::array());
         }
         run.uncertainty = read_if_there(folder / "uncertainty.json");

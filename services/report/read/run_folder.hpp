@@ -45,6 +45,8 @@ struct Run {
     nlohmann::json means = nlohmann::json::array();
     /// Variants that nothing was transferred of, and why, as the service tells them.
     nlohmann::json without_transfer = nlohmann::json::array();
+    /// Variants all of whose transfer times lie after the end of their FEM: the first row of each.
+    nlohmann::json not_reached = nlohmann::json::array();
     nlohmann::json same_results = nlohmann::json::array();  ///< groups of variants
     /// Of a study over distributions, as the service tells them; null where the folder has none
     nlohmann::json uncertainty = {};

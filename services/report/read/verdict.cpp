@@ -152,6 +152,9 @@ findings::Facts facts_of(const Run& run) {
     for (const json& each : run.without_transfer)
         facts.without_transfer.push_back(
             {each.value("variant", ""), each.value("stood", false), each.value("reason", "")});
+    for (const json& each : run.not_reached)
+        facts.without_transfer.push_back(
+            {each.at("variant"), false, each.value("reason", ""), "/transfer_times"});
     return facts;
 }
 

@@ -109,7 +109,7 @@ TEST(Verdict, GivesTheReasonsThatNoFlagOfARowExplains) {
 }
 
 TEST(MeanTable, TellsScatterAndWhatIsMissing) {
-    const json answer = json::parse(R"({"means": [
+    json answer = json::parse(R"({"means": [
         {"transfer_time": 0.5, "variant": "", "state": "partial", "draws": 3, "draws_done": 2, "runout": 12.5,
          "runout_deviation": 0.25, "runout_beyond_toe": 12.5, "runout_beyond_toe_deviation": 0.25, "runout_largest": 14,
          "runout_largest_deviation": 1, "runout_error": 1.116, "missing_draws": "d2: failed", "questionable_draws": "d3"}]})");
@@ -121,6 +121,8 @@ TEST(MeanTable, TellsScatterAndWhatIsMissing) {
               std::string::npos)
         << text;
     EXPECT_EQ(as_mean_table({{"rows", json::array()}}), "");
+    answer["means"][0]["lower_bound"] = true;
+    EXPECT_NE(as_mean_table(answer).find("\u2265 12.5  0.25"), std::string::npos);
 }
 
 TEST(ResultTable, NamesTheVariantMarksWhatMovesAndExplainsTheFlags) {

@@ -54,10 +54,12 @@ TEST(Verdict, IsNoWhereNothingWasTransferred) {
     Facts facts{.state = "partial", .without_transfer = {{"", true, "window: not met"}}};
     EXPECT_EQ(verdict_of(facts).usable, Usable::no);
     facts.has_runout = true;
-    EXPECT_EQ(verdict_of(facts).usable, Usable::with_remarks)
-        << "another variant has one, and this dam may stand";
-    facts.without_transfer[0].stood = false;
-    EXPECT_EQ(verdict_of(facts).usable, Usable::questionable);
+    facts.without_transfer.push_back({"a", false, "the FEM ended", "/transfer_times"});
+    const Verdict verdict = verdict_of(facts);
+    EXPECT_EQ(verdict.usable, Usable::questionable) << "another variant has one";
+    ASSERT_EQ(verdict.reasons.size(), 2u);
+    EXPECT_EQ(verdict.reasons[0].pointer, "/transfer_times");
+    EXPECT_EQ(verdict.reasons[1].pointer, "/triggers");
 }
 
 TEST(Verdict, IsNoWhereAllTransfersCameBeforeLiquefactionHadEnded) {

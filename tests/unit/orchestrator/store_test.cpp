@@ -762,15 +762,16 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
     const std::vector<ResultRow> means = store.means("r");
     ASSERT_EQ(means.size(), 2u);
     const auto value = [&](std::size_t row, std::string_view name) {
-        const auto found = std::ranges::find(mean_columns(), name, &ResultColumn::name);
-        return means[row][static_cast<std::size_t>(found - mean_columns().begin())];
+        return value_of(means[row], name, mean_columns());
     };
     EXPECT_EQ(value(0, "variant"), "soft_dam");
     EXPECT_EQ(value(0, "runout"), 2.0);
     EXPECT_NEAR(value(0, "runout_deviation").get<double>(), std::sqrt(2.0), 1e-15);
     EXPECT_EQ(value(0, "state"), "questionable");
     EXPECT_EQ(value(0, "questionable_draws"), "soft_dam_d2");
+    EXPECT_EQ(value(0, "lower_bound"), true);
     EXPECT_TRUE(value(0, "volume_ratio").is_null());
+    EXPECT_EQ(value(1, "lower_bound"), false);
     EXPECT_EQ(value(1, "state"), "partial");
     EXPECT_EQ(value(1, "runout"), 5.0);
     EXPECT_TRUE(value(1, "runout_deviation").is_null());

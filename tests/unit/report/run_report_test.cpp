@@ -247,16 +247,21 @@ TEST_F(WetRun, TellsTheLastStageOfEachAnalysisWhateverItsLayers) {
 }
 
 TEST_F(WetRun, SaysWhatNothingWasTransferredOf) {
-    std::ofstream(folder_ / "results.json") << R"({"rows": [], "columns": [], "without_transfer": [
+    std::ofstream(folder_ / "results.json") << R"({"rows": [
+        {"variant": "early", "transfer_time": 9, "state": "not_reached", "reason": "the FEM ended at 8 s"}],
+        "columns": [], "without_transfer": [
         {"variant": "strong", "fem_task": "f", "state": "not_reached", "stood": true, "reason": "window: never met"},
         {"variant": "odd", "fem_task": "g", "state": "not_reached", "stood": false, "reason": "window: there is no window"}]})";
     const Verdict verdict = verdict_of(read_run(folder_));
     const auto said = [](const std::vector<std::string>& list, const std::string& text) {
         return std::ranges::find(list, text) != list.end();
     };
-    EXPECT_TRUE(said(verdict.notes,
+    EXPECT_TRUE(said(verdict.doubts,
                      "No transfer from strong, so there is no runout: window: never "
                      "met. The dam may stand; then nothing runs out."));
+    EXPECT_TRUE(said(verdict.doubts,
+                     "No transfer from early, so there is no runout: the FEM ended at 8 s. "
+                     "This does not mean that the dam stands."));
     EXPECT_TRUE(said(verdict.doubts,
                      "No transfer from odd, so there is no runout: window: there is "
                      "no window. This does not mean that the dam stands."));
