@@ -1,8 +1,10 @@
 // Puts the page together: which run is open, when to look again, what to say when the server is gone.
+import { Answer, governing_of } from "./answer.js";
 import * as api from "./api.js";
 import { Compare } from "./compare.js";
 import { Cost } from "./cost.js";
 import { Database } from "./database.js";
+import { Differences } from "./differences.js";
 import { by_id, set_text } from "./dom.js";
 import { is_active, variants_of } from "./format.js";
 import { Particles } from "./particles.js";
@@ -38,16 +40,18 @@ const compare = new Compare();
 const telemetry = new Telemetry();
 const tasks = new Tasks();
 const uncertainty = new Uncertainty({ open_task: (id) => tasks.open(id), ask: (sample) => ask(results.rows.find((row) => row.variant === sample), "runout") });
-const head = new RunHead(() => look_soon());
-new SubmitDialog((run) => {
+const answer = new Answer(look_at);
+const differences = new Differences();
+const submission = new SubmitDialog((run) => {
     location.hash = run_address(run.id);
     look_soon();
 });
+const head = new RunHead(() => look_soon(), (study) => submission.edit(study));
 
 by_id("run-search").addEventListener("input", () => look_soon());
 
 const open_table = () => location.hash.match(/^#\/database(?:\/([^/]+))?(?:\/([^/]+))?$/);
-const open_pair = () => location.hash.match(/^#\/compare\/([^/]+)(?:\/([^/]+))?$/)?.slice(1).filter(Boolean).map(decodeURIComponent);
+const pair_in = (view) => location.hash.match(new RegExp(`^#/${view}/([^/]+)(?:/([^/]+))?$`))?.slice(1).filter(Boolean).map(decodeURIComponent);
 const open_id = () => decodeURIComponent(location.hash.match(/^#\/runs\/(.+)$/)?.[1] ?? "");
 
 // ---- connection
@@ -107,7 +111,7 @@ async function look() {
 
 // ---- the open run: no number of the one before stands under its name; a part is seen when its own have come
 
-const parts_of_a_run = ["uncertainty", "runouts", "particles", "telemetry", "cost", "tasks"];
+const parts_of_a_run = ["answer", "uncertainty", "runouts", "particles", "telemetry", "cost", "tasks"];
 let expected = "";
 
 function expect_parts_of(id) {
@@ -124,9 +128,11 @@ async function arrives(shown, ...parts) {
 async function show_open_run() {
     const id = open_id();
     const tables = open_table() !== null;
-    const pair = open_pair();
+    const [pictures, numbers] = ["compare", "differences"].map(pair_in);
+    const pair = pictures ?? numbers;
     by_id("welcome").hidden = tables || Boolean(pair) || id !== "";
-    by_id("compare").hidden = !pair;
+    by_id("compare").hidden = !pictures;
+    by_id("differences").hidden = !numbers;
     by_id("database").hidden = !tables;
     by_id("missing").hidden = true;
     if (tables) {
@@ -136,7 +142,7 @@ async function show_open_run() {
     if (pair) document.title = "Comparison – Breachline";
     if (tables || id === "") {
         by_id("run").hidden = true;
-        if (pair) await show_pair(pair);
+        if (pair) await show_pair(pair, pictures ? [compare, "compare"] : [differences, "differences"]);
         else if (!tables) document.title = "Breachline";
         return;
     }
@@ -154,25 +160,35 @@ async function show_open_run() {
     by_id("run").hidden = false;
     expect_parts_of(id);
     head.show(run);
-    await arrives(tasks.show(run), "tasks");
+    const read = await api.read_results(id);
+    if (id !== open_id()) return;
+    const governing = governing_of(run, read.rows, read.means);
+    const show_answer = () => answer.show(run, read.rows, governing, uncertainty.quantiles_of_runout(id));
+    const top = arrives(show_answer(), "answer");
+    await next_picture();
+    const rows = results.show(run, read);
+    cost.show(run, rows, variants_of(run));
     // One part that fails must not hide the others.
-    const sweep = arrives(results.show(run).then((rows) => {
-        cost.show(run, rows, variants_of(run));
-        return uncertainty.show(run, rows);
-    }), "runouts", "cost", "uncertainty");
     const parts = await Promise.allSettled([
-        sweep, arrives(telemetry.show(run), "telemetry"), arrives(particles.show(run), "particles"),
+        top, arrives(tasks.show(run), "tasks", "runouts", "cost"), arrives(uncertainty.show(run, rows).then(show_answer), "uncertainty"),
+        arrives(telemetry.show(run, governing.row), "telemetry"), arrives(particles.show(run, governing.row?.mpm_task), "particles"),
     ]);
     const broken = parts.find((part) => part.status === "rejected");
     if (broken) throw broken.reason;
 }
 
-async function show_pair(pair) {
+/// The top is seen before the tables of a large run are made.
+const next_picture = () => new Promise((seen) => {
+    if (document.hidden) seen();
+    else requestAnimationFrame(() => setTimeout(seen));
+});
+
+async function show_pair(pair, [view, part]) {
     try {
-        await compare.show(pair);
+        await view.show(pair);
     } catch (fault) {
         if (!(fault instanceof api.Problem) || fault.status !== 404) throw fault;
-        by_id("compare").hidden = true;
+        by_id(part).hidden = true;
         by_id("missing").hidden = false;
     }
 }

@@ -1,0 +1,130 @@
+// The top of a run: its verdict, the section before and after, factor of safety, runout, depth, arrivals, and which variant governs.
+// It lays out what the findings say.
+import * as api from "./api.js";
+import { by_id, element, mirror, set_text } from "./dom.js";
+import { reason_items, verdict_look } from "./flags.js";
+import { number, point_name, seconds } from "./format.js";
+import { draws_of } from "./means.js";
+import { stability_of } from "./provenance.js";
+import { overlay_of, scene_of, water_of } from "./scene.js";
+import { profile_in, SectionPicture, slip_surface } from "./section_picture.js";
+
+const largest_by = (rows, column) => rows.filter((row) => Number.isFinite(row[column])).sort((a, b) => b[column] - a[column])[0] ?? null;
+
+/// The rows that the top is about, as on the report's first page: {row: the largest runout (of a stability analysis alone the least factor of safety),
+/// mean: of its draws, safety: the least factor of safety}; null where there is none. The service's own choice comes first.
+export function governing_of(run, rows, means) {
+    const safety = rows.filter((row) => Number.isFinite(row.factor_of_safety)).sort((a, b) => a.factor_of_safety - b.factor_of_safety)[0] ?? null;
+    const mean = largest_by(means, "runout");
+    const chosen = rows.find((row) => row.mpm_task && row.mpm_task === run.governing?.mpm_task);
+    return { row: chosen ?? largest_by(mean ? draws_of(mean, rows, run.study) : rows, "runout") ?? safety, mean, safety };
+}
+
+/// FS and runout for the list; "" where the service does not give them.
+export function brief_answer(governing) {
+    if (!governing) return "";
+    const { factor_of_safety: factor, runout, lower_bound: bound } = governing;
+    return [Number.isFinite(factor) ? `FS ${number(factor, 3)}` : "", Number.isFinite(runout) ? `runout ${bound ? "≥ " : ""}${number(runout, 3)} m` : ""]
+        .filter(Boolean).join(" · ");
+}
+
+export class Answer {
+    /// look_at(row): a person wants to see the governing variant.
+    constructor(look_at) {
+        this.look_at = look_at;
+        this.picture = new SectionPicture(by_id("answer-picture"));
+        this.profiles = new Map(); // SHA-256 -> profile
+    }
+
+    /// What is known without the results.
+    show_verdict({ verdict, flag_counts: counts }) {
+        const look = verdict_look(verdict.usable);
+        by_id("verdict").className = `verdict ${look}${verdict.usable === "no" ? " unusable" : ""}`;
+        set_text(by_id("verdict"), `${look === "bad" ? "✕ " : ""}Verdict: ${verdict.words}`);
+        mirror(by_id("reasons"), reason_items(verdict, counts), ({ key }) => key, ({ make }) => make(), () => {});
+    }
+
+    /// Resolves when it is drawn; the deposit comes later. governing: as above; quantiles: {p10, p50, p90} of the runout of a study over distributions, or null.
+    async show(run, rows, governing, quantiles) {
+        Object.assign(this, { run, rows, quantiles }, governing);
+        this.show_verdict(run);
+        const { row } = governing;
+        this.scene = scene_of(run.study, row?.variant ?? run.study?.variants?.[0]?.name);
+        this.task = run.tasks.find(({ id }) => id === row?.mpm_task && Number.isFinite(row?.runout));
+        const file = this.task?.artifacts.find(({ name }) => name === "profile.csv");
+        this.profile = this.profiles.get(file?.sha256) ?? null;
+        this.draw();
+        if (file && !this.profile) this.read_profile(file.sha256, row).catch((fault) => console.warn("profile:", fault));
+    }
+
+    async read_profile(sha256, row) {
+        const profile = profile_in(await api.read_text_artifact(sha256));
+        this.profiles.set(sha256, profile);
+        if (this.row?.mpm_task !== row.mpm_task) return;
+        this.profile = profile;
+        this.draw();
+    }
+
+    draw() {
+        mirror(by_id("answer-figures"), this.figures(), ({ name }) => name, () => element("div", {}, element("dt"), element("dd"), element("dd", { class: "muted" })),
+               (entry, { name, value, note, title, look_at }) => {
+                   const [term, own, more] = entry.children;
+                   set_text(term, name);
+                   if (!look_at) set_text(own, value);
+                   else if (own.textContent !== value) own.replaceChildren(element("button", { type: "button", class: "link", onclick: () => this.look_at(this.row) }, value));
+                   set_text(more, note ?? "");
+                   more.title = title ?? "";
+               });
+        const stability = this.safety && stability_of(this.run, this.safety);
+        const { toe, outlines, gauges } = overlay_of(this.scene);
+        const runout = this.runout();
+        const picture = { outlines, toe, gauges, water: water_of(this.scene), runout, slip: slip_surface(stability?.result, this.scene.lem?.floor),
+                          after: this.profile?.map(({ x, surface }) => [x, surface]) };
+        this.picture.show({ ...picture, says: `The section before${this.profile ? " and after" : ""}. ` +
+            this.figures().map(({ name, value }) => `${name}: ${value}.`).join(" ") });
+    }
+
+    /// {reach, low, high [m], text, band: what the band is}; null: there is none.
+    runout() {
+        const { row, mean, quantiles } = this;
+        const reach = quantiles?.p50 ?? mean?.runout ?? row?.runout;
+        if (!Number.isFinite(reach)) return null;
+        if (quantiles) return { reach, low: quantiles.p10, high: quantiles.p90, band: "p10 to p90", text: `${number(reach, 3)} m, p10 to p90 ${number(quantiles.p10, 3)} to ${number(quantiles.p90, 3)} m` };
+        const error = (mean ?? row).runout_error;
+        const known = Number.isFinite(error);
+        return { reach, low: known ? reach - error : null, high: known ? reach + error : null, band: "error",
+                 text: `${row?.lower_bound ? "≥ " : ""}${number(reach, 3)}${known ? ` ± ${number(error, 2)}` : ""} m` };
+    }
+
+    /// [{name, value, note, title}] in the order in which they are read.
+    figures() {
+        const { row, mean, safety, rows, profile, quantiles } = this;
+        const found = [];
+        if (safety) {
+            const liquefied = safety.factor_of_safety_liquefied;
+            found.push({ name: "Factor of safety", value: number(safety.factor_of_safety, 3),
+                         note: [Number.isFinite(liquefied) ? `${number(liquefied, 3)} liquefied` : "", safety.variant].filter(Boolean).join(", ") });
+        }
+        const runout = this.runout();
+        if (runout) {
+            const from = (mean ?? row).runout_error_from;
+            found.push({ name: "Runout", value: runout.text, title: from,
+                         note: quantiles ? "median over the samples" : [row.lower_bound ? "still moving" : "", runout.low === null ? "numerical error not quantified" : from].filter(Boolean).join("; ") });
+        }
+        const toe = this.scene?.mpm?.runout?.toe;
+        const beyond = toe && runout ? (profile ?? []).filter(({ x }) => x > toe[0]).map(({ depth }) => depth) : [];
+        if (beyond.length) found.push({ name: "Depth beyond the toe", value: `${number(Math.max(...beyond), 2)} m`, note: "deepest, at the end" });
+        for (const [name, gauge] of Object.entries(this.task?.result?.gauges ?? {})) found.push(arrival_of(name, gauge));
+        const others = rows.filter(({ runout: each }) => Number.isFinite(each));
+        if (row && rows.length > 1) {
+            const least = Math.min(...others.map(({ runout: each }) => each));
+            found.push({ name: "Governing variant", value: point_name(row), look_at: true,
+                         note: others.length ? `largest of ${others.length} runouts, from ${number(least, 3)} m` : `least factor of safety of ${rows.length}` });
+        }
+        return found;
+    }
+}
+
+const arrival_of = (name, { x, arrival_time: arrival, largest_depth: depth, largest_velocity: velocity }) => ({
+    name: `Arrival at ${name}`, value: Number.isFinite(arrival) ? seconds(Number(arrival.toPrecision(3))) : "never",
+    note: `x = ${number(x)} m${Number.isFinite(arrival) ? `, ${number(depth, 2)} m deep, ${number(velocity, 2)} m/s` : ""}` });
