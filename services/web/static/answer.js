@@ -36,7 +36,15 @@ export class Answer {
         this.profiles = new Map(); // SHA-256 -> profile
     }
 
-    /// What is known without the results.
+    /// What the list knows of a run, before the rest of it has come.
+    begin(run) {
+        const row = run.governing ?? null;
+        Object.assign(this, { rows: [], row, safety: Number.isFinite(row?.factor_of_safety) ? row : null, mean: null, quantiles: null, profile: null, task: null });
+        by_id("answer-picture").hidden = true;
+        this.show_verdict(run);
+        this.draw_figures();
+    }
+
     show_verdict({ verdict, flag_counts: counts }) {
         const look = verdict_look(verdict.usable);
         by_id("verdict").className = `verdict ${look}${verdict.usable === "no" ? " unusable" : ""}`;
@@ -48,6 +56,7 @@ export class Answer {
     async show(run, rows, governing, quantiles) {
         Object.assign(this, { run, rows, quantiles }, governing);
         this.show_verdict(run);
+        by_id("answer-picture").hidden = false;
         const { row } = governing;
         this.scene = scene_of(run.study, row?.variant ?? run.study?.variants?.[0]?.name);
         this.task = run.tasks.find(({ id }) => id === row?.mpm_task && Number.isFinite(row?.runout));
@@ -65,7 +74,7 @@ export class Answer {
         this.draw();
     }
 
-    draw() {
+    draw_figures() {
         mirror(by_id("answer-figures"), this.figures(), ({ name }) => name, () => element("div", {}, element("dt"), element("dd"), element("dd", { class: "muted" })),
                (entry, { name, value, note, title, look_at }) => {
                    const [term, own, more] = entry.children;
@@ -75,10 +84,15 @@ export class Answer {
                    set_text(more, note ?? "");
                    more.title = title ?? "";
                });
+    }
+
+    draw() {
+        this.draw_figures();
         const stability = this.safety && stability_of(this.run, this.safety);
         const { toe, outlines, gauges } = overlay_of(this.scene);
         const runout = this.runout();
-        const picture = { outlines, toe, gauges, water: water_of(this.scene), runout, slip: slip_surface(stability?.result, this.scene.lem?.floor),
+        const after_name = ["after", this.rows.length > 1 && this.row ? point_name(this.row) : ""].filter(Boolean).join(", ");
+        const picture = { outlines, after_name, toe, gauges, water: water_of(this.scene), runout, slip: slip_surface(stability?.result, this.scene.lem?.floor),
                           after: this.profile?.map(({ x, surface }) => [x, surface]) };
         this.picture.show({ ...picture, says: `The section before${this.profile ? " and after" : ""}. ` +
             this.figures().map(({ name, value }) => `${name}: ${value}.`).join(" ") });

@@ -93,7 +93,7 @@ async function look() {
         const found = await api.find_runs(search);
         if (search === searched()) draw_list(found, open_id());
         busy = found.runs.some((run) => is_active(run.state));
-        await show_open_run();
+        await show_open_run(found.runs);
         by_id("page-fault").hidden = true;
     } catch (fault) {
         busy = true; // look again
@@ -111,7 +111,7 @@ async function look() {
 
 // ---- the open run: no number of the one before stands under its name; a part is seen when its own have come
 
-const parts_of_a_run = ["answer", "uncertainty", "runouts", "particles", "telemetry", "cost", "tasks"];
+const parts_of_a_run = ["run-orders", "run-summary", "answer", "uncertainty", "runouts", "particles", "telemetry", "cost", "tasks"];
 let expected = "";
 
 function expect_parts_of(id) {
@@ -125,7 +125,8 @@ async function arrives(shown, ...parts) {
     for (const part of parts) by_id(part).classList.remove("coming");
 }
 
-async function show_open_run() {
+/// listed: runs as the list has them, which is enough to begin with.
+async function show_open_run(listed) {
     const id = open_id();
     const tables = open_table() !== null;
     const [pictures, numbers] = ["compare", "differences"].map(pair_in);
@@ -146,10 +147,18 @@ async function show_open_run() {
         else if (!tables) document.title = "Breachline";
         return;
     }
-    let run;
+    const known = listed.find((each) => each.id === id);
+    if (known && expected !== id) {
+        expect_parts_of(id);
+        head.begin(known);
+        answer.begin(known);
+        by_id("run").hidden = false;
+        by_id("answer").classList.remove("coming");
+    }
+    let run, read;
     try {
-        run = await api.read_run(id);
-        run.triggers = await api.read_triggers(id);
+        [run, read] = await Promise.all([api.read_run(id), api.read_results(id)]);
+        run.triggers = run.tasks.some(({ phase }) => phase === "fem_solver") ? await api.read_triggers(id) : [];
     } catch (fault) {
         if (!(fault instanceof api.Problem) || fault.status !== 404) throw fault;
         by_id("run").hidden = true;
@@ -160,8 +169,7 @@ async function show_open_run() {
     by_id("run").hidden = false;
     expect_parts_of(id);
     head.show(run);
-    const read = await api.read_results(id);
-    if (id !== open_id()) return;
+    arrives(null, "run-orders", "run-summary");
     const governing = governing_of(run, read.rows, read.means);
     const show_answer = () => answer.show(run, read.rows, governing, uncertainty.quantiles_of_runout(id));
     const top = arrives(show_answer(), "answer");

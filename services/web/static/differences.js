@@ -9,30 +9,33 @@ import { DataTable } from "./table.js";
 
 export const differences_address = (...runs) => `#/differences/${runs.filter(Boolean).map(encodeURIComponent).join("/")}`;
 
-const not_input = ["name", "title", "format", "priority", "resources", "reuse"]; // nothing of these changes a number
+const not_input = ["name", "title", "notes", "format", "priority", "resources", "reuse"]; // nothing of these changes a number
+const longest = 200; // characters of a value
 const compared = { factor_of_safety: "factor of safety", factor_of_safety_liquefied: "factor of safety, liquefied", runout: "runout [m]",
                    runout_beyond_toe: "passed the toe [m]", runout_largest: "farthest [m]", area_beyond_toe: "deposit beyond the toe [m²]",
                    volume_ratio: "volume ratio", numerical_share: "numerical share", cpu_seconds: "CPU [s]" };
 
-const is_list_of_named = (value) => Array.isArray(value) && value.length > 0 && value.every((each) => each?.name);
-
-/// Map of pointer -> value as text. Lists of named things go by their names, others are one value.
-export function leaves_of(value, parts = [], found = new Map()) {
-    const inside = is_list_of_named(value) ? value.map((each) => [each.name, each])
-        : value !== null && typeof value === "object" && !Array.isArray(value) ? Object.entries(value) : null;
-    if (!inside) found.set(pointer_of(parts), short_json(value));
-    for (const [name, each] of inside ?? []) leaves_of(each, [...parts, name], found);
-    return found;
+/// Map of name -> member; null where there are none. Things with names go by these in lists; other lists are one value.
+function members_of(value) {
+    if (Array.isArray(value)) return value.length > 0 && value.every((each) => each?.name) ? new Map(value.map((each) => [each.name, each])) : null;
+    return value !== null && typeof value === "object" ? new Map(Object.entries(value).filter(([name]) => !not_input.includes(name))) : null;
 }
 
-const input_of = ({ study }) => leaves_of(Object.fromEntries(Object.entries({ ...study, variants: (study.variants ?? []).filter(({ made_by: by }) => !by) })
-    .filter(([name]) => !not_input.includes(name))));
-
-/// [{where, left, right}] of two maps, where they differ.
-function differing(left, right) {
-    return [...new Set([...left.keys(), ...right.keys()])].filter((where) => left.get(where) !== right.get(where))
-        .map((where) => ({ where, left: left.get(where) ?? "", right: right.get(where) ?? "" }));
+function text_of(value) {
+    const text = value === undefined ? "" : short_json(value);
+    return text.length > longest ? `${text.slice(0, longest)}…` : text;
 }
+
+/// [{where, left, right}]: the entries that differ; what one side lacks is one of them.
+export function input_differences(left, right, parts = []) {
+    if (JSON.stringify(left) === JSON.stringify(right)) return [];
+    const [a, b] = [left, right].map(members_of);
+    if (!a || !b) return [{ where: pointer_of(parts), left: text_of(left), right: text_of(right) }];
+    return [...new Set([...a.keys(), ...b.keys()])].flatMap((name) => input_differences(a.get(name), b.get(name), [...parts, name]));
+}
+
+/// As it was sent: without the variants that the service made.
+const input_of = ({ study }) => ({ ...study, variants: (study.variants ?? []).filter(({ made_by: by }) => !by) });
 
 /// [{point, quantity, left, right, change, percent}] of pairs of rows [point, left, right]; only what differs.
 export const result_differences = (pairs) => pairs.flatMap(([point, left, right]) =>
@@ -65,7 +68,7 @@ export class Differences {
         if (!both) return;
         const [[a, of_a], [b, of_b]] = sides;
         const wide = (name, title) => ({ name, title, wide: true });
-        this.input.open("input", [wide("where", "entry"), wide("left", "left"), wide("right", "right")], differing(input_of(a), input_of(b)));
+        this.input.open("input", [wide("where", "entry"), wide("left", "left"), wide("right", "right")], input_differences(input_of(a), input_of(b)));
         const tops = [[a, of_a], [b, of_b]].map(([run, { rows, means }]) => governing_of(run, rows, means).row ?? {});
         const others = new Map(of_b.rows.map((row) => [key_of(row), row]));
         const shared = of_a.rows.filter((row) => others.has(key_of(row))).map((row) => [point_name(row), row, others.get(key_of(row))]);

@@ -75,17 +75,22 @@ export class RunHead {
         for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
     }
 
-    show(run) {
-        this.run = run;
-        const active = is_active(run.state);
+    /// What the list knows of a run, before the rest of it has come.
+    begin(run) {
         set_text(by_id("run-title"), run.title || run.name);
         document.title = `${percent(run.progress)} ${run.name} – Breachline`;
         show_state(by_id("run-state"), state_of(run));
         by_id("run-progress").value = run.progress ?? 0;
-        by_id("run-progress").hidden = !active;
-        set_text(by_id("run-summary"), summary(run));
+        by_id("run-progress").hidden = !is_active(run.state);
         set_text(by_id("run-message"), beside_the_verdict(run));
         by_id("run-message").className = run.state === "budget_exhausted" ? "notice warn" : "muted";
+    }
+
+    show(run) {
+        this.run = run;
+        this.begin(run);
+        const active = is_active(run.state);
+        set_text(by_id("run-summary"), summary(run));
         set_text(by_id("run-id"), run.id);
         by_id("differences-with").href = differences_address(run.id);
         by_id("cancel").hidden = !active;

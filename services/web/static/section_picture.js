@@ -7,6 +7,7 @@ import { tick_label, ticks } from "./plot_scale.js";
 const flat = 140;          // [px] a section lower than this is drawn with its heights multiplied
 const most_stretched = 5;
 const chords = 60;
+const character = 7.6;     // [px] of a name
 const margin = { side: 14, top: 30, bottom: 24 };
 
 /// The slip surface of a stability analysis as points; [] where its result has none.
@@ -43,7 +44,7 @@ export class SectionPicture {
         new ResizeObserver(() => this.draw()).observe(host);
     }
 
-    /// parts: {outlines, after, slip, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
+    /// parts: {outlines, after, after_name, slip, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
     /// null or empty is not drawn.
     show(parts) {
         this.parts = parts;
@@ -71,9 +72,13 @@ export class SectionPicture {
         if (parts.after?.length) add("path", { class: "after", d: `${path(parts.after)}V${bottom}H${px(parts.after[0][0]).toFixed(1)}Z` });
         if (parts.water) add("path", { class: "water", d: path(parts.water) });
         if (parts.slip.length) add("path", { class: "slip", d: path(parts.slip) });
-        for (const { name, x, y } of gauges) {
+        let taken = -Infinity; // by the name before, which this one would run into
+        for (const { name, x, y } of [...gauges].sort((a, b) => a.x - b.x)) {
+            const half = (name.length * character) / 2;
+            const raised = px(x) - half < taken;
+            taken = raised ? -Infinity : px(x) + half;
             add("path", { class: "gauge", d: wedge(px(x), py(y)) });
-            add("text", { x: px(x), y: py(y) - 13, "text-anchor": "middle" }, name);
+            add("text", { x: px(x), y: py(y) - (raised ? 26 : 13), "text-anchor": "middle" }, name);
         }
         if (toe) add("path", { class: "toe", d: wedge(px(toe[0]), py(toe[1])) });
         if (toe && runout) {
@@ -96,8 +101,8 @@ export class SectionPicture {
     }
 
     entries() {
-        const { outlines, after, water, slip, toe, runout, gauges } = this.parts;
-        return [["before", "before", outlines.flat().length], ["after", "after", after?.length], ["slip", "slip surface", slip.length], ["water", "water before", water],
+        const { outlines, after, after_name, water, slip, toe, runout, gauges } = this.parts;
+        return [["before", "before", outlines.flat().length], ["after", after_name, after?.length], ["slip", "slip surface", slip.length], ["water", "water before", water],
                 ["toe", "toe", toe], ["runout", "runout", toe && runout], ["band", runout?.band ?? "", Number.isFinite(runout?.low)], ["gauge", "gauge", gauges.length],
                 ["", `heights × ${this.stretch}`, this.stretch > 1]].filter(([, , there]) => there);
     }
