@@ -2,7 +2,7 @@
 import * as api from "./api.js";
 import { governing_of } from "./answer.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { clock, number, point_name, short_json } from "./format.js";
+import { clock, is_active, number, point_name, short_json } from "./format.js";
 import { pointer_of } from "./json_text.js";
 import { key_of } from "./results.js";
 import { DataTable } from "./table.js";
@@ -60,9 +60,11 @@ export class Differences {
 
     /// ids: of two runs; the second may be left out: then it is to be chosen.
     async show(ids) {
+        if (this.settled === ids.join()) return;
         const [runs, ...sides] = await Promise.all([api.list_runs(), ...ids.map((id) => Promise.all([api.read_run(id), api.read_results(id)]))]);
         [0, 1].forEach((side) => this.offer(side, runs, sides[side]?.[0]));
         const both = sides.length === 2;
+        this.settled = sides.some(([run]) => is_active(run.state)) ? null : ids.join(); // nothing of it changes any more
         for (const part of ["input", "results"]) by_id(`differences-${part}`).parentElement.hidden = !both;
         set_text(by_id("differences-says"), both ? "" : "Choose the second run.");
         if (!both) return;

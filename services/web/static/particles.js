@@ -38,8 +38,14 @@ export class Particles {
             this.paint();
         });
         by_id("view-stride").addEventListener("change", () => this.reload());
-        by_id("view-time").addEventListener("input", (event) => this.seek(Number(event.target.value)));
-        by_id("view-play").addEventListener("click", () => (this.playing ? this.pause() : this.play()));
+        by_id("view-time").addEventListener("input", (event) => {
+            this.by_hand = true;
+            this.seek(Number(event.target.value));
+        });
+        by_id("view-play").addEventListener("click", () => {
+            this.by_hand = true;
+            (this.playing ? this.pause() : this.play());
+        });
         by_id("view-in").addEventListener("click", () => this.view.zoom(1.25));
         by_id("view-out").addEventListener("click", () => this.view.zoom(0.8));
         by_id("view-fit").addEventListener("click", () => this.view.fit());
@@ -65,8 +71,7 @@ export class Particles {
         by_id("particles").hidden = sources.length === 0;
         const current = sources.find((task) => task.id === this.task);
         // Until a person chooses or plays, the governing variant is shown; before there is one, whatever runs.
-        const chosen = current && (this.by_hand || this.playing) ? current
-            : sources.find((task) => task.id === governing) ?? first_with_frames(sources);
+        const chosen = (this.by_hand && current) || (sources.find((task) => task.id === governing) ?? first_with_frames(sources));
         if (!chosen) return;
         const news = is_active(chosen.state) || this.frames.length === 0 || this.was_active;
         if (chosen.id !== this.task) await this.open(chosen.id);
