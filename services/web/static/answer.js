@@ -88,11 +88,11 @@ export class Answer {
 
     draw() {
         this.draw_figures();
-        const stability = this.safety && stability_of(this.run, this.safety);
+        const stability = this.row && stability_of(this.run, this.row)?.result;
         const { toe, outlines, gauges } = overlay_of(this.scene);
         const runout = this.runout();
         const after_name = ["after", this.rows.length > 1 && this.row ? point_name(this.row) : ""].filter(Boolean).join(", ");
-        const picture = { outlines, after_name, toe, gauges, water: water_of(this.scene), runout, slip: slip_surface(stability?.result, this.scene.lem?.floor),
+        const picture = { outlines, after_name, toe, gauges, water: water_of(this.scene), runout, slip: slip_surface(stability, this.scene.lem?.floor), slip_name: `slip surface, FS ${number(stability?.factor_of_safety, 3)}`,
                           after: this.profile?.map(({ x, surface }) => [x, surface]) };
         this.picture.show({ ...picture, says: `The section before${this.profile ? " and after" : ""}. ` +
             this.figures().map(({ name, value }) => `${name}: ${value}.`).join(" ") });

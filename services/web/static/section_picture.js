@@ -44,7 +44,7 @@ export class SectionPicture {
         new ResizeObserver(() => this.draw()).observe(host);
     }
 
-    /// parts: {outlines, after, after_name, slip, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
+    /// parts: {outlines, after, after_name, slip, slip_name, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
     /// null or empty is not drawn.
     show(parts) {
         this.parts = parts;
@@ -101,8 +101,8 @@ export class SectionPicture {
     }
 
     entries() {
-        const { outlines, after, after_name, water, slip, toe, runout, gauges } = this.parts;
-        return [["before", "before", outlines.flat().length], ["after", after_name, after?.length], ["slip", "slip surface", slip.length], ["water", "water before", water],
+        const { outlines, after, after_name, water, slip, slip_name, toe, runout, gauges } = this.parts;
+        return [["before", "before", outlines.flat().length], ["after", after_name, after?.length], ["slip", slip_name, slip.length], ["water", "water before", water],
                 ["toe", "toe", toe], ["runout", "runout", toe && runout], ["band", runout?.band ?? "", Number.isFinite(runout?.low)], ["gauge", "gauge", gauges.length],
                 ["", `heights × ${this.stretch}`, this.stretch > 1]].filter(([, , there]) => there);
     }
