@@ -79,11 +79,11 @@ export function reason_items({ reasons }, counts) {
     return [...kinds.values()].map((some) => {
         const [{ usable, code }] = some;
         return { key: `${usable} ${code} ${some.map(({ text }) => text).join()}`,
-                 make: () => line_of(verdict_look(usable), counted(code, counts?.[code] ?? 1), some.map(({ text, pointer }) => ({ text: without_name(text, code), pointer }))) };
+                 make: () => line_of(verdict_look(usable), counted(code, counts?.[code] ?? 1), some.map(({ text, pointer }) => ({ text: counts?.[code] ? without_name(text, code) : text, pointer }))) };
     });
 }
 
-/// The name stands before it already.
+/// Of a flag: its name stands before it already.
 function without_name(text, code) {
     const name = `${worded(code)}, `;
     return text.toLowerCase().startsWith(name) ? text.slice(name.length) : text;
