@@ -40,7 +40,7 @@ test("the top of a run answers: verdict, factor of safety, runout, depth, arriva
     assert.equal(await text_of("#verdict"), "Verdict: usable");
     await until("the deposit", async () => "Depth beyond the toe" in await figures());
     const found = await figures();
-    assert.deepEqual(found["Factor of safety"], ["0.912", "softened"]);
+    assert.deepEqual(found["Factor of safety"], ["0.912", ""]);
     assert.deepEqual(found.Runout, ["15.5 m", "numerical error not quantified"]);
     assert.deepEqual(found["Depth beyond the toe"], ["6.8 m", "deepest, at the end"]);
     assert.deepEqual(found["Arrival at road"], ["2 s", "x = 14 m, 1.5 m deep, 4 m/s"]);
@@ -50,6 +50,7 @@ test("the top of a run answers: verdict, factor of safety, runout, depth, arriva
     assert.match(await page.getAttribute("#answer-picture .plot", "aria-label"), /^The section before and after\. Factor of safety: 0\.912\. Runout: 15\.5 m\./);
     assert.match(await text_of("#answer-picture .legend"), /after, t_T = 0\.75 s, softened/);
     assert.match(await text_of("#run-list a[aria-current] .run-answer"), /^FS 0\.912 · runout 15\.5 m$/);
+    assert.equal(await page.getAttribute("#report", "href"), `/v1/runs/${run.id}/report`);
 });
 
 test("soil in motion and telemetry open on the governing variant, and stay where a person has put them", async () => {
@@ -108,7 +109,7 @@ test("the runout has its band: of the draws, or of the samples", async () => {
 
 test("computing time and idle time stand apart", async () => {
     await open_run(api.add_run({ ...study, name: "times" }, { ...ended(), pace: 10 }).id);
-    assert.match(await text_of("#run-summary"), / · computing 10 s, idle 0\.0 s/);
+    assert.match(await text_of("#run-summary"), / · computing 10 s, idle 12 s/);
 });
 
 test("edit and run again opens the study of the run, without the variants that the service made", async () => {

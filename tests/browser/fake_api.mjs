@@ -164,7 +164,7 @@ class FakeRun {
         const strength = Number(variant.match(/^strength_x_(.*)/)?.[1] ?? 1);
         const draw = Number(variant.match(/^d(\d)$/)?.[1] ?? 1);
         const reach = (draw - 1) * 0.5 + (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
-        return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
+        return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5, depth_beyond_toe: Math.max(0, 12 * (1 - 11 / (10 + reach))),
                  volume_ratio: 1.01, numerical_share: 0.031 + 0.01 * transfer_time, overlap: 0.004, cpu_seconds: 7.25 + transfer_time };
     }
 
@@ -206,7 +206,7 @@ class FakeRun {
         for (const { code } of verdicts.flatMap(({ flags }) => flags ?? [])) flag_counts[code] = (flag_counts[code] ?? 0) + 1;
         const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : questionable ? "questionable" : "succeeded";
         const moving = flag_counts.still_moving ?? 0;
-        return { governing: this.governing(over), id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
+        return { governing: this.governing(over), stability: this.stability(), id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
@@ -226,10 +226,15 @@ class FakeRun {
                              text: `The variants ${names.join(", ")} have identical results: the entries that differ had no effect.`, pointer: "" })),
                          ...Object.keys(flag_counts).map((code) => flags.find((each) => each.code === code)).map((each) => ({
                              usable: usable_of(each), code: each.code, brief: `${flag_counts[each.code]} of ${this.rows().length} runouts ${each.code === "still_moving" ? "still moving: lower bounds" : `flagged ${each.code}`}`,
-                             text: `${name_of(each.code)}, ${flag_counts[each.code]} of ${this.rows().length} runouts: ${each.message}.`, pointer: each.pointer }))]
+                             text: `${name_of(each.code)}, ${flag_counts[each.code]} of ${this.rows().length} runouts: ${each.message}.`, pointer: each.pointer, count: flag_counts[each.code] }))].map((reason) => ({ count: 1, ...reason }))
             .sort((a, b) => order.indexOf(a.usable) - order.indexOf(b.usable));
         const usable = flag_counts.implausible ? "no" : questionable ? "questionable" : reasons.length ? "with_remarks" : "yes";
         return { usable, words: { no: "not usable", with_remarks: "usable, with remarks", yes: "usable" }[usable] ?? usable, reasons };
+    }
+
+    stability() {
+        const lem = this.tasks.find(({ phase }) => phase === "lem_tool");
+        return this.progress_of(lem) < 1 ? null : { task: lem.id, variant: "", factor_of_safety: stability.factor_of_safety, factor_of_safety_liquefied: null };
     }
 
     /// What the service would choose: the largest runout.
@@ -237,8 +242,8 @@ class FakeRun {
         if (this.chosen) return this.chosen;
         const farthest = this.rows().filter((row) => Number.isFinite(row.runout)).sort((a, b) => b.runout - a.runout)[0];
         if (!farthest) return null;
-        const { variant, transfer_time, mpm_task, runout, lower_bound, factor_of_safety } = farthest;
-        const chosen = { variant, transfer_time, mpm_task, runout, lower_bound, factor_of_safety };
+        const { variant, transfer_time, mpm_task: task, runout, lower_bound, depth_beyond_toe } = farthest;
+        const chosen = { task, variant, transfer_time, runout, lower_bound, depth_beyond_toe };
         if (over) this.chosen = chosen;
         return chosen;
     }
@@ -436,7 +441,9 @@ export class FakeApi {
             const lines = run.telemetry(url.searchParams.get("phase")).slice(from, from + 150);
             return json(response, { lines, next: from + lines.length });
         }
-        return json(response, { ...run.summary(), study: run.study, tasks: run.tasks.map((task) => run.describe_task(task)) });
+        const computing = Math.max(0, Math.min(run.age(), run.pace));
+        const answer = { ...run.summary(), study: run.study, computing_seconds: computing, idle_seconds: run.age() < run.pace ? 0 : 12 };
+        return json(response, url.searchParams.get("tasks") === "0" ? answer : { ...answer, tasks: run.tasks.map((task) => run.describe_task(task)) });
     }
 
     list_runs(url, response) {

@@ -777,7 +777,7 @@ test("the database is read as tables: pages, filter, sorting, CSV, addresses", a
     await until("fifty rows", async () => (await rows()) === 50);
     const all = before_these + 60;
     assert.equal(await count(), `Rows 1 to 50 of ${all}.`);
-    await page.click("text=Next ▸");
+    await page.click("#database-table >> text=Next ▸");
     assert.equal(await rows(), all - 50);
     await page.fill("#database-table input", "state=partial softened");
     assert.equal(await count(), `Rows 1 to 1 of 1, filtered from ${all}.`);
@@ -794,7 +794,7 @@ test("the database is read as tables: pages, filter, sorting, CSV, addresses", a
     assert.equal(await page.getAttribute("#database-csv", "href"), `/v1/runs/${wanted}/results?format=csv`);
     await page.fill("#database-table input", "variant=softened");
     const waiting = page.waitForEvent("download");
-    await page.click("text=CSV of the filtered rows");
+    await page.click("#database-table >> text=CSV of the filtered rows");
     const csv = readFileSync(await (await waiting).path(), "utf8").trim().split("\r\n");
     assert.equal(csv.length, 17, "softened is in not-softened too");
     assert.match(csv[0], /^transfer_time,variant,state,runout,/);

@@ -9,23 +9,16 @@ import { stability_of } from "./provenance.js";
 import { overlay_of, scene_of, water_of } from "./scene.js";
 import { profile_in, SectionPicture, slip_surface } from "./section_picture.js";
 
-const largest_by = (rows, column) => rows.filter((row) => Number.isFinite(row[column])).sort((a, b) => b[column] - a[column])[0] ?? null;
-
-/// The rows that the top is about, as on the report's first page: {row: the largest runout (of a stability analysis alone the least factor of safety),
-/// mean: of its draws, safety: the least factor of safety}; null where there is none. The service's own choice comes first.
+/// The row that governs, as the service chose it, and the mean of its draws; null where there is none.
 export function governing_of(run, rows, means) {
-    const safety = rows.filter((row) => Number.isFinite(row.factor_of_safety)).sort((a, b) => a.factor_of_safety - b.factor_of_safety)[0] ?? null;
-    const mean = largest_by(means, "runout");
-    const chosen = rows.find((row) => row.mpm_task && row.mpm_task === run.governing?.mpm_task);
-    return { row: chosen ?? largest_by(mean ? draws_of(mean, rows, run.study) : rows, "runout") ?? safety, mean, safety };
+    const row = rows.find((each) => each.mpm_task && each.mpm_task === run.governing?.task) ?? null;
+    return { row, mean: means.find((mean) => draws_of(mean, rows, run.study).includes(row)) ?? null };
 }
 
-/// FS and runout for the list; "" where the service does not give them.
-export function brief_answer(governing) {
-    if (!governing) return "";
-    const { factor_of_safety: factor, runout, lower_bound: bound } = governing;
-    return [Number.isFinite(factor) ? `FS ${number(factor, 3)}` : "", Number.isFinite(runout) ? `runout ${bound ? "≥ " : ""}${number(runout, 3)} m` : ""]
-        .filter(Boolean).join(" · ");
+/// FS and runout for the list.
+export function brief_answer({ governing, stability }) {
+    return [stability ? `FS ${number(stability.factor_of_safety, 3)}` : "",
+            Number.isFinite(governing?.runout) ? `runout ${governing.lower_bound ? "≥ " : ""}${number(governing.runout, 3)} m` : ""].filter(Boolean).join(" · ");
 }
 
 export class Answer {
@@ -38,18 +31,17 @@ export class Answer {
 
     /// What the list knows of a run, before the rest of it has come.
     begin(run) {
-        const row = run.governing ?? null;
-        Object.assign(this, { rows: [], row, safety: Number.isFinite(row?.factor_of_safety) ? row : null, mean: null, quantiles: null, profile: null, task: null });
+        Object.assign(this, { run, rows: [], row: run.governing, mean: null, quantiles: null, profile: null, task: null });
         by_id("answer-picture").hidden = true;
         this.show_verdict(run);
         this.draw_figures();
     }
 
-    show_verdict({ verdict, flag_counts: counts }) {
+    show_verdict({ verdict, flag_counts: flags }) {
         const look = verdict_look(verdict.usable);
         by_id("verdict").className = `verdict ${look}${verdict.usable === "no" ? " unusable" : ""}`;
         set_text(by_id("verdict"), `${look === "bad" ? "✕ " : ""}Verdict: ${verdict.words}`);
-        mirror(by_id("reasons"), reason_items(verdict, counts), ({ key }) => key, ({ make }) => make(), () => {});
+        mirror(by_id("reasons"), reason_items(verdict, flags), ({ key }) => key, ({ make }) => make(), () => {});
     }
 
     /// Resolves when it is drawn; the deposit comes later. governing: as above; quantiles: {p10, p50, p90} of the runout of a study over distributions, or null.
@@ -88,7 +80,8 @@ export class Answer {
 
     draw() {
         this.draw_figures();
-        const stability = this.row && stability_of(this.run, this.row)?.result;
+        const drawn = this.row ?? this.run.stability;
+        const stability = drawn && stability_of(this.run, drawn)?.result;
         const { toe, outlines, gauges } = overlay_of(this.scene);
         const runout = this.runout();
         const after_name = ["after", this.rows.length > 1 && this.row ? point_name(this.row) : ""].filter(Boolean).join(", ");
@@ -112,12 +105,12 @@ export class Answer {
 
     /// [{name, value, note, title}] in the order in which they are read.
     figures() {
-        const { row, mean, safety, rows, profile, quantiles } = this;
+        const { row, mean, rows, quantiles, run: { stability } } = this;
         const found = [];
-        if (safety) {
-            const liquefied = safety.factor_of_safety_liquefied;
-            found.push({ name: "Factor of safety", value: number(safety.factor_of_safety, 3),
-                         note: [Number.isFinite(liquefied) ? `${number(liquefied, 3)} liquefied` : "", safety.variant].filter(Boolean).join(", ") });
+        if (stability) {
+            const { factor_of_safety: factor, factor_of_safety_liquefied: liquefied, variant } = stability;
+            found.push({ name: "Factor of safety", value: number(factor, 3),
+                         note: [Number.isFinite(liquefied) ? `${number(liquefied, 3)} liquefied` : "", variant].filter(Boolean).join(", ") });
         }
         const runout = this.runout();
         if (runout) {
@@ -125,9 +118,7 @@ export class Answer {
             found.push({ name: "Runout", value: runout.text, title: from,
                          note: quantiles ? "median over the samples" : [row.lower_bound ? "still moving" : "", runout.low === null ? "numerical error not quantified" : from].filter(Boolean).join("; ") });
         }
-        const toe = this.scene?.mpm?.runout?.toe;
-        const beyond = toe && runout ? (profile ?? []).filter(({ x }) => x > toe[0]).map(({ depth }) => depth) : [];
-        if (beyond.length) found.push({ name: "Depth beyond the toe", value: `${number(Math.max(...beyond), 2)} m`, note: "deepest, at the end" });
+        if (Number.isFinite(row?.depth_beyond_toe)) found.push({ name: "Depth beyond the toe", value: `${number(row.depth_beyond_toe, 2)} m`, note: "deepest, at the end" });
         for (const [name, gauge] of Object.entries(this.task?.result?.gauges ?? {})) found.push(arrival_of(name, gauge));
         const others = rows.filter(({ runout: each }) => Number.isFinite(each));
         if (row && rows.length > 1) {

@@ -100,6 +100,9 @@ export const read_workers = () => get_json("/v1/workers");
 /// {events, next} after the given number.
 export const page_of_events = (after) => get_json(`/v1/events?after=${after}&wait=0`);
 export const read_run = (run) => get_json(path_of("runs", run));
+/// The same without its tasks.
+export const read_run_alone = (run) => get_json(`${path_of("runs", run)}?tasks=0`);
+export const report_of = (run) => path_of("runs", run, "report");
 export const submit_study = (text) => post_json("/v1/runs", text);
 export const remove_run = (run) => get_json(path_of("runs", run), { method: "DELETE" });
 /// order: cancel, pause, resume, retry, pin or unpin

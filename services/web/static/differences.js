@@ -9,10 +9,10 @@ import { DataTable } from "./table.js";
 
 export const differences_address = (...runs) => `#/differences/${runs.filter(Boolean).map(encodeURIComponent).join("/")}`;
 
-const not_input = ["name", "title", "notes", "format", "priority", "resources", "reuse"]; // nothing of these changes a number
+const not_input = ["name", "title", "notes", "format", "priority", "resources", "reuse", "report"]; // nothing of these changes a number
 const longest = 200; // characters of a value
 const compared = { factor_of_safety: "factor of safety", factor_of_safety_liquefied: "factor of safety, liquefied", runout: "runout [m]",
-                   runout_beyond_toe: "passed the toe [m]", runout_largest: "farthest [m]", area_beyond_toe: "deposit beyond the toe [m²]",
+                   runout_beyond_toe: "passed the toe [m]", runout_largest: "farthest [m]", area_beyond_toe: "deposit beyond the toe [m²]", depth_beyond_toe: "depth beyond the toe [m]",
                    volume_ratio: "volume ratio", numerical_share: "numerical share", cpu_seconds: "CPU [s]" };
 
 /// Map of name -> member; null where there are none. Things with names go by these in lists; other lists are one value.
@@ -61,7 +61,7 @@ export class Differences {
     /// ids: of two runs; the second may be left out: then it is to be chosen.
     async show(ids) {
         if (this.settled === ids.join()) return;
-        const [runs, ...sides] = await Promise.all([api.list_runs(), ...ids.map((id) => Promise.all([api.read_run(id), api.read_results(id)]))]);
+        const [runs, ...sides] = await Promise.all([api.list_runs(), ...ids.map((id) => Promise.all([api.read_run_alone(id), api.read_results(id)]))]);
         [0, 1].forEach((side) => this.offer(side, runs, sides[side]?.[0]));
         const both = sides.length === 2;
         this.settled = sides.some(([run]) => is_active(run.state)) ? null : ids.join(); // nothing of it changes any more

@@ -73,13 +73,14 @@ export const flag_items = (flags) => kinds_of(flags).map((kind) =>
 /// How a verdict and its reasons look: `usable` of the findings.
 export const verdict_look = (usable) => ({ no: "bad", questionable: "warn", in_part: "warn", with_remarks: "calm", yes: "good" })[usable] ?? "off";
 
-/// The reasons of a verdict, which come worst first, a line for each kind. counts: results by code.
-export function reason_items({ reasons }, counts) {
+/// The reasons of a verdict, which come worst first, a line for each kind. flags: the codes of those that are flags, as its members.
+export function reason_items({ reasons }, flags) {
     const kinds = Map.groupBy(reasons, ({ usable, code }) => `${usable} ${code}`);
     return [...kinds.values()].map((some) => {
         const [{ usable, code }] = some;
+        const count = Math.max(...some.map((each) => each.count)); // the same results may carry several
         return { key: `${usable} ${code} ${some.map(({ text }) => text).join()}`,
-                 make: () => line_of(verdict_look(usable), counted(code, counts?.[code] ?? 1), some.map(({ text, pointer }) => ({ text: counts?.[code] ? without_name(text, code) : text, pointer }))) };
+                 make: () => line_of(verdict_look(usable), counted(code, count), some.map(({ text, pointer }) => ({ text: code in flags ? without_name(text, code) : text, pointer }))) };
     });
 }
 

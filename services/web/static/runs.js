@@ -34,7 +34,7 @@ function fill_item(item, run, open_id) {
     set_text(name, run.name);
     set_text(called, run.title);
     called.hidden = !run.title;
-    set_text(answer, brief_answer(run.governing));
+    set_text(answer, brief_answer(run));
     answer.hidden = answer.textContent === "";
     show_state(state, state_of(run));
     progress.value = run.progress ?? 0;
@@ -93,6 +93,8 @@ export class RunHead {
         set_text(by_id("run-summary"), summary(run));
         set_text(by_id("run-id"), run.id);
         by_id("differences-with").href = differences_address(run.id);
+        by_id("report").href = api.report_of(run.id);
+        by_id("report").hidden = run.tasks_done === 0;
         by_id("cancel").hidden = !active;
         by_id("pause").hidden = !active || run.paused;
         by_id("resume").hidden = !active || !run.paused;
@@ -146,19 +148,9 @@ export class RunHead {
     }
 }
 
-/// The time in which at least one attempt ran, and the rest since the run was created.
-function times_of({ created, finished, tasks }) {
-    const now = Date.now();
-    const spans = tasks.flatMap(({ attempts }) => attempts).filter(({ started }) => started)
-        .map((attempt) => [Date.parse(attempt.started), attempt.finished ? Date.parse(attempt.finished) : now]).sort((a, b) => a[0] - b[0]);
-    let [computing, end] = [0, 0];
-    for (const [from, to] of spans) {
-        computing += Math.max(0, to - Math.max(from, end));
-        end = Math.max(end, to);
-    }
-    if (spans.length === 0) return finished ? "nothing computed: all taken from earlier runs" : "nothing computed yet";
-    const all = (finished ? Date.parse(finished) : now) - Date.parse(created);
-    return `computing ${span(computing / 1000)}, idle ${span(Math.max(0, all - computing) / 1000)}`;
+function times_of({ finished, computing_seconds: computing, idle_seconds: idle }) {
+    if (computing > 0) return `computing ${span(computing)}, idle ${span(idle)}`;
+    return finished ? "nothing computed: all taken from earlier runs" : "nothing computed yet";
 }
 
 function summary(run) {

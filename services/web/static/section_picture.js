@@ -26,11 +26,11 @@ export function slip_surface(result, floor) {
     });
 }
 
-/// [{x, surface, depth}] of profile.csv [m].
+/// [{x, surface}] of profile.csv [m].
 export function profile_in(table) {
     const [head, ...lines] = table.trim().split("\n").map((line) => line.split(","));
     const value = (line, name) => Number(line[head.indexOf(`${name}_m`)]);
-    return lines.map((line) => ({ x: value(line, "x"), surface: value(line, "surface"), depth: value(line, "depth") }));
+    return lines.map((line) => ({ x: value(line, "x"), surface: value(line, "surface") }));
 }
 
 const wedge = (x, y) => `M${x},${y}l-5,-9h10Z`;
