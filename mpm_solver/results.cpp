@@ -176,6 +176,16 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             })};
 }
 
+/// The deposit's largest depth beyond the toe [m]; 0: nothing lies there.
+double depth_beyond_toe(const scene::Mpm& mpm, const Simulation& simulation) {
+    const std::vector<double> places = profile_places(simulation.view());
+    const std::vector<Flow> deposit = without_grains(simulation.profile());
+    double depth = 0.0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+        if (places[k] > mpm.runout.toe.x()) depth = std::max(depth, deposit[k].depth);
+    return depth;
+}
+
 void conclude(Session& session, const Simulation& simulation, const Ending& ending, double speed) {
     const Row& row = simulation.last_row();
     const Clock& clock = simulation.clock();
@@ -189,6 +199,7 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["runout_by_count"] = row.runout_by_count;
     result["runout_front"] = row.runout_front == nowhere ? json() : json(row.runout_front);
     result["area_beyond_toe"] = row.area_beyond_toe;
+    result["depth_beyond_toe"] = depth_beyond_toe(mpm, simulation);
     result["gauges"] = gauges_json(simulation);
     result["envelope"] = envelope_json(simulation, mpm.arrival_depth);
     result["sections"] = sections_json(simulation, mpm);

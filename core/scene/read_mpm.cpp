@@ -116,6 +116,30 @@ void check_shaking(Reader& reader, const Mpm& mpm) {
     }
 }
 
+bool is_in_grid(const Box& box, const Mpm& mpm) {
+    return box.low.x() >= mpm.domain_x[0] - 1e-9 && box.high.x() <= mpm.domain_x[1] + 1e-9 &&
+           box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;
+}
+
+/// The change that would bring the whole section into the grid; empty: none of them does.
+std::string slip_of_drawing(const Section& section, const Mpm& mpm) {
+    Polygon all;
+    for (const Region& each : section.regions)
+        all.insert(all.end(), each.polygon.begin(), each.polygon.end());
+    const Box box = geometry::bounding_box(all);
+    const auto scaled = [&](double unit) { return Box{unit * box.low, unit * box.high}; };
+    if (is_in_grid({Vec2(box.low.y(), box.low.x()), Vec2(box.high.y(), box.high.x())}, mpm))
+        return "x and y look swapped: write each vertex as [x, y], x downstream, y upwards";
+    if (is_in_grid({Vec2(box.low.x(), -box.high.y()), Vec2(box.high.x(), -box.low.y())}, mpm))
+        return "y points upwards: the section looks drawn with depths; write every y with the "
+               "other sign";
+    if (is_in_grid(scaled(0.3048), mpm))
+        return "the section looks drawn in ft: multiply its coordinates by 0.3048, to m";
+    if (is_in_grid(scaled(1e-3), mpm))
+        return "the section looks drawn in mm: divide its coordinates by 1000, to m";
+    return "";
+}
+
 void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     check_grid(reader, mpm);
     check_shaking(reader, mpm);
@@ -136,15 +160,12 @@ void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     }
     for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
         const Polygon& polygon = scene.section.regions[i].polygon;
-        if (polygon.empty()) continue;
-        const Box box = geometry::bounding_box(polygon);
-        const bool inside =
-            box.low.x() >= mpm.domain_x[0] - 1e-9 && box.high.x() <= mpm.domain_x[1] + 1e-9 &&
-            box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;
-        if (inside) continue;
-        reader.add("/section/regions/" + std::to_string(i) + "/polygon",
-                   "reaches outside the MPM grid or below its floor",
-                   "enlarge /mpm/domain_x, /mpm/domain_y or lower /mpm/floor/level");
+        if (polygon.empty() || is_in_grid(geometry::bounding_box(polygon), mpm)) continue;
+        const std::string slip = slip_of_drawing(scene.section, mpm);
+        reader.add(
+            "/section/regions/" + std::to_string(i) + "/polygon",
+            "reaches outside the MPM grid or below its floor",
+            slip.empty() ? "enlarge /mpm/domain_x, /mpm/domain_y or lower /mpm/floor/level" : slip);
     }
 }
 

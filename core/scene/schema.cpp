@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/scene/slips.hpp"
+#include "core/words/nearest.hpp"
 
 namespace breach::scene {
 
@@ -36,21 +37,6 @@ std::string escaped(const std::string& token) {
 
 /// Pointers to entries, as faults and overrides have them, are put together from names as they are.
 bool can_be_pointed_at(const std::string& key) { return key.find_first_of("/~") == key.npos; }
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-        }
-    }
-    return row[b.size()];
-}
 
 std::string listed(const json& values) {
     std::string text;
@@ -249,18 +235,14 @@ class Walker {
     }
 
     static std::string suggestion(const std::string& key, const json& properties) {
-        std::string nearest;
-        std::size_t least = 1 + key.size() / 3;
+        std::vector<std::string> names;
         std::string all;
         for (const auto& [name, property] : properties.items()) {
+            names.push_back(name);
             all += (all.empty() ? "" : ", ") + name;
-            const std::size_t distance = edit_distance(key, name);
-            if (distance <= least) {
-                least = distance;
-                nearest = name;
-            }
         }
-        if (!nearest.empty()) return "did you mean \"" + nearest + "\"?";
+        if (const std::string nearest = words::nearest(key, names); !nearest.empty())
+            return "did you mean \"" + nearest + "\"?";
         return "remove it; known keys here: " + all;
     }
 

@@ -3,12 +3,14 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <functional>
 #include <iostream>
 
 #include "core/version/version.hpp"
+#include "core/words/nearest.hpp"
 #include "services/cli/commands.hpp"
 #include "services/cli/completion.hpp"
 #include "services/cli/draw.hpp"
@@ -43,6 +45,7 @@ struct Arguments {
     std::string id;  ///< run or task
     std::vector<std::string> ids;
     bool cancel_first = false;
+    bool confirmed = false;
     std::vector<std::filesystem::path> files;
     std::string shell;
     SubmitWish submit;
@@ -62,7 +65,7 @@ struct Arguments {
     TelemetryWish telemetry;
     HydrographWish hydrograph;
     std::filesystem::path folder;
-    std::filesystem::path scene;
+    std::filesystem::path document;
     DrawWish draw;
     MotionWish motion;
     VerifyWish verify;
@@ -107,7 +110,8 @@ class CommandLine {
         app_.add_flag("-q,--quiet", a_.quiet,
                       "only what was asked for, and faults; no progress, no remarks");
         app_.footer(
-            "RUN may be `latest`. Exit codes: 0 done, 2 usage, 65 refused, 70 the run failed "
+            "RUN: an id, its beginning, a name (the newest run of it), or `latest`. Exit codes: 0 "
+            "done, 2 usage, 65 refused, 70 the run failed "
             "(with\n"
             "--strict: or is questionable), 74 file fault, 75 the server does not answer, or the "
             "budget "
@@ -130,19 +134,33 @@ class CommandLine {
     }
 
     /// Throws CLI::ParseError.
-    void parse(int argc, char** argv) { app_.parse(argc, argv); }
+    void parse(int argc, char** argv) {
+        std::vector<std::string> words(argv + 1, argv + argc);
+        if (const auto command = command_in(words); command != words.end())
+            std::rotate(words.begin(), command, command + 1);
+        std::ranges::reverse(words);  // as CLI11 takes them
+        app_.parse(words);
+    }
     int explain(const CLI::ParseError& error) const {
-        const bool asks_for_help = error.get_exit_code() == 0;
-        if (asks_for_help || !app_.get_subcommands().empty()) return app_.exit(error);
-        std::string words;
-        for (const CLI::App* each : app_.get_subcommands(nullptr))
-            words += (words.empty() ? "" : ", ") + each->get_name();
-        const std::vector<std::string> unknown = app_.remaining();
-        if (!unknown.empty()) {
-            std::cerr << "breach: there is no word \"" << harmless(unknown.front())
-                      << "\"; the words are: " << words << "\n";
-        } else if (error.get_name() == "RequiredError") {
-            std::cerr << "breach: say what to do with one of the words: " << words
+        if (error.get_exit_code() == 0) return app_.exit(error);  // help was asked for
+        const CLI::App& named = named_command();
+        std::string program = named.get_name();
+        for (const CLI::App* each = named.get_parent(); each; each = each->get_parent())
+            program = each->get_name() + " " + program;
+        const std::vector<std::string> unknown = app_.remaining(true);
+        const auto option = std::ranges::find_if(
+            unknown, [](const std::string& each) { return each.starts_with("-"); });
+        const std::vector<std::string> words = names_below(named);
+        if (option != unknown.end()) {
+            std::cerr << program << ": unknown option " << harmless(*option)
+                      << meant(option->substr(0, option->find('=')), options_of(named)) << "; `"
+                      << program << " --help` lists them\n";
+        } else if (!unknown.empty() && !words.empty()) {
+            std::cerr << program << ": unknown command \"" << harmless(unknown.front()) << "\""
+                      << meant(unknown.front(), words) << "; the commands are: " << listed(words)
+                      << "\n";
+        } else if (error.get_name() == "RequiredError" && !named.get_parent()) {
+            std::cerr << "breach: give a command: " << listed(words)
                       << "\nFor example: breach submit study.json --watch\n";
         } else {
             return app_.exit(error);
@@ -161,6 +179,66 @@ class CommandLine {
     }
 
   private:
+    /// The command among the words, wherever it stands; options may stand before it. The value of an option is none.
+    std::vector<std::string>::iterator command_in(std::vector<std::string>& words) const {
+        const auto takes_value = [](const CLI::App& app, const std::string& name) {
+            const CLI::Option* option = app.get_option_no_throw(name);
+            return option && option->get_items_expected_max() > 0;
+        };
+        const auto commands = app_.get_subcommands(nullptr);
+        for (auto word = words.begin(); word != words.end(); ++word) {
+            const bool is_command = std::ranges::any_of(
+                commands, [&](const CLI::App* each) { return each->get_name() == *word; });
+            if (!is_command) continue;
+            const bool is_value = word != words.begin() && (word - 1)->starts_with("-") &&
+                                  (takes_value(app_, *(word - 1)) ||
+                                   std::ranges::any_of(commands, [&](const CLI::App* each) {
+                                       return takes_value(*each, *(word - 1));
+                                   }));
+            if (!is_value) return word;
+        }
+        return words.end();
+    }
+
+    /// The innermost command that was given; the program itself where none was.
+    const CLI::App& named_command() const {
+        const CLI::App* named = &app_;
+        while (!named->get_subcommands().empty()) named = named->get_subcommands().front();
+        return *named;
+    }
+
+    static std::vector<std::string> names_below(const CLI::App& app) {
+        std::vector<std::string> names;
+        for (const CLI::App* each : app.get_subcommands(nullptr))
+            if (!each->get_name().empty()) names.push_back(each->get_name());
+        return names;
+    }
+
+    /// Its own, those of its groups and the program's.
+    std::vector<std::string> options_of(const CLI::App& app) const {
+        std::vector<std::string> names;
+        const auto add_all = [&](const CLI::App& from) {
+            for (const CLI::Option* each : from.get_options())
+                for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+        };
+        add_all(app_);
+        add_all(app);
+        for (const CLI::App* group : app.get_subcommands(nullptr))
+            if (group->get_name().empty()) add_all(*group);
+        return names;
+    }
+
+    static std::string meant(const std::string& word, const std::vector<std::string>& known) {
+        const std::string nearest = words::nearest(word, known);
+        return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+    }
+
+    static std::string listed(const std::vector<std::string>& words) {
+        std::string text;
+        for (const std::string& each : words) text += (text.empty() ? "" : ", ") + each;
+        return text;
+    }
+
     /// `example`: a line of arguments that works, for the word's own help.
     CLI::App* add(const std::string& word, const std::string& what, const std::string& example,
                   Command command) {
@@ -418,6 +496,7 @@ class CommandLine {
         telemetry_->add_option("PHASE", wish.phase, "fem_solver or mpm_solver")->required();
         telemetry_->add_option("--transfer-time", wish.transfer_time,
                                "which of the sweep's runouts [s]");
+        telemetry_->add_option("--variant", wish.variant, "which of the study's variants");
         telemetry_->add_option("--fields", wish.fields, "only these, separated by commas");
         telemetry_->add_option("--from", wish.from, "first line, counted from 0")
             ->check(CLI::NonNegativeNumber);
@@ -460,10 +539,10 @@ class CommandLine {
             ->add_option("DIR", a_.folder,
                          "a new or empty folder, or one with an earlier export of the run")
             ->required();
-        CLI::App* plan_ =
-            add("plan", "what a scene needs of each phase, what it leaves out, and why",
-                "scene.json", [this](Server& s, const Console& c) { return plan(s, a_.scene, c); });
-        plan_->add_option("SCENE", a_.scene, "scene file (JSON)")->required();
+        CLI::App* plan_ = add(
+            "plan", "what a scene or a study needs of each phase, what it leaves out, and why",
+            "scene.json", [this](Server& s, const Console& c) { return plan(s, a_.document, c); });
+        plan_->add_option("SCENE|STUDY", a_.document, "scene or study file (JSON)")->required();
     }
 
     void add_templates() {
@@ -566,14 +645,15 @@ class CommandLine {
     }
 
     void add_storage_commands() {
-        CLI::App* rm = add("rm", "remove runs, or files that were sent, from the server's disk",
-                           "latest --cancel", [this](Server& s, const Console& c) {
-                               const IfItRuns wish =
-                                   a_.cancel_first ? IfItRuns::cancel_first : IfItRuns::refuse;
-                               return remove_all(s, a_.ids, wish, c);
-                           });
+        CLI::App* rm = add(
+            "rm", "remove runs, or files that were sent, from the server's disk", "latest --cancel",
+            [this](Server& s, const Console& c) {
+                const IfItRuns wish = a_.cancel_first ? IfItRuns::cancel_first : IfItRuns::refuse;
+                return remove_all(s, a_.ids, wish, a_.confirmed ? Confirm::given : Confirm::ask, c);
+            });
         rm->add_option("RUN|FILE", a_.ids, "runs, or files as file:sha256/...")->required();
         rm->add_flag("--cancel", a_.cancel_first, "cancel what still goes on, then remove it");
+        rm->add_flag("-y,--yes", a_.confirmed, "do not ask, for scripts");
         add("du", "what holds the server's disk, and what removing each run would free", "--json",
             [](Server& s, const Console& c) { return disk_use(s, c); });
         CLI::App* files =
@@ -631,12 +711,16 @@ class CommandLine {
 
     void add_completion() {
         CLI::App* sub = add("completion", "print a script that completes words in a shell",
-                            "bash > ~/.local/share/bash-completion/completions/breach",
+                            "bash > ~/.local/share/bash-completion/completions/breach\n"
+                            "  breach completion zsh > ~/.zfunc/_breach\n"
+                            "  breach completion fish > ~/.config/fish/completions/breach.fish",
                             [this](Server&, const Console& c) {
-                                c.out << bash_completion(app_);
+                                c.out << completion(app_, a_.shell);
                                 return ExitCode::done;
                             });
-        sub->add_option("SHELL", a_.shell, "bash")->required()->check(CLI::IsMember({"bash"}));
+        sub->add_option("SHELL", a_.shell, "bash, zsh or fish")
+            ->required()
+            ->check(CLI::IsMember({"bash", "zsh", "fish"}));
     }
 
     void take_run(CLI::App* sub) { sub->add_option("RUN", a_.id, "which run")->required(); }

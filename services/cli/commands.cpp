@@ -19,8 +19,10 @@ using nlohmann::json;
 
 namespace {
 
+constexpr std::size_t length_of_ids = 26;  // of runs: ULIDs
+
 /// Tasks are named after their run: "<run>-00007".
-bool names_task(const std::string& id) { return id.find('-') != std::string::npos; }
+bool names_task(const std::string& id) { return id.find('-') == length_of_ids; }
 
 void show_as_csv(const json& lines, const Console& console) {
     if (lines.empty()) return;
@@ -38,10 +40,27 @@ void show_as_csv(const json& lines, const Console& console) {
 }  // namespace
 
 std::string run_named(Server& server, const std::string& name) {
-    if (name != "latest") return name;
-    const json runs = server.get("/v1/runs?limit=1").at("runs");
-    if (runs.empty()) throw Refused(404, "there is no run yet", {});
-    return runs.front().at("id");
+    if (name.size() == length_of_ids) return name;
+    const bool latest = name == "latest";
+    const json runs = server
+                          .get("/v1/runs" + query_of({{"limit", latest ? "1" : "500"},
+                                                      {"search", latest ? "" : name}}))
+                          .at("runs");
+    if (latest && runs.empty()) throw Refused(404, "there is no run yet", {});
+    if (latest) return runs.front().at("id");
+    std::vector<std::string> begun;
+    for (const json& each : runs) {
+        if (each.at("name") == name) return each.at("id");  // the newest comes first
+        if (each.at("id").get<std::string>().starts_with(name)) begun.push_back(each.at("id"));
+    }
+    if (begun.size() == 1) return begun.front();
+    std::string which;
+    for (const std::string& each : begun) which += (which.empty() ? "" : ", ") + each;
+    throw Refused(404,
+                  begun.empty()
+                      ? "no run has the name or id \"" + name + "\"; `breach list` shows the runs"
+                      : "several ids begin with \"" + name + "\": " + which,
+                  {});
 }
 
 namespace {
@@ -265,6 +284,7 @@ ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& con
     for (;;) {  // the server answers with a part of a long file at a time
         json answer = server.get(path + query_of({{"phase", wish.phase},
                                                   {"transfer_time", wish.transfer_time},
+                                                  {"variant", wish.variant},
                                                   {"fields", wish.fields},
                                                   {"from", std::to_string(from)},
                                                   {"stride", std::to_string(wish.stride)}}));
@@ -310,8 +330,10 @@ ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& c
     return ExitCode::done;
 }
 
-ExitCode plan(Server& server, const std::filesystem::path& scene, const Console& console) {
-    const json plans = server.post("/v1/scenes/plan", read_scene_document(scene)).at("plans");
+ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console) {
+    const json scene =
+        names_a_scene(document) ? scene_of_study(document) : read_scene_document(document);
+    const json plans = server.post("/v1/scenes/plan", scene).at("plans");
     if (console.style == Style::json) {
         show_json(plans, console);
         return ExitCode::done;

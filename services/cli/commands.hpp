@@ -100,6 +100,7 @@ struct TelemetryWish {
     std::string run;
     std::string phase;
     std::string transfer_time;  ///< empty: the phase has none
+    std::string variant;        ///< empty: the phase serves all
     std::string fields;         ///< "a,b"; empty: all
     std::int64_t from = 0;
     std::int64_t stride = 1;
@@ -122,9 +123,11 @@ struct HydrographWish {
 fault::ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& console);
 
 fault::ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console);
-fault::ExitCode plan(Server& server, const std::filesystem::path& scene, const Console& console);
+/// document: a scene or a study.
+fault::ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console);
 
-/// A run's id; "latest" means the newest run. Throws Refused when there is none.
+/// A run's id, from itself, its beginning, or a name, which means the newest run of that name; "latest" means the newest
+/// run. Throws Refused when there is none, or several ids begin so.
 std::string run_named(Server& server, const std::string& name);
 
 }  // namespace breach::cli

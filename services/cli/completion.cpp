@@ -34,7 +34,45 @@ bool takes_a_run(const CLI::App& word) {
     return false;
 }
 
-}  // namespace
+constexpr const char* ids_of_runs =
+    R"sed(breach --json list 2>/dev/null | sed -n 's/^    "id": "\(.*\)",$/\1/p')sed";
+
+std::string quoted(const std::string& text) {
+    std::string safe = "'";
+    for (const char each : text) safe += each == '\'' ? std::string("\\'") : std::string(1, each);
+    return safe + "'";
+}
+
+void add_fish_options(const CLI::App& word, const std::string& when, std::string& script) {
+    for (const CLI::Option* each : word.get_options()) {
+        const bool has_value = each->get_items_expected_max() > 0;
+        for (const std::string& name : each->get_lnames())
+            script += "complete -c breach" + when + " -l " + name + (has_value ? " -r" : "") +
+                      " -d " + quoted(each->get_description()) + "\n";
+    }
+}
+
+std::string fish_completion(const CLI::App& program) {
+    std::string script =
+        "# Completes the words of breach in fish; made by: breach completion fish\n";
+    add_fish_options(program, "", script);
+    for (const CLI::App* each : program.get_subcommands(nullptr)) {
+        const std::string when = " -n " + quoted("__fish_seen_subcommand_from " + each->get_name());
+        script += "complete -c breach -f -n __fish_use_subcommand -a " + each->get_name() + " -d " +
+                  quoted(each->get_description()) + "\n";
+        add_fish_options(*each, when, script);
+        for (const CLI::App* group : each->get_subcommands(nullptr)) {
+            if (group->get_name().empty())
+                add_fish_options(*group, when, script);
+            else
+                script += "complete -c breach -f" + when + " -a " + group->get_name() + "\n";
+        }
+        if (takes_a_run(*each))
+            script += "complete -c breach -f" + when + " -a " +
+                      quoted("latest (" + std::string(ids_of_runs) + ")") + "\n";
+    }
+    return script;
+}
 
 std::string bash_completion(const CLI::App& program) {
     std::string words;
@@ -68,15 +106,25 @@ _breach() {
     case $word in
         )bash" +
            runs + R"bash()
-            COMPREPLY=($(compgen -W "latest $(breach --json list 2>/dev/null |
-                sed -n 's/^    "id": "\(.*\)",$/\1/p')" -- "$current")) ;;
+            COMPREPLY=($(compgen -W "latest $()bash" +
+           ids_of_runs + R"bash()" -- "$current")) ;;
 )bash" + below +
-           R"bash(        completion) COMPREPLY=($(compgen -W "bash" -- "$current")) ;;
+           R"bash(        completion) COMPREPLY=($(compgen -W "bash zsh fish" -- "$current")) ;;
         *) COMPREPLY=($(compgen -f -- "$current")) ;;
     esac
 }
 complete -o filenames -F _breach breach
 )bash";
+}
+
+}  // namespace
+
+std::string completion(const CLI::App& program, const std::string& shell) {
+    if (shell == "fish") return fish_completion(program);
+    const std::string bash = bash_completion(program);
+    return shell == "bash"
+               ? bash
+               : "#compdef breach\nautoload -U +X bashcompinit && bashcompinit\n" + bash;
 }
 
 }  // namespace breach::cli

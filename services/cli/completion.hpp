@@ -6,8 +6,8 @@
 
 namespace breach::cli {
 
-/// A script for bash, made from the words and options themselves. Runs are completed by asking the
+/// A script for bash, zsh or fish, made from the words and options themselves. Runs are completed by asking the
 /// server that BREACH_SERVER names, else the default one.
-std::string bash_completion(const CLI::App& program);
+std::string completion(const CLI::App& program, const std::string& shell);
 
 }  // namespace breach::cli

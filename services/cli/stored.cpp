@@ -1,6 +1,10 @@
 #include "services/cli/stored.hpp"
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -23,14 +27,56 @@ void wait_for_the_end(Server& server, const std::string& run) {
         std::this_thread::sleep_for(pause);
 }
 
+/// A run or a file that was sent.
+struct Removed {
+    std::string kind, id, name;
+    double bytes = 0.0;  ///< that it frees
+};
+
+std::vector<Removed> meant(Server& server, const std::vector<std::string>& names) {
+    const json runs = server.get("/v1/storage").at("runs");
+    const json files = server.get("/v1/files").at("files");
+    const auto found = [](const json& list, const char* key, const std::string& id) {
+        const auto at =
+            std::ranges::find_if(list, [&](const json& each) { return each.at(key) == id; });
+        return at == list.end() ? json::object() : *at;
+    };
+    std::vector<Removed> all;
+    for (const std::string& each : names) {
+        const auto file = scene::file_reference(each);
+        const std::string id = file ? file->sha256 : run_named(server, each);
+        const json what = file ? found(files, "reference", each) : found(runs, "id", id);
+        const json bytes = what.value(file ? "bytes" : "freed_bytes", json());
+        all.push_back({file ? "files" : "runs", id, what.value("name", ""),
+                       bytes.is_number() ? bytes.get<double>() : 0.0});
+    }
+    return all;
+}
+
+bool wants(const std::vector<Removed>& all) {
+    double bytes = 0.0;
+    for (const Removed& each : all) {
+        std::cerr << each.id << "  " << harmless(each.name) << "  " << in_bytes(each.bytes) << "\n";
+        bytes += each.bytes;
+    }
+    std::cerr << "Remove " << (all.size() == 1 ? "it" : "them") << " (" << in_bytes(bytes)
+              << ")? [y/N] ";
+    std::string answer;
+    std::getline(std::cin, answer);
+    return answer == "y" || answer == "yes";
+}
+
 }  // namespace
 
 ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns wish,
-                    const Console& console) {
-    for (const std::string& name : names) {
-        const auto file = scene::file_reference(name);
-        const std::string id = file ? file->sha256 : run_named(server, name);
-        const std::string path = path_of({file ? "files" : "runs", id});
+                    Confirm confirm, const Console& console) {
+    const std::vector<Removed> all = meant(server, names);
+    if (confirm == Confirm::ask && isatty(STDIN_FILENO) != 1)
+        throw fault::BadInput("breach rm", {{"", "there is no terminal to ask on",
+                                             "give --yes to remove without being asked"}});
+    if (confirm == Confirm::ask && !wants(all)) return ExitCode::done;
+    for (const auto& [kind, id, name, bytes] : all) {
+        const std::string path = path_of({kind, id});
         json answer;
         try {
             answer = server.remove(path);

@@ -11,8 +11,10 @@ namespace breach::cli {
 
 /// Runs, and files as "file:sha256/...". cancel_first: and wait for the end, when one goes on.
 enum class IfItRuns { refuse, cancel_first };
+/// Says what goes and how much disk that frees, and takes yes or no on a terminal.
+enum class Confirm { ask, given };
 fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns wish,
-                           const Console& console);
+                           Confirm confirm, const Console& console);
 fault::ExitCode disk_use(Server& server, const Console& console);
 fault::ExitCode list_files(Server& server, const Console& console);
 /// Sends files and prints their references.

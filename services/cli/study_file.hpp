@@ -24,6 +24,9 @@ nlohmann::json study_around(const std::filesystem::path& scene,
 /// The file holds a study: a scene is in it, or named by it. Throws as read_study.
 bool names_a_scene(const std::filesystem::path& file);
 
+/// The scene of a study with the study's overrides for all variants. Throws BadInput for one that only the server has.
+nlohmann::json scene_of_study(const std::filesystem::path& file);
+
 /// A scene with its mesh's path resolved.
 nlohmann::json read_scene_document(const std::filesystem::path& file);
 

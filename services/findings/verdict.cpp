@@ -109,7 +109,7 @@ void add_flags(std::vector<Raised> raised, std::vector<Reason>& reasons) {
                            std::to_string(most->results) + " of " +
                                std::to_string(most->of_results) + " " + results_of(most->phase) +
                                " " + brief_of(most->flag.code),
-                           ended(text), most->flag.pointer});
+                           ended(text), most->flag.pointer, most->results});
     }
 }
 
@@ -122,25 +122,29 @@ Reason reason_of(const Unstable& unstable) {
     const std::string factor = "factor of safety " + words::text_of(unstable.least, 3) +
                                (unstable.variant.empty() ? "" : " (" + unstable.variant + ")");
     return {
-        all ? Usable::no : Usable::questionable, "does_not_stand",
+        all ? Usable::no : Usable::questionable,
+        "does_not_stand",
         "does not stand as built" + of + ": " + factor,
         "The section does not stand as built" + of + ": " + factor +
             " before any layer liquefies. Check strengths, units and water; of a section that is "
             "known to have failed, say so: \"known_failure\": true in the study.",
-        "/scene/lem"};
+        "/scene/lem",
+        unstable.analyses};
 }
 
 Reason reason_of(const Early& early) {
     const bool all = early.transfers == early.of_transfers;
     const std::string of = whose(phases::transfer.program, early.transfers, early.of_transfers);
-    return {all ? Usable::no : Usable::questionable, "early_transfer",
+    return {all ? Usable::no : Usable::questionable,
+            "early_transfer",
             of + " before liquefaction had ended",
             capital(of) +
                 " came before liquefaction had ended: t_T = " + words::text_of(early.first) +
                 " s, but the liquefied zone reached most of its depth at " +
                 words::text_of(early.liquefied_at) +
                 " s only. The runout is probably too short (unsafe). Transfer later.",
-            "/transfer_times"};
+            "/transfer_times",
+            early.transfers};
 }
 
 /// Variants without a transfer. The dam may stand only where its FEM ended without a failure.
@@ -162,16 +166,20 @@ void add_without_transfer(const Facts& facts, std::vector<Reason>& reasons) {
                            "No transfer" + of + ", so there is no runout: " + why +
                                (stood ? ". The dam may stand; then nothing runs out."
                                       : ". This does not mean that the dam stands."),
-                           pointer});
+                           pointer, static_cast<std::int64_t>(names.size())});
     }
 }
 
 void add_broken(const Facts& facts, std::vector<Reason>& reasons) {
     const Usable worth = is_over(facts.state) ? Usable::in_part : Usable::not_finished;
     for (const Broken& each : facts.broken)
-        reasons.push_back({worth, "no_result", "",
+        reasons.push_back({worth,
+                           "no_result",
+                           "",
                            capital(whose(each.phase, each.results, each.of_results)) +
-                               " left no result: " + ended(each.why)});
+                               " left no result: " + ended(each.why),
+                           {},
+                           each.results});
 }
 
 void add_same_results(const std::vector<std::vector<std::string>>& groups,
@@ -243,7 +251,8 @@ json as_json(const Verdict& verdict) {
                            {"code", each.code},
                            {"brief", each.brief},
                            {"text", each.text},
-                           {"pointer", each.pointer}});
+                           {"pointer", each.pointer},
+                           {"count", each.count}});
     return {{"usable", name_of(verdict.usable)},
             {"words", phrase_of(verdict.usable)},
             {"reasons", std::move(reasons)}};

@@ -79,6 +79,7 @@ struct Reason {
     std::string brief;  ///< "7 of 8 runouts still moving: lower bounds"
     std::string text;   ///< one or two sentences
     std::string pointer = {};
+    std::int64_t count = 1;  ///< results, analyses or variants that it is about
 };
 
 struct Verdict {
@@ -91,7 +92,7 @@ Verdict verdict_of(const Facts& facts);
 /// What makes a run less than usable, in one line; empty where nothing does.
 std::string line_of(const Verdict& verdict);
 
-/// {"usable", "words", "reasons": [{"usable", "code", "brief", "text", "pointer"}]}
+/// {"usable", "words", "reasons": [{"usable", "code", "brief", "text", "pointer", "count"}]}
 nlohmann::json as_json(const Verdict& verdict);
 
 }  // namespace breach::findings

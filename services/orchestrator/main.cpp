@@ -51,7 +51,14 @@ int main(int argc, char** argv) {
     supervising->add_flag("--take-lock", take_lock, "nobody has locked the attempt yet");
     bool ending = false;
     supervising->add_flag("--end-strays", ending, "the supervisor was killed: end what it left");
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ConfigError& error) {
+        std::cerr << "breachline: " << ServeOptions::explained(error, app, *serving) << "\n";
+        return static_cast<int>(ExitCode::usage);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error);
+    }
 
     if (*serving) return guarded([&] { return serve(options.settings()); });
     if (*checking) return guarded([&] { return static_cast<int>(check(checks)); });

@@ -6,6 +6,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
+#include "core/words/nearest.hpp"
 
 namespace breach::orchestrator {
 
@@ -73,6 +74,26 @@ CLI::App* ServeOptions::add_to(CLI::App& program) {
     add_retention(*serving);
     add_slurm(*serving);
     return serving;
+}
+
+std::string ServeOptions::explained(const CLI::ConfigError& error, const CLI::App& program,
+                                    const CLI::App& serving) {
+    const std::string said = error.what();
+    const std::string key = said.substr(said.find_last_of(" .") + 1);  // "... parse serve.slotz"
+    const std::string file = program.get_config_ptr()->as<std::string>();
+    std::ifstream settings(file);
+    std::string line;
+    std::size_t number = 1;
+    while (std::getline(settings, line) && line.substr(0, line.find_first_of(" \t=")) != key)
+        ++number;
+    if (!settings) return said;
+    std::vector<std::string> known;
+    for (const CLI::Option* each : serving.get_options())
+        for (const std::string& name : each->get_lnames()) known.push_back(name);
+    const std::string meant = words::nearest(key, known);
+    return file + ":" + std::to_string(number) + ": unknown key \"" + key + "\"" +
+           (meant.empty() ? "; `breachline serve --help` lists them"
+                          : "; did you mean " + meant + "?");
 }
 
 void ServeOptions::add_door(CLI::App& serving) {

@@ -16,6 +16,9 @@ class ServeOptions {
 
     /// Adds the subcommand and, to the program, --config FILE with its section [serve].
     CLI::App* add_to(CLI::App& program);
+    /// Which key of the settings file is none, with its line and the one that was probably meant.
+    static std::string explained(const CLI::ConfigError& error, const CLI::App& program,
+                                 const CLI::App& serving);
     /// After parsing. Throws BadInput and IoError.
     ServeSettings settings() const;
 

@@ -70,6 +70,8 @@ int main(int argc, char** argv) {
            "--companions", choice.companions,
            "other runs: their runouts in the figure, their variants behind those of this one")
         ->delimiter(',');
+    bool alone = false;
+    app.add_flag("--alone", alone, "the page only, without files of its figures and their data");
     app.footer("One phase alone: figures and data only.");
     app.require_subcommand(0, 1);
     const OnePhase single[] = {
@@ -108,6 +110,7 @@ int main(int argc, char** argv) {
         for (const OnePhase& each : single) {
             if (*each.command) return each.write(folder, output);
         }
-        report::write_report(report::document_of(report::read_run(folder), choice), output);
+        report::write_report(report::document_of(report::read_run(folder), choice), output,
+                             alone ? report::Files::none : report::Files::beside_the_page);
     }));
 }

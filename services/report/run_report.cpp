@@ -88,10 +88,11 @@ Document document_of(const Run& run, const Choice& choice) {
     }
 }
 
-void write_report(Document document, const std::filesystem::path& page) {
+void write_report(Document document, const std::filesystem::path& page, Files files) {
     if (std::filesystem::is_directory(page)) {
         throw fault::IoError(page.string() + ": is a folder; give the page's file name");
     }
+    if (files == Files::none) return exchange::publish_text(page, as_html(document, ""));
     const std::string folder_name = page.stem().string() + "_files";
     const std::filesystem::path folder = page.parent_path() / folder_name;
     const bool draws = png_converter() == Converter::there;
@@ -99,11 +100,14 @@ void write_report(Document document, const std::filesystem::path& page) {
         document.left_out.push_back(
             {"figures as PNG", "rsvg-convert is not installed (Debian: librsvg2-bin)"});
     }
-    for (const Chapter& chapter : document.chapters) {
-        write_figures(folder, chapter.figures);
-        for (const Figure& each : chapter.figures) {
+    const auto write = [&](const std::vector<Figure>& figures) {
+        write_figures(folder, figures);
+        for (const Figure& each : figures)
             if (draws) write_png(folder / (each.name + ".svg"), folder / (each.name + ".png"));
-        }
+    };
+    write(document.front.pictures);
+    for (const Chapter& chapter : document.chapters) {
+        write(chapter.figures);
         for (const Table& each : chapter.tables) {
             exchange::publish_text(folder / (each.name + ".csv"), as_csv(each));
         }

@@ -55,6 +55,9 @@ Options foundation_options() {
               "ground below y = 0; 0: the soil stands on rock"),
         sized("foundation_extent", 2, 1, 5000,
               "ground that is modelled beyond the toe; the soil runs on over level terrain"),
+        length("clay_thickness", 0, 100, 0,
+               "weak layer at the top of the foundation; 0: there is none"),
+        of_type(ratio("clay_strength", 1, 500, 40, "undrained strength of the weak layer"), "kPa"),
     };
 }
 
@@ -118,6 +121,8 @@ Template upstream() {
             {{
                  length("height", 3, 200, 30, "crest of the last raise above the foundation"),
                  sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
+                 yes_or_no("rockfill_starter", false,
+                           "yes: the starter dam is of rockfill, not of the raises' fill"),
                  count("raises", 0, 20, 4,
                        "raises of equal height; 0: the starter dam is as high as the dam"),
                  ratio("starter_slope", 1, 10, 2,
@@ -144,6 +149,8 @@ Template downstream() {
             {{
                  length("height", 3, 200, 30, "crest of the last raise above the foundation"),
                  sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
+                 yes_or_no("rockfill_starter", false,
+                           "yes: the starter dam is of rockfill, not of the raises' fill"),
                  count("raises", 0, 20, 2,
                        "raises of equal height; 0: the starter dam is as high as the dam"),
                  ratio("downstream_slope", 1, 10, 2,

@@ -53,7 +53,7 @@ Outline downstream_dam(const Values& values) {
 
     Outline outline;
     outline.parts.push_back({"starter_dam",
-                             "embankment",
+                             starter_fill(values),
                              {{heel, 0.0},
                               {stages[0].toe, 0.0},
                               {stages[0].downstream_edge, starter},

@@ -35,6 +35,11 @@ struct Outline {
 /// either side. [m]
 Line drained_line(const Vec2& from, double exit, double left, double right, const Line& ground);
 
+/// The material of the starter dam.
+inline std::string starter_fill(const Values& values) {
+    return values.is_on("rockfill_starter") ? "rockfill" : "embankment";
+}
+
 /// The option, and what it says, of the soil's surface where the model ends: too low is refused.
 Outline upstream_dam(const Values& values);
 Outline downstream_dam(const Values& values);

@@ -41,6 +41,12 @@ void check_sizes(const Values& values) {
     const double depth = values["foundation_depth"];
     refusal.unless(depth == 0.0 || depth >= values["cell_size"], "foundation_depth",
                    "that is less than a cell", "give 0, or at least cell_size");
+    const double clay = values["clay_thickness"];
+    const double cell = values["cell_size"];
+    refusal.unless(clay == 0.0 || (clay >= cell && clay <= depth - cell), "clay_thickness",
+                   "the weak layer and the foundation of " + metres(depth) +
+                       " below it have at least one cell of " + metres(cell) + " each",
+                   "give 0, at least cell_size, or a deeper foundation_depth");
     refusal.unless(values["layer_thickness"] <= H, "layer_thickness",
                    "the soil is only " + metres(H) + " high", "give at most height");
     refusal.unless(values["layer_thickness"] >= H / 20, "layer_thickness",

@@ -103,8 +103,8 @@ Outline upstream_dam(const Values& values) {
             ring.push_back({dykes[k + 1].toe, each.top});
         ring.push_back({each.upstream_edge, each.top});
         if (k + 1 == dykes.size()) ring.push_back(contact);
-        outline.parts.push_back(
-            {k == 0 ? "starter_dam" : "raise_" + std::to_string(k), "embankment", ring});
+        outline.parts.push_back({k == 0 ? "starter_dam" : "raise_" + std::to_string(k),
+                                 k == 0 ? starter_fill(values) : "embankment", ring});
         tailings.push_back({each.heel, each.base});
         tailings.push_back(k + 1 == dykes.size() ? contact : Vec2{each.upstream_edge, each.top});
     }

@@ -52,6 +52,16 @@ export const twelve_curves = { ...twelve_variants, name: "twelve-curves", title:
 const digest = (text) => createHash("sha256").update(text).digest("hex");
 const clamp = (value) => Math.min(1, Math.max(0, value));
 
+/// A circle through the column, and how far the soil came to the gauges.
+const stability = { factor_of_safety: 0.912, surface: "circle", circle: { center: [20, 22], radius: 18.9 }, entry: [1.3, 20], exit: [10, 6], flags: [] };
+const gauges_of = (runout) => Object.fromEntries(scene.mpm.gauges.map(({ name, x }) => [name, {
+    x, arrival_time: x < 10 + runout ? (x - 10) / 2 : null, largest_depth: x < 10 + runout ? 1.5 : 0, largest_velocity: x < 10 + runout ? 4 : 0 }]));
+/// A wedge that is as long as the runout.
+const profile_of = (runout) => ["x_m,ground_m,depth_m,surface_m,velocity_m_per_s", ...Array.from({ length: 40 }, (_, x) => {
+    const depth = Math.max(0, 12 * (1 - x / (10 + runout)));
+    return `${x},0,${depth},${depth},0`;
+})].join("\n");
+
 /// One run: FEM for a while, each transfer soon after its time, then two MPM runs side by side.
 class FakeRun {
     /// pace: seconds that the whole run takes; points: particles per snapshot; flagged: as some_flagged; entangles: [s];
@@ -110,14 +120,14 @@ class FakeRun {
             id: task.id, run: this.id, phase: task.phase, label: `${task.phase}_${task.transfer_time ?? ""}${task.variant}`,
             transfer_time: task.transfer_time ?? null, variant: task.variant, same_as: null, not_reached: Boolean(task.not_reached),
             state, progress: this.progress_of(task), message: state === "running" ? "step 120, dt 1.2 ms" : "",
-            result: state === "succeeded" && task.phase === "mpm_solver" ? this.runout(task) : null,
+            result: state !== "succeeded" ? null : task.phase === "mpm_solver" ? { ...this.runout(task), gauges: gauges_of(this.runout(task).runout) } : task.phase === "lem_tool" ? stability : null,
             fault: state === "failed" ? { exit_code: 70, summary: "mass differs by 3e-9, 1e-12 is allowed" } : null,
             attempts: started ? [{ number: 1, state: ended ? "exited" : "running", started: at(task.from),
                                    finished: ended ? at(task.to) : null, exit_code: ended ? (task.fails ? 70 : 0) : null, signal: null,
                                    wall_seconds: ended ? task.to - task.from : null, cpu_seconds: ended ? 1.5 : null }] : [],
             ...this.verdict_of(task, state === "succeeded"),
-            artifacts: state !== "succeeded" ? [] : ["result.json", "scene.completed.json", "telemetry.jsonl"].map((name) =>
-                ({ name, sha256: digest(task.id + name), bytes: 2345 })),
+            artifacts: state !== "succeeded" ? [] : ["result.json", "scene.completed.json", "telemetry.jsonl", ...(task.phase === "mpm_solver" ? ["profile.csv"] : [])]
+                .map((name) => ({ name, sha256: digest(task.id + name), bytes: 2345 })),
         };
     }
 
@@ -154,7 +164,7 @@ class FakeRun {
         const strength = Number(variant.match(/^strength_x_(.*)/)?.[1] ?? 1);
         const draw = Number(variant.match(/^d(\d)$/)?.[1] ?? 1);
         const reach = (draw - 1) * 0.5 + (variant === "not-softened" ? 0.4 : 1) * (11 / strength) + 6 * Math.exp(-((transfer_time - 1) ** 2)) - 1.5 * transfer_time;
-        return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5,
+        return { runout: reach, runout_beyond_toe: reach + 1.2, runout_largest: reach + 2.5, depth_beyond_toe: Math.max(0, 12 * (1 - 11 / (10 + reach))),
                  volume_ratio: 1.01, numerical_share: 0.031 + 0.01 * transfer_time, overlap: 0.004, cpu_seconds: 7.25 + transfer_time };
     }
 
@@ -196,24 +206,46 @@ class FakeRun {
         for (const { code } of verdicts.flatMap(({ flags }) => flags ?? [])) flag_counts[code] = (flag_counts[code] ?? 0) + 1;
         const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : questionable ? "questionable" : "succeeded";
         const moving = flag_counts.still_moving ?? 0;
-        return { id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
+        return { governing: this.governing(over), stability: this.stability(), id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
                  tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused), pinned: Boolean(this.pinned),
-                 verdict: this.run_verdict(questionable, flag_counts), message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
+                 verdict: this.run_verdict(questionable, flag_counts, verdicts.flatMap(({ flags }) => flags ?? [])), message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
                  seconds_left: over || this.paused ? null : this.pace - this.age() };
     }
 
     /// As services/findings judges it, with what the fake knows.
-    run_verdict(questionable, flag_counts) {
+    run_verdict(questionable, flag_counts, flags) {
+        const usable_of = ({ code, severity }) => (code === "implausible" ? "no" : severity === "questionable" ? "questionable" : "with_remarks");
+        const name_of = (code) => code[0].toUpperCase() + code.slice(1).replaceAll("_", " ");
+        const order = ["no", "questionable", "with_remarks"];
         const reasons = [...(this.study.without ?? []).map(({ variant, reason }) => ({ usable: "with_remarks", code: "no_transfer", brief: "",
                              text: `No transfer${variant ? ` from ${variant}` : ""}, so there is no runout: ${reason}. The dam may stand; then nothing runs out.`, pointer: "" })),
                          ...(this.study.same ?? []).map((names) => ({ usable: "with_remarks", code: "same_results", brief: "",
                              text: `The variants ${names.join(", ")} have identical results: the entries that differ had no effect.`, pointer: "" })),
-                         ...Object.keys(flag_counts).map((code) => ({ usable: "with_remarks", code, brief: "", text: code, pointer: "" }))];
+                         ...Object.keys(flag_counts).map((code) => flags.find((each) => each.code === code)).map((each) => ({
+                             usable: usable_of(each), code: each.code, brief: `${flag_counts[each.code]} of ${this.rows().length} runouts ${each.code === "still_moving" ? "still moving: lower bounds" : `flagged ${each.code}`}`,
+                             text: `${name_of(each.code)}, ${flag_counts[each.code]} of ${this.rows().length} runouts: ${each.message}.`, pointer: each.pointer, count: flag_counts[each.code] }))].map((reason) => ({ count: 1, ...reason }))
+            .sort((a, b) => order.indexOf(a.usable) - order.indexOf(b.usable));
         const usable = flag_counts.implausible ? "no" : questionable ? "questionable" : reasons.length ? "with_remarks" : "yes";
         return { usable, words: { no: "not usable", with_remarks: "usable, with remarks", yes: "usable" }[usable] ?? usable, reasons };
+    }
+
+    stability() {
+        const lem = this.tasks.find(({ phase }) => phase === "lem_tool");
+        return this.progress_of(lem) < 1 ? null : { task: lem.id, variant: "", factor_of_safety: stability.factor_of_safety, factor_of_safety_liquefied: null };
+    }
+
+    /// What the service would choose: the largest runout.
+    governing(over) {
+        if (this.chosen) return this.chosen;
+        const farthest = this.rows().filter((row) => Number.isFinite(row.runout)).sort((a, b) => b.runout - a.runout)[0];
+        if (!farthest) return null;
+        const { variant, transfer_time, mpm_task: task, runout, lower_bound, depth_beyond_toe } = farthest;
+        const chosen = { task, variant, transfer_time, runout, lower_bound, depth_beyond_toe };
+        if (over) this.chosen = chosen;
+        return chosen;
     }
 
     rows() {
@@ -232,6 +264,7 @@ class FakeRun {
                      runout_error: this.study.draws && own === "succeeded" ? 0.1 * this.study.draws : null,
                      runout_error_from: this.study.draws ? `scatter of ${this.study.draws} draws` : "",
                      at_rest: ended && !moving, lower_bound: ended && moving, kinetic_share: ended && (moving ? 0.12 : 0.001),
+                     factor_of_safety: own === "succeeded" ? stability.factor_of_safety : null,
                      trigger: trigger_of(transfer_time)?.name ?? "at_time", reason: failed ? "mass differs by 3e-9, 1e-12 is allowed"
                          : mpm.not_reached ? `its FEM ended regularly at ${this.entangles} s, before this time` : "",
                      ...Object.fromEntries(Object.keys(this.runout(mpm)).map((key) => [key, numbers[key] ?? null])) };
@@ -408,7 +441,9 @@ export class FakeApi {
             const lines = run.telemetry(url.searchParams.get("phase")).slice(from, from + 150);
             return json(response, { lines, next: from + lines.length });
         }
-        return json(response, { ...run.summary(), study: run.study, tasks: run.tasks.map((task) => run.describe_task(task)) });
+        const computing = Math.max(0, Math.min(run.age(), run.pace));
+        const answer = { ...run.summary(), study: run.study, computing_seconds: computing, idle_seconds: run.age() < run.pace ? 0 : 12 };
+        return json(response, url.searchParams.get("tasks") === "0" ? answer : { ...answer, tasks: run.tasks.map((task) => run.describe_task(task)) });
     }
 
     list_runs(url, response) {
@@ -443,6 +478,7 @@ export class FakeApi {
     serve_artifact(sha256, response) {
         for (const run of this.runs) {
             for (const task of run.tasks) {
+                if (digest(`${task.id}profile.csv`) === sha256) return response.writeHead(200).end(profile_of(run.runout(task).runout));
                 if (digest(`${task.id}result.json`) === sha256) return json(response, run.result_file(task));
                 if (digest(`${task.id}telemetry.jsonl`) !== sha256) continue;
                 return response.writeHead(200).end(run.telemetry(task.phase).map((line) => `${JSON.stringify(line)}\n`).join(""));

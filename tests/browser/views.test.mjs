@@ -283,23 +283,23 @@ async function looked_at(kind, bytes) {
     return facts;
 }
 
-test("a variant that nothing was transferred of stands above the figure, with the reason", async () => {
+test("a variant without a transfer is among the reasons of the verdict", async () => {
     const without = [{ variant: "strength_x_1.25", fem_task: "r-0", state: "not_reached", stood: true, reason: "window: the FEM ended at 25 s" }];
     const run = api.add_run({ ...twelve_variants, name: "without", without }, { began: Date.now() - 60000, breaks: [] });
     await open_run(run.id);
-    await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);
-    assert.equal(await text_of("#runout-without"), "No transfer from strength_x_1.25, so there is no runout: window: the FEM ended at 25 s. The dam may stand; then nothing runs out.");
+    await until("the list", async () => (await page.locator("#reasons li").count()) === 1);
+    assert.equal(await text_of("#reasons"), "no transfer No transfer from strength_x_1.25, so there is no runout: window: the FEM ended at 25 s. The dam may stand; then nothing runs out.");
     const other = api.add_run({ ...twelve_variants, name: "with" }, { began: Date.now() - 60000, breaks: [] });
     await open_run(other.id);
-    await until("no list", async () => page.locator("#runout-without").isHidden());
+    await until("no list", async () => (await page.locator("#reasons li").count()) === 0 && (await text_of("#verdict")) === "Verdict: usable");
     assert.ok(await page.isVisible("#runout-plot"));
     const same = api.add_run({ ...twelve_variants, name: "same", same: [["a", "b"]] }, { began: Date.now() - 60000, breaks: [] });
     await open_run(same.id);
-    await until("the list", async () => (await text_of("#runout-without")) === "The variants a, b have identical results: the entries that differ had no effect.");
+    await until("the list", async () => (await text_of("#reasons")) === "same results The variants a, b have identical results: the entries that differ had no effect.");
     const none = api.add_run({ ...twelve_variants, name: "none", variants: [], transfer_times: [], without: [{ ...without[0], variant: "" }] }, { began: Date.now() - 60000, breaks: [] });
     await open_run(none.id);
-    await until("the list", async () => (await page.locator("#runout-without li").count()) === 1);
-    assert.match(await text_of("#runout-without"), /^No transfer, so there is no runout: /);
+    await until("the list", async () => (await page.locator("#reasons li").count()) === 1);
+    assert.match(await text_of("#reasons"), /^no transfer No transfer, so there is no runout: /);
     assert.ok(await page.isHidden("#runout-plot") && await page.isHidden("#runout-table"), "empty axes say nothing");
 });
 

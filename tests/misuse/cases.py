@@ -71,8 +71,20 @@ def moved(polygon, dx=0.0, dy=0.0):
     return [[x + dx, y + dy] for x, y in polygon]
 
 
+def drawn(change):
+    """The regions of the slope, every vertex changed."""
+    polygons = [[[0, -5], [30, -5], [60, -5], [60, 0], [30, 0], [0, 0], [0, -5]], slope_polygon]
+    return {f"/section/regions/{i}/polygon": [list(change(x, y)) for x, y in polygon] for i, polygon in enumerate(polygons)}
+
+
 cases = [
     # ------------------------------------------------ units that slipped
+    Case("density in lb/ft3", "slope", "refused", r"density[\s\S]*lb/ft3: write 1922 kg/m3", {"/materials/slope_soil/density": 120}),
+    Case("unit weight in N/m3 as density", "slope", "refused", r"density[\s\S]*N/m3: write 1886 kg/m3", {"/materials/slope_soil/density": 18500}),
+    Case("gravity in ft/s2", "slope", "warned", r"gravity.*ft/s2: write 9\.815", {"/gravity": 32.2}),
+    Case("Poisson's ratio in per cent", "slope", "refused", r"nu[\s\S]*%: write 0\.3", {"/materials/slope_soil/law/nu": 30}),
+    Case("peak acceleration in % of g", M, "refused", r"scale_to_pga_g[\s\S]*%: write 0\.25 g", {"/fem/motion/scale_to_pga_g": 25}),
+    Case("section in ft", "slope", "refused", r"polygon[\s\S]*ft: multiply its coordinates by 0\.3048", drawn(lambda x, y: (x / 0.3048, y / 0.3048))),
     Case("damping of 12 %", "mochikoshi", "refused", r"damping/ratio", {"/fem/damping": {"ratio": 0.12, "frequency_Hz": 3}}),
     Case("negative damping", "mochikoshi", "refused", r"damping/ratio", {"/fem/damping": {"ratio": -0.005, "frequency_Hz": 3}}),
     Case("damping beside the motion's frequencies", "mochikoshi", "refused", r"damping/frequency_Hz[\s\S]*motion", {"/fem/damping": {"ratio": 0.005, "frequency_Hz": 45}}),
@@ -114,6 +126,9 @@ cases = [
         "/section/regions/1/polygon": [[x * 1000, y * 1000] for x, y in slope_polygon],
         "/section/regions/0/polygon": [[x * 1000, y * 1000] for x, y in [[0, -5], [30, -5], [60, -5], [60, 0], [30, 0], [0, 0], [0, -5]]]}),
     # ------------------------------------------------ geometry
+    Case("a mirrored section", "slope", "refused", r"toe[\s\S]*has to be drawn mirrored", drawn(lambda x, y: (60 - x, y))),
+    Case("x and y swapped", "slope", "refused", r"polygon[\s\S]*x and y look swapped", drawn(lambda x, y: (y, x))),
+    Case("depths positive downwards", "slope", "refused", r"polygon[\s\S]*every y with the other sign", drawn(lambda x, y: (x, -y))),
     Case("a gap of 0.3 m between regions", M, "refused", r"gap", {"/section/regions/3/polygon": moved(upper_dam, dx=0.3)}),
     Case("a gap of 1 cm between regions", M, "refused", r"(gap|overlap)", {"/section/regions/3/polygon": moved(upper_dam, dx=0.01)}),
     Case("regions that overlap", "slope", "refused", r"overlap",
@@ -129,12 +144,12 @@ cases = [
     Case("a crest 500 m away", M, "refused|warned", r"crest", {"/fem/crest": [615, 30]}),
     Case("supports that touch nothing", M, "refused", r"(support|/fem/supports)", {"/fem/supports/0/from": [-40, -8], "/fem/supports/0/to": [280, -8]}),
     Case("terrain through the dam", M, "refused", r"terrain", {"/mpm/terrain": [[-40.5, 10], [659.5, 10]]}, drops=["/mpm/floor/friction"]),
-    Case("terrain 2 m below the dam", M, "warned", r"section lies up to 2 m above the terrain \(from x = -40 to 280 m",
-         {"/mpm/terrain": [[-45, -7], [280.5, -7], [281, 0], [660, 0]]}),
+    Case("terrain 2 m below the dam", M, "warned", r"section lies up to 2 m above the terrain \(from x = -207\.5 to 280 m",
+         {"/mpm/terrain": [[-212, -7], [280.5, -7], [281, 0], [692, 0]]}),
     Case("a floor 1 m below the section", "slope", "warned", r"section lies up to 1 m above the floor.*\"level\": -5",
          {"/mpm/domain_y": [-6, 15], "/mpm/floor/level": -6}),
-    Case("friction that ends where the dam does", M, "warned", r"no zone covers x = 220 to 659.5 m",
-         {"/mpm/floor/friction": [{"from": -40.5, "to": 220, "coefficient": 0.7}]}),
+    Case("friction that ends where the dam does", M, "warned", r"no zone covers x = 220 to 692 m",
+         {"/mpm/floor/friction": [{"from": -208, "to": 220, "coefficient": 0.7}]}),
     Case("floor above the section's foot", M, "refused", r"floor", {"/mpm/floor/level": 5}),
     Case("the grid ends inside the dam", M, "refused", r"domain_x", {"/mpm/domain_x": [-40.5, 200]}),
     Case("the grid is lower than the crest", M, "refused", r"domain_y", {"/mpm/domain_y": [-5, 20]}),

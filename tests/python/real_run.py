@@ -156,6 +156,24 @@ class RealRun(unittest.TestCase):
         with self.assertRaisesRegex(breach.BreachlineError, "401"):
             breach.run("latest", token_file=self.here / "wrong")
 
+    def test_a_run_is_submitted_awaited_extended_and_cancelled(self):
+        study = breach.run("latest").study
+        study = {**study, "name": "from_python", "transfer_times": [0.1]}
+        run = breach.submit(study).wait(every=0.2)
+        self.assertEqual((run.name, list(run.results["transfer_time"])), ("from_python", [0.1]))
+        self.assertIn(run.state, ("succeeded", "questionable"))
+        self.assertEqual(run.about["governing"]["runout"], run.results["runout"][0])
+        self.assertIn("<h1>", run.report())
+        more = run.extend(transfer_times=[0.2]).wait(every=0.2)
+        self.assertEqual(list(more.results["transfer_time"]), [0.1, 0.2])
+        with self.assertRaisesRegex(breach.BreachlineError, r"422[\s\S]*cell_size"):
+            breach.submit({**study, "overrides": ["/mpm/cell_size=-1"]})
+        self.assertEqual(breach.submit({**study, "reuse": False, "overrides": []}).cancel().wait(every=0.2).state, "cancelled")
+        made = [each["id"] for each in breach.runs() if each["id"] not in self.service.runs]
+        self.service.breach("rm", "--yes", *made)  # the other tests' newest run is the finer one
+        dam = breach.template("upstream_dam", height=20, clay_thickness=1.5)
+        self.assertEqual(dam["scene"]["mpm"]["runout"]["toe"], [0, 0])
+
     def test_an_artifact_is_fetched_once_and_compared(self):
         run = breach.run("latest")
         task = run.task("mpm_solver", 0.1)

@@ -38,7 +38,7 @@ def result_of(chance):
     if phase == "mpm_solver":
         rests = chance.random() < 0.7
         result |= {"runout": round(chance.uniform(1, 200), 2), "runout_beyond_toe": round(chance.uniform(1, 200), 2), "at_rest": rests,
-                   "runout_largest": 210.0, "area_beyond_toe": 33.5, "volume_ratio": 1.0, "end_time": 9.0, "energy": {"numerical": {"share": 0.01}}}
+                   "runout_largest": 210.0, "area_beyond_toe": 33.5, "depth_beyond_toe": round(chance.uniform(0.1, 9), 2), "volume_ratio": 1.0, "end_time": 9.0, "energy": {"numerical": {"share": 0.01}}}
         if not rests:
             result["flags"].append({"code": "still_moving", "severity": "questionable", "message": "it still moves", "pointer": "/mpm/duration"})
     result["questionable"] = any(flag["severity"] == "questionable" for flag in result["flags"])
@@ -118,6 +118,8 @@ def compare(service, run, folder):
     hold("the run's verdict is not that of its results", head["verdict"]["reasons"] == own)
     listed = next(each for each in service.call("/v1/runs?limit=500")["runs"] if each["id"] == run)
     hold("the list's verdict is not that of the run", listed["verdict"] == head["verdict"])
+    hold("the list's governing result is not that of the run", [listed[each] for each in ("governing", "stability")] ==
+         [head[each] for each in ("governing", "stability")])
 
     rows = answer["rows"]
     in_csv = list(csv.DictReader(io.StringIO(service.text(f"/v1/runs/{run}/results?format=csv"))))
@@ -129,6 +131,12 @@ def compare(service, run, folder):
         if row["runout"] is not None:
             moving = row["at_rest"] is False or "still_moving" in codes
             hold(f"{row['mpm_task']}: lower_bound {row['lower_bound']}", row["lower_bound"] == moving)
+
+    ran = [row for row in rows if row["runout"] is not None]
+    farthest = max(ran, key=lambda row: row["runout"], default=None)
+    if ran:
+        hold(f"{head['governing']} governs, not {farthest}", {name: farthest[name] for name in ("variant", "transfer_time", "runout",
+             "lower_bound", "depth_beyond_toe")} | {"task": farthest["mpm_task"]} == head["governing"])
 
     shown = subprocess.run([programs / "breach", "--server", service.url, "results", run], capture_output=True, text=True).stdout
     against = verdict["usable"] in ("questionable", "no")
@@ -149,6 +157,10 @@ def compare(service, run, folder):
         hold(f"report: {done.stderr}", False)
         return faults
     page = (export / "report.html").read_text()
+    link = '<a href="report_files/[^>]*>[^<]*</a>'
+    hold("the report over REST is another", service.text(f"/v1/runs/{run}/report") == re.sub(f" {link}(, {link})*", "", page))
+    if ran:
+        hold("the report is about another runout", f"Here: the largest runout of all ({'t_T = ' if farthest['transfer_time'] else ''}" in page)
     heading = plain(re.search(r'<section id="verdict".*?</section>', page, re.S).group(0))
     hold(f"the report's verdict is not \"{verdict['words']}\": {heading[:90]}", f"checks: {verdict['words']}" in heading)
     for reason in verdict["reasons"]:

@@ -35,6 +35,22 @@ std::map<std::string, std::int64_t> flag_counts(const findings::Facts& facts) {
     return counts;
 }
 
+json as_json(const GoverningResult& governing) {
+    return {{"task", governing.task},
+            {"variant", governing.variant},
+            {"transfer_time", or_null(governing.transfer_time)},
+            {"runout", or_null(governing.runout)},
+            {"lower_bound", governing.lower_bound},
+            {"depth_beyond_toe", or_null(governing.depth_beyond_toe)}};
+}
+
+json as_json(const LeastFactor& least) {
+    return {{"task", least.task},
+            {"variant", least.variant},
+            {"factor_of_safety", least.factor_of_safety},
+            {"factor_of_safety_liquefied", or_null(least.liquefied)}};
+}
+
 json schema_of(ColumnKind kind) {
     switch (kind) {
         case ColumnKind::number:
@@ -83,6 +99,8 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"questionable", run.questionable},
             {"flag_counts", flag_counts(run.facts)},
             {"verdict", findings::as_json(findings::verdict_of(run.facts))},
+            {"governing", run.governing ? as_json(*run.governing) : json()},
+            {"stability", run.stability ? as_json(*run.stability) : json()},
             {"message", run.message}};
 }
 

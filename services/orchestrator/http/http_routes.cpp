@@ -18,6 +18,7 @@ void add_all_routes(Router& router, Service& service, const std::atomic<bool>& s
     add_motion_routes(router, service);
     add_trigger_routes(router, service);
     add_output_routes(router, service);
+    add_report_routes(router, service);
     add_outflow_routes(router, service);
     add_storage_routes(router, service);
     add_file_routes(router, service);

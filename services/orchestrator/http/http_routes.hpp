@@ -22,6 +22,8 @@ void add_motion_routes(Router& router, Service& service);
 void add_trigger_routes(Router& router, Service& service);
 /// What the phases wrote: logs, telemetry, frames, artifacts.
 void add_output_routes(Router& router, Service& service);
+/// A run as the report that a person reads.
+void add_report_routes(Router& router, Service& service);
 /// What leaves the model: hydrographs at sections, envelopes over an ensemble.
 void add_outflow_routes(Router& router, Service& service);
 /// What lies on the disk, and its removal.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/words/number.hpp"
@@ -127,8 +128,10 @@ void send_with_tasks(const Service& service, Call& call, const json& head) {
         });
 }
 
+/// tasks=0: without its tasks, whose number grows with the study.
 void show_run(const Service& service, Call& call) {
-    call.allow_parameters({});
+    call.allow_parameters({"tasks"});
+    const bool with_tasks = call.whole_number("tasks", 1, 0, 1) == 1;
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
     json body = as_json(run, service.store, service.board);
@@ -136,6 +139,9 @@ void show_run(const Service& service, Call& call) {
     body["study"]["scene"] = json::parse(still(service.store.scene_of(id)));
     body["files"] = files_json(service, id);
     body["scene_from"] = scene_source_json(service, id);
+    std::tie(body["computing_seconds"], body["idle_seconds"]) =
+        service.store.computing_and_idle(run);
+    if (!with_tasks) return reply(call.response, body);
     if (run.tasks_total > static_cast<std::int64_t>(tasks_at_once))
         return send_with_tasks(service, call, body);
     body["tasks"] = tasks_json(service, service.store.tasks_of(id));

@@ -129,6 +129,24 @@ struct Extension {
     std::vector<TriggerPlan> triggers = {};  ///< for FEMs that are added
 };
 
+/// The result that a run is about (services/findings/governing.hpp).
+struct GoverningResult {
+    std::string task;  ///< mpm_solver, or lem_tool where it is alone
+    std::string variant;
+    std::optional<double> transfer_time = {};     ///< [s]
+    std::optional<double> runout = {};            ///< [m]
+    std::optional<double> depth_beyond_toe = {};  ///< [m]
+    bool lower_bound = false;
+};
+
+/// The stability analysis with the least factor of safety.
+struct LeastFactor {
+    std::string task;
+    std::string variant;
+    double factor_of_safety = 0.0;
+    std::optional<double> liquefied = {};  ///< with every layer liquefied that may
+};
+
 struct Run {
     std::string id;
     std::string name;
@@ -153,6 +171,8 @@ struct Run {
     /// The token's name; nothing: the service asked for none.
     std::optional<std::string> submitted_by = {};
     findings::Facts facts = {};  ///< what its verdict follows from
+    std::optional<GoverningResult> governing = {};
+    std::optional<LeastFactor> stability = {};
 };
 
 /// The MPM of a rung of an accuracy study.

@@ -35,6 +35,8 @@ constexpr std::array columns{
                  "of the farthest point"},
     ResultColumn{"area_beyond_toe", "/area_beyond_toe", number, "m2", "",
                  "of the deposit beyond the toe: its volume per metre of width"},
+    ResultColumn{"depth_beyond_toe", "/depth_beyond_toe", number, "m", "",
+                 "largest depth of the deposit beyond the toe at the end"},
     ResultColumn{"volume_ratio", "/volume_ratio", number, "1", "volume ratio",
                  "indicator of error: volume at the end of that at the transfer"},
     ResultColumn{"numerical_share", "/energy/numerical/share", number, "1", "numerical share",

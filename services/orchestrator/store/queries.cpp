@@ -170,6 +170,20 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
     return std::move(found.front());
 }
 
+std::pair<double, double> Store::computing_and_idle(const Run& run) const {
+    const auto found = reader()->first(
+        R"(WITH spans AS (SELECT julianday(attempts.started) AS begin,
+        julianday(coalesce(attempts.finished, 'now')) AS end
+    FROM attempts JOIN tasks ON tasks.id=task WHERE run=?1 AND attempts.started IS NOT NULL),
+before AS (SELECT begin, end, max(end) OVER (ORDER BY begin, end
+        ROWS BETWEEN UNBOUNDED PRECEDING AND 1 PRECEDING) AS last FROM spans)
+SELECT 86400.0 * coalesce(sum(max(0.0, end - max(begin, coalesce(last, begin)))), 0.0) AS computing,
+    86400.0 * (julianday(coalesce(?3, 'now')) - julianday(?2)) AS since FROM before)",
+        {run.id, run.created, value_or_null(run.finished)},
+        [](const Row& row) { return std::pair(row.real("computing"), row.real("since")); });
+    return {found->first, std::max(0.0, found->second - found->first)};
+}
+
 std::optional<json> Store::study_of(const std::string& run) const {
     return reader()->first("SELECT study FROM runs WHERE id=?", {run},
                            [](const Row& row) { return row.document("study"); });

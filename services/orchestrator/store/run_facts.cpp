@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
+#include "services/findings/flags.hpp"
+#include "services/findings/governing.hpp"
 #include "services/orchestrator/store/store.hpp"
 #include "services/orchestrator/store/views.hpp"
 
@@ -119,6 +121,82 @@ void add_without_transfer(Connection& database, std::vector<Run>& runs) {
     }
 }
 
+std::optional<LeastFactor> least_factor(Connection& database, const std::string& run) {
+    return database.first(
+        "SELECT id, variant, json_extract(result, '$.factor_of_safety') AS factor, " +
+            factor_liquefied("result") + R"( AS liquefied
+FROM tasks WHERE run=? AND phase='lem_tool' AND result IS NOT NULL
+    AND json_extract(result, '$.factor_of_safety') IS NOT NULL
+ORDER BY json_extract(result, '$.factor_of_safety') LIMIT 1)",
+        {run}, [](const Row& row) {
+            return LeastFactor{row.text("id"), row.text("variant"), row.real("factor"),
+                               row.optional_real("liquefied")};
+        });
+}
+
+/// draw_of: what the variant repeats; nothing: it is no repeat.
+struct Runout {
+    GoverningResult result;
+    std::optional<std::string> draw_of;
+};
+
+/// By an index alone (store/views.cpp): a run may have thousands.
+std::vector<Runout> runouts_of(Connection& database, const std::string& run) {
+    return database.select(
+        R"(SELECT id, variant, transfer_time, json_extract(result, '$.runout') AS runout,
+    (SELECT draw_of FROM variants WHERE variants.run=tasks.run AND name=variant) AS draw_of
+FROM tasks WHERE run=? AND phase='mpm_solver' AND result IS NOT NULL
+    AND json_extract(result, '$.runout') IS NOT NULL)",
+        {run}, [](const Row& row) {
+            return Runout{{.task = row.text("id"),
+                           .variant = row.text("variant"),
+                           .transfer_time = row.optional_real("transfer_time"),
+                           .runout = row.real("runout")},
+                          row.optional_text("draw_of")};
+        });
+}
+
+std::vector<findings::Candidate> candidates_among(const std::vector<Runout>& runouts) {
+    const auto place = [](const Runout& each) {
+        return std::pair(*each.draw_of, each.result.transfer_time);
+    };
+    std::map<std::pair<std::string, std::optional<double>>, std::pair<double, int>> sums;
+    for (const Runout& each : runouts) {
+        if (!each.draw_of) continue;
+        auto& [sum, count] = sums[place(each)];
+        sum += *each.result.runout;
+        ++count;
+    }
+    std::vector<findings::Candidate> candidates;
+    for (const Runout& each : runouts) {
+        candidates.push_back({.runout = each.result.runout});
+        if (!each.draw_of) continue;
+        const auto& [sum, count] = sums.at(place(each));
+        candidates.back().mean_runout = sum / count;
+    }
+    return candidates;
+}
+
+void add_governing(Connection& database, Run& run) {
+    std::vector<Runout> runouts = runouts_of(database, run.id);
+    std::vector<findings::Candidate> candidates = candidates_among(runouts);
+    if (run.stability) candidates.push_back({.factor_of_safety = run.stability->factor_of_safety});
+    const auto place = findings::governing(candidates);
+    if (!place) return;
+    if (*place == runouts.size()) {
+        run.governing = {run.stability->task, run.stability->variant};
+        return;
+    }
+    run.governing = std::move(runouts[*place].result);
+    const json result = database
+                            .first("SELECT result FROM tasks WHERE id=?", {run.governing->task},
+                                   [](const Row& row) { return row.document("result"); })
+                            .value();
+    run.governing->lower_bound = findings::still_moves(result);
+    if (const json depth = result.value("depth_beyond_toe", json()); depth.is_number())
+        run.governing->depth_beyond_toe = depth;
+}
+
 }  // namespace
 
 void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
@@ -140,9 +218,13 @@ void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
     add_broken(database, ids, runs);
     add_not_reached(database, ids, runs);
     add_without_transfer(database, runs);
-    for (Run& each : runs)
+    for (Run& each : runs) {
+        if (each.tasks_ended == 0) continue;
+        each.stability = least_factor(database, each.id);
+        add_governing(database, each);
         if (const std::string line = line_of(findings::verdict_of(each.facts)); !line.empty())
             each.message += (each.message.empty() ? "" : "; ") + line;
+    }
 }
 
 }  // namespace breach::orchestrator

@@ -72,6 +72,8 @@ class Store {
     std::optional<Run> sweep(const std::string& id) const;
     /// What of it has not ended, by phase, and how long its like took.
     std::vector<PhaseLeft> left_of(const std::string& run) const;
+    /// How long at least one attempt of it ran, and how long none did, since it was created [s].
+    std::pair<double, double> computing_and_idle(const Run& run) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 

@@ -198,6 +198,12 @@ bool views_are_current(Connection& database) {
 }
 
 void make_views(Connection& database) {
+    // What lists of runs show of each (run_facts.cpp); made here, so that older databases get them, too.
+    database.script(
+        R"(CREATE INDEX IF NOT EXISTS tasks_by_runout ON tasks(run, json_extract(result, '$.runout'), variant,
+    transfer_time, id) WHERE phase = 'mpm_solver' AND result IS NOT NULL;
+CREATE INDEX IF NOT EXISTS tasks_by_factor ON tasks(run, json_extract(result, '$.factor_of_safety'))
+    WHERE phase = 'lem_tool' AND result IS NOT NULL;)");
     for (const Expression& each : views()) {
         if (is_there(database, each)) continue;
         database.script("DROP VIEW IF EXISTS " + each.name);

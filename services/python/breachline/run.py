@@ -4,6 +4,8 @@ from __future__ import annotations
 import json
 import os
 import re
+import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -102,6 +104,37 @@ class Run:
             raise BreachlineError(f"{task.label} has no frames; it has " + ", ".join(task.files))
         return Frames([time for time, _ in timed], lambda k: self.file(task, timed[k][1]), f"{task.label} ({task.state})")
 
+    def again(self) -> Run:
+        """The run as it is now."""
+        served = self._source.served()
+        return Run(Served(served.api, self.id, served.cache))
+
+    def wait(self, every: float = 1.0) -> Run:
+        """The run as it ended; looked at every so many seconds."""
+        api = self._source.served().api
+        while api.json_at(f"/v1/runs/{self.id}?tasks=0")["finished"] is None:
+            time.sleep(every)
+        return self.again()
+
+    def cancel(self) -> Run:
+        """Stops what runs and skips the rest."""
+        return self._order("cancel", {})
+
+    def extend(self, *, transfer_times: Sequence[float] | None = None, samples: int | None = None,
+               cpu_seconds: float | None = None) -> Run:
+        """One of: more transfer times [s], so many samples in all, a larger budget. What was computed stays."""
+        asked: Document = {"transfer_times": list(transfer_times) if transfer_times is not None else None, "samples": samples,
+                           "budget": {"cpu_seconds": cpu_seconds} if cpu_seconds is not None else None}
+        return self._order("extend", {key: value for key, value in asked.items() if value is not None}, "sweeps")
+
+    def _order(self, word: str, body: Document, kind: str = "runs") -> Run:
+        self._source.served().api.json_at(f"/v1/{kind}/{self.id}/{word}", body)
+        return self.again()
+
+    def report(self) -> str:
+        """The report of a run of a service, as HTML that needs nothing else."""
+        return self._source.served().api.bytes_at(f"/v1/runs/{self.id}/report").decode()
+
     def compare(self, other: Run) -> Comparison:
         """Row by row; differences are the other's value minus this run's."""
         return Comparison.of(self.results, other.results)
@@ -120,6 +153,17 @@ def run(name: str | os.PathLike[str] = "latest", server: str | None = None,
             raise BreachlineError(f"{api.server}: there is no run yet; submit one by: breach submit STUDY.json")
         name = str(newest[0]["id"])
     return Run(Served(api, name))
+
+
+def template(name: str, server: str | None = None, token_file: str | os.PathLike[str] | None = None, **options: Any) -> Document:
+    """A study of a dam from a few numbers, with its scene: template("upstream_dam", height=20). `breach new NAME --help` lists the options."""
+    return dict(Api(server, token_file).json_at(f"/v1/templates/{name}", options)["study"])
+
+
+def submit(study: Document, server: str | None = None, token_file: str | os.PathLike[str] | None = None) -> Run:
+    """study: a document with its scene inside, as `template` or `Run.study` gives it."""
+    api = Api(server, token_file)
+    return Run(Served(api, str(api.json_at("/v1/runs", study)["id"])))
 
 
 def runs(server: str | None = None, token_file: str | os.PathLike[str] | None = None, most: int = 50) -> list[Document]:

@@ -33,6 +33,9 @@ class Source(Protocol):
     def file(self, task: Document, name: str) -> Path:
         """A file on this machine with the bytes of the task's artifact."""
 
+    def served(self) -> Served:
+        """The same run where it takes orders."""
+
 
 class Exported:
     """The folder of an exported run."""
@@ -70,6 +73,9 @@ class Exported:
             raise BreachlineError(f"{path}: missing; repeat the export, which completes it")
         return path
 
+    def served(self) -> Served:
+        raise BreachlineError(f"{self.folder}: an exported run takes no orders; ask the service: breachline.run(ID)")
+
 
 class Api:
     """A service's API. server, token_file: as the command line takes them, from BREACH_SERVER and BREACH_TOKEN_FILE
@@ -84,8 +90,10 @@ class Api:
         self.token = _token_in(Path(file)) if file else None
         self._trust = _trust_in(os.environ.get("BREACH_TLS_CA")) if self.server.startswith("https:") else None
 
-    def bytes_at(self, path: str) -> bytes:
-        request = urllib.request.Request(self.server + path)
+    def bytes_at(self, path: str, body: Document | None = None) -> bytes:
+        """body: what is posted; None: nothing, it is read."""
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(self.server + path, data, {"Content-Type": "application/json"} if data else {})
         if self.token:
             request.add_header("Authorization", f"Bearer {self.token}")
         try:
@@ -100,9 +108,9 @@ class Api:
                                       "authority is yours, BREACH_TLS_CA names the file with it") from cause
             raise Unreachable(f"{self.server}: does not answer ({cause}); is the service running, is BREACH_SERVER right?") from cause
 
-    def json_at(self, path: str) -> Any:
+    def json_at(self, path: str, body: Document | None = None) -> Any:
         try:
-            return json.loads(self.bytes_at(path))
+            return json.loads(self.bytes_at(path, body))
         except ValueError as cause:
             raise BreachlineError(f"{self.server}{path}: no JSON; is this a Breachline service?") from cause
 
@@ -131,6 +139,9 @@ class Served:
 
     def tasks(self) -> list[Document]:
         return list(self.detail["tasks"])
+
+    def served(self) -> Served:
+        return self
 
     def file(self, task: Document, name: str) -> Path:
         artifact = next(each for each in task["artifacts"] if each["name"] == name)
@@ -169,6 +180,7 @@ def _token_in(file: Path) -> str:
 def _problem(refusal: urllib.error.HTTPError) -> str:
     try:
         problem = json.loads(refusal.read())
-        return f"{refusal.code} {problem.get('title', '')}: {problem.get('detail', '')}"
+        faults = "".join(f"\n  {each['pointer'] or '/'}: {each['cause']}; {each['remedy']}" for each in problem.get("faults", []))
+        return f"{refusal.code} {problem.get('title', '')}: {problem.get('detail', '')}{faults}"
     except ValueError:
         return f"{refusal.code} {refusal.reason}"

@@ -53,6 +53,8 @@ void mark_window(const WindowEdges& window, std::vector<Mark>& marks);
 Series section_at_rest(const nlohmann::json& scene);
 
 Front front_of(const Run& run);
+/// The section before and after the governing runout, with the critical slip surface and the phreatic line.
+Figure overview_of(const Run& run);
 /// First the page that a regulator reads, then what it rests on; of a study over distributions.
 void add_assessment(const Material& from, Document& document);
 /// The row of the first page that its samples give; nothing of any other run.

@@ -16,6 +16,7 @@ using namespace nlohmann::literals;
 namespace {
 
 constexpr std::size_t most_gauges = 4;  // that the page has room for
+constexpr int digits = 3;               // of results
 
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ") {
     std::string text;
@@ -144,7 +145,7 @@ std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::s
     }
     if (count == 0) return "-" + counted(0, phases.size());
     const auto text = [&](const PhaseFolder* one, bool bound) {
-        return (grows && bound ? at_least : "") + rounded(one->result.at(at).get<double>(), 4);
+        return (grows && bound ? at_least : "") + rounded(one->result.at(at).get<double>(), digits);
     };
     const bool moves = any_moves(phases);
     const std::string all = counted(count, phases.size());
@@ -155,7 +156,7 @@ std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::s
 std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
     const json::json_pointer at(pointer);
     if (!phase.result.contains(at) || !phase.result.at(at).is_number()) return "-";
-    return rounded(phase.result.at(at).get<double>(), 4);
+    return rounded(phase.result.at(at).get<double>(), digits);
 }
 
 /// How far the number is to be believed: what is known of its error, and its result's doubts.
@@ -163,7 +164,7 @@ std::string worth_of(const PhaseFolder& mpm) {
     std::string text =
         mpm.runout_error
             ? "\u00b1 " + rounded(*mpm.runout_error, 2) + " m: " + mpm.runout_error_from
-            : "its error is not known: no accuracy study, no draws, no neighbours";
+            : "numerical error not quantified (run an accuracy study, or set \"draws\")";
     if (const std::string end = how_it_ended(mpm); end != "well") text += "; " + end;
     return text;
 }
@@ -191,9 +192,9 @@ void add_mean(const Run& run, Table& table) {
     table.rows.push_back(
         {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " draws" +
              (variant.empty() ? "" : ", " + variant) + " [m]",
-         (moves ? at_least : "") + rounded(largest->at("runout").get<double>(), 4), "-",
+         (moves ? at_least : "") + rounded(largest->at("runout").get<double>(), digits), "-",
          (error.is_number() ? "\u00b1 " + rounded(error.get<double>(), 2) + " m (nine of ten)"
-                            : std::string("its error is not known")) +
+                            : std::string("numerical error not quantified")) +
              (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
 }
 
@@ -226,7 +227,7 @@ void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolde
 void add_runouts(const Run& run, Table& table) {
     const auto asked = phases_named(run, phases::mpm.program);
     if (!run.without_transfer.empty())
-        table.rows.push_back({"Variants that nothing was transferred of", "-",
+        table.rows.push_back({"Variants without a transfer", "-",
                               std::to_string(run.without_transfer.size()),
                               run.without_transfer.front().value("reason", "")});
     if (asked.empty()) return;
@@ -239,7 +240,7 @@ void add_runouts(const Run& run, Table& table) {
     const PhaseFolder& shown = *farthest;
     add_mean(run, table);
     table.rows.push_back({"Runout: 99 % of the mobile soil, from the toe [m]",
-                          bounded(shown, rounded(runout_of(&shown), 4)),
+                          bounded(shown, rounded(runout_of(&shown), digits)),
                           range_of(asked, "/runout", true), worth_of(shown)});
     table.rows.push_back({"Of what passed the toe, 99 % [m]",
                           bounded(shown, brief_fact(shown, "/runout_beyond_toe")),
@@ -277,10 +278,10 @@ std::optional<std::vector<std::string>> liquefied_row(const std::vector<const Ph
     if (factors.empty()) return {};
     const auto& [least, of] = *factors.begin();
     const std::string largest =
-        factors.size() > 1 ? " to " + rounded(factors.rbegin()->first, 4) : "";
+        factors.size() > 1 ? " to " + rounded(factors.rbegin()->first, digits) : "";
     return std::vector<std::string>{
-        "Factor of safety with every layer liquefied that may", rounded(least, 4),
-        rounded(least, 4) + largest + counted(factors.size(), all.size()),
+        "Factor of safety with every layer liquefied that may", rounded(least, digits),
+        rounded(least, digits) + largest + counted(factors.size(), all.size()),
         "residual strengths of /lem/liquefaction" +
             (of->variant.empty() ? "" : "; the least, " + of->variant)};
 }
@@ -288,37 +289,32 @@ std::optional<std::vector<std::string>> liquefied_row(const std::vector<const Ph
 void add_factors(const Run& run, Table& table) {
     const auto all = phases_named(run, phases::lem.program);
     if (all.empty()) return;
-    const auto has_factor = [](const PhaseFolder* each) {
-        return each->result.is_object() && each->result.contains("factor_of_safety");
-    };
-    const auto least = std::ranges::min_element(all, {}, [&](const PhaseFolder* each) {
-        return has_factor(each) ? each->result.at("factor_of_safety").get<double>() : 1e300;
-    });
-    if (!has_factor(*least)) {
+    const PhaseFolder* least = least_factor(run);
+    if (!least) {
         table.rows.push_back({"Factor of safety", "no result", "0 of " + std::to_string(all.size()),
-                              (*least)->fault});
+                              all.front()->fault});
         return;
     }
     std::string worth = "least of all surfaces";
     for (const auto& [name, fact] : {std::pair{"Bishop", "/bishop/factor_of_safety"},
                                      std::pair{"Spencer", "/bishop/spencer/factor_of_safety"}})
-        if (const std::string factor = brief_fact(**least, fact); factor != "-")
+        if (const std::string factor = brief_fact(*least, fact); factor != "-")
             worth += std::string("; ") + name + " " + factor;
-    if (!(*least)->variant.empty()) worth += "; the least, " + (*least)->variant;
-    if (const std::string end = how_it_ended(**least); end != "well") worth += "; " + end;
+    if (!least->variant.empty()) worth += "; the least, " + least->variant;
+    if (const std::string end = how_it_ended(*least); end != "well") worth += "; " + end;
     auto liquefied = liquefied_row(all);
     table.rows.push_back(
         {liquefied ? "Factor of safety before any layer liquefies" : "Factor of safety",
-         brief_fact(**least, "/factor_of_safety"), range_of(all, "/factor_of_safety", false),
+         brief_fact(*least, "/factor_of_safety"), range_of(all, "/factor_of_safety", false),
          worth});
     if (liquefied) table.rows.push_back(std::move(*liquefied));
-    if (!(*least)->result.contains("critical_depth")) return;
+    if (!least->result.contains("critical_depth")) return;
     table.rows.push_back(
         {"Liquefied depth at which the factor of safety falls to 1 [m]",
-         brief_fact(**least, "/depth_at_fs_1"), range_of(all, "/depth_at_fs_1", false),
-         brief_fact(**least, "/depth_at_fs_1") == "-" ? "stands with every layer liquefied" : ""});
+         brief_fact(*least, "/depth_at_fs_1"), range_of(all, "/depth_at_fs_1", false),
+         brief_fact(*least, "/depth_at_fs_1") == "-" ? "stands with every layer liquefied" : ""});
     table.rows.push_back({"Depth of the critical surface (critical_depth of triggers) [m]",
-                          brief_fact(**least, "/critical_depth"),
+                          brief_fact(*least, "/critical_depth"),
                           range_of(all, "/critical_depth", false),
                           "lowest point of the stage with the least factor of safety"});
 }
@@ -380,8 +376,8 @@ std::vector<std::string> limits_of(const Run& run) {
             "says "
             "them, as if they were known. A study with \"uncertainty\" gives percentiles.");
     limits.emplace_back(
-        "Plane strain: the section goes on sideways for ever, and volumes are per metre of width. "
-        "A breach of finite width spreads and drains otherwise.");
+        "Plane strain: all results are per metre of width. A breach of finite width spreads and "
+        "drains otherwise.");
     if (!phase_named(run, phases::fem.program) && !phase_named(run, phases::mpm.program))
         limits.emplace_back(
             "Limit equilibrium: no deformation, and no surface but those that were searched.");
@@ -420,6 +416,25 @@ std::string identity_of(const Run& run) {
     return text + ".";
 }
 
+/// " (t_T = 13 s, soft)"; empty where there is only one.
+std::string named(const PhaseFolder& phase) {
+    const bool one = phase.variant.empty() && !phase.transfer_time;
+    return one ? "" : " (" + of_transfer(phase) + ")";
+}
+
+/// "Runout ≥ 37.3 m (t_T = 13 s, soft). Factor of safety 0.912."
+std::string headline_of(const Run& run) {
+    std::string text;
+    if (const PhaseFolder* farthest = farthest_runout(run))
+        text += "Runout " + bounded(*farthest, rounded(runout_of(farthest), digits)) + " m" +
+                (farthest->runout_error ? " \u00b1 " + rounded(*farthest->runout_error, 2) + " m"
+                                        : "") +
+                named(*farthest) + ". ";
+    if (const PhaseFolder* least = least_factor(run))
+        text += "Factor of safety " + brief_fact(*least, "/factor_of_safety") + named(*least) + ".";
+    return text;
+}
+
 }  // namespace
 
 Front front_of(const Run& run) {
@@ -430,7 +445,20 @@ Front front_of(const Run& run) {
     add_runouts(run, found);
     add_factors(run, found);
     add_fems(run, found);
-    return {identity_of(run), asked_of(run, scene), std::move(found), limits_of(run)};
+    const json about =
+        run.study.is_object() ? run.study.value("report", json::object()) : json::object();
+    Front front{.of = identity_of(run),
+                .headline = headline_of(run),
+                .asked = asked_of(run, scene),
+                .found = std::move(found),
+                .limits = limits_of(run),
+                .author = about.value("author", ""),
+                .reviewer = about.value("reviewer", "")};
+    if (Figure overview = overview_of(run); !overview.chart.series.empty())
+        front.pictures.push_back(std::move(overview));
+    for (const char* each : {"site", "client", "author", "reviewer", "revision"})
+        if (about.contains(each)) front.people.emplace_back(each, about.at(each));
+    return front;
 }
 
 }  // namespace breach::report

@@ -43,10 +43,14 @@ struct Verdict {
 
 /// The first page, which a reader can sign: what was asked, what comes out, and within which limits.
 struct Front {
-    std::string of = {};                   ///< which run of which scene by which version
-    std::vector<std::string> asked = {};   ///< in sentences
-    Table found = {};                      ///< without rows: nothing came out
-    std::vector<std::string> limits = {};  ///< of the model, in sentences
+    std::string of = {};  ///< which run of which scene by which version
+    std::vector<std::pair<std::string, std::string>> people = {};  ///< "client" and who that is
+    std::string headline = {};               ///< what comes out, in one sentence
+    std::vector<Figure> pictures = {};       ///< the section before and after
+    std::vector<std::string> asked = {};     ///< in sentences
+    Table found = {};                        ///< without rows: nothing came out
+    std::vector<std::string> limits = {};    ///< of the model, in sentences
+    std::string author = {}, reviewer = {};  ///< who sign
 };
 
 struct Document {

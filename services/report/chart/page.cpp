@@ -22,6 +22,10 @@ constexpr const char* style =
     "text-align:left;vertical-align:top}td{max-width:24em;overflow-wrap:break-word}td.n{text-align:"
     "right;font-variant-numeric:tabular-nums;"
     "white-space:nowrap}a{color:#0059a0}"
+    ".front>p.headline{font-size:1.25em;font-weight:bold;color:#222;margin:.3em "
+    "0}.people{display:flex;"
+    "flex-wrap:wrap;gap:.2em 2em;margin:.4em 0;font-size:14px}.people div{display:flex;gap:.4em}"
+    ".people dt{color:#444}.people dd{margin:0;font-weight:bold}.front figure{margin:.6em 0}"
     ".front>p{color:#444}.front h2{margin:.7em 0 .2em;font-size:1.15em}.front ul{margin:.2em 0}"
     ".sign{display:flex;gap:2em;margin-top:2.5em}.sign span{flex:1;border-top:1px solid #222;"
     "font-size:13px;color:#444}nav ol{padding-left:1.4em}nav ul{padding-left:1.2em;color:#444;"
@@ -36,9 +40,12 @@ constexpr const char* style =
     "Helvetica,Arial,sans-serif;color:#666}}@page wide{size:landscape}"
     "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
     "figcaption{font-size:9pt}h2,caption{break-after:avoid}tr,.sign{break-inside:avoid}"
-    ".front{break-after:page;font-size:8.5pt;line-height:1.35}.front table,.front .verdict,"
+    ".front{break-after:page;font-size:8.5pt;line-height:1.25}.front table,.front .verdict,"
     ".front .wide p{font-size:8pt;margin:.2em 0}h1{font-size:14pt;margin:0}.front>p{margin:.3em 0}"
-    ".front td:nth-child(2){white-space:nowrap}"
+    ".front td:nth-child(2){white-space:nowrap}.front>p.headline{font-size:11pt}.front "
+    "figure{margin:.2em 0}"
+    ".front figure svg{max-height:36mm}.people,.front li{font-size:8pt}.front h2{margin:.3em 0 "
+    ".1em}"
     ".sign{margin-top:2.2em}nav>ol{columns:2}nav li{break-inside:avoid}"
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
     "th,td{padding:.15em "
@@ -71,17 +78,26 @@ std::string link(const std::string& file, const std::string& text) {
     return html.append(escaped(file)).append("\">").append(text).append("</a>");
 }
 
+/// " data, SVG, PNG", linked; empty where there are no files.
+std::string links_to(const std::string& folder, const std::string& name,
+                     const std::vector<std::pair<const char*, const char*>>& kinds) {
+    std::string html;
+    if (folder.empty()) return html;
+    for (const auto& [ending, text] : kinds)
+        html.append(html.empty() ? " " : ", ").append(link(folder + "/" + name + ending, text));
+    return html;
+}
+
 std::string anchor_of(std::size_t chapter) {
     std::string name = "chapter-";
     return name.append(std::to_string(chapter + 1));
 }
 
 void write_figure(std::ostream& html, const Figure& figure, const std::string& folder) {
-    const std::string file = folder + "/" + figure.name;
     html << "<figure id=\"" << escaped(figure.name) << "\">\n"
          << inlined(as_svg(figure.chart), figure.chart.title) << "<figcaption>"
-         << escaped(figure.caption) << ' ' << link(file + ".csv", "data") << ", "
-         << link(file + ".svg", "SVG") << ", " << link(file + ".png", "PNG")
+         << escaped(figure.caption)
+         << links_to(folder, figure.name, {{".csv", "data"}, {".svg", "SVG"}, {".png", "PNG"}})
          << "</figcaption>\n</figure>\n";
 }
 
@@ -124,8 +140,8 @@ void write_table(std::ostream& html, const Table& table, const std::string& fold
         }
         html << "</tr>\n";
     }
-    html << "</tbody></table>\n<p>" << escaped(table.caption) << ' '
-         << link(folder + "/" + table.name + ".csv", "data") << "</p></div>\n";
+    html << "</tbody></table>\n<p>" << escaped(table.caption)
+         << links_to(folder, table.name, {{".csv", "data"}}) << "</p></div>\n";
 }
 
 void write_list(std::ostream& html, const std::string& title,
@@ -139,6 +155,15 @@ void write_list(std::ostream& html, const std::string& title,
 void write_front(std::ostream& html, const Document& document, const std::string& folder) {
     const Front& front = document.front;
     html << "<header class=\"front\">\n<h1>" << escaped(document.title) << "</h1>\n";
+    if (!front.headline.empty())
+        html << "<p class=\"headline\">" << escaped(front.headline) << "</p>\n";
+    if (!front.people.empty()) {
+        html << "<dl class=\"people\">";
+        for (const auto& [what, who] : front.people)
+            html << "<div><dt>" << what << "</dt><dd>" << escaped(who) << "</dd></div>";
+        html << "</dl>\n";
+    }
+    for (const Figure& each : front.pictures) write_figure(html, each, folder);
     if (!front.of.empty()) html << "<p>" << escaped(front.of) << "</p>\n";
     write_list(html, "What was asked", front.asked);
     if (!front.found.rows.empty()) write_table(html, front.found, folder);
@@ -146,8 +171,13 @@ void write_front(std::ostream& html, const Document& document, const std::string
     std::vector<std::string> limits = front.limits;
     limits.insert(limits.end(), document.remarks.begin(), document.remarks.end());
     write_list(html, "Limits", limits);
-    html << "<div class=\"sign\"><span>prepared by</span><span>checked by</span><span>date</span>"
-            "</div>\n</header>\n";
+    const auto signed_by = [&](const char* what, const std::string& who) {
+        html << "<span>" << what << (who.empty() ? "" : ": ") << escaped(who) << "</span>";
+    };
+    html << "<div class=\"sign\">";
+    signed_by("prepared by", front.author);
+    signed_by("checked by", front.reviewer);
+    html << "<span>date</span></div>\n</header>\n";
 }
 
 /// Chapters with what is in them, all linked.

@@ -8,7 +8,7 @@
 namespace breach::report {
 
 /// `figures`: folder of the figures' and tables' files, relative to the page, for its links to
-/// them.
+/// them; empty: there are none.
 std::string as_html(const Document& document, const std::string& figures);
 
 }  // namespace breach::report

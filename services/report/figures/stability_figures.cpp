@@ -138,6 +138,15 @@ Figure section_with_circles(const json& scene, const json& result) {
 
 }  // namespace
 
+std::optional<Series> critical_surface(const json& scene, const json& result) {
+    if (!result.is_object()) return {};
+    Chart chart{};
+    add_surfaces(result, scene.value(json::json_pointer("/lem/floor"), json::array()),
+                 with_factor("slip surface", result), "", chart);
+    if (chart.series.empty()) return {};
+    return std::move(chart.series.front());
+}
+
 std::vector<Figure> stability_figures(const std::filesystem::path& folder) {
     const json result = read_json(folder / phases::files::result);
     const json scene = read_json(folder / phases::files::scene);

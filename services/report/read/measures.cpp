@@ -6,6 +6,7 @@
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
+#include "services/findings/governing.hpp"
 #include "services/report/chart/axis.hpp"
 #include "services/report/read/verdict.hpp"
 
@@ -203,11 +204,30 @@ const PhaseFolder* phase_of_variant(const Run& run, const std::string& phase,
 }
 
 const PhaseFolder* farthest_runout(const Run& run) {
-    const PhaseFolder* farthest = nullptr;
+    std::vector<const PhaseFolder*> runouts;
     for (const std::string& variant : variants_of(run))
-        for (const PhaseFolder* each : runouts_of(run, variant))
-            if (!farthest || runout_of(each) > runout_of(farthest)) farthest = each;
-    return farthest;
+        for (const PhaseFolder* each : runouts_of(run, variant)) runouts.push_back(each);
+    std::vector<findings::Candidate> candidates;
+    for (const PhaseFolder* each : runouts) candidates.push_back({.runout = runout_of(each)});
+    for (const json& mean : run.means) {
+        if (!mean.at("runout").is_number()) continue;
+        for (const PhaseFolder* draw : draws_of(run, mean))
+            if (const auto place = std::ranges::find(runouts, draw); place != runouts.end())
+                candidates[static_cast<std::size_t>(place - runouts.begin())].mean_runout =
+                    mean.at("runout").get<double>();
+    }
+    const auto place = findings::governing(candidates);
+    return place ? runouts[*place] : nullptr;
+}
+
+const PhaseFolder* least_factor(const Run& run) {
+    const PhaseFolder* least = nullptr;
+    const auto factor_of = [](const PhaseFolder* each) {
+        return number_at(each->result, "factor_of_safety");
+    };
+    for (const PhaseFolder* each : phases_named(run, phases::lem.program))
+        if (factor_of(each) && (!least || *factor_of(each) < *factor_of(least))) least = each;
+    return least;
 }
 
 /// Null when the run has no runout, or what it came from is not known.

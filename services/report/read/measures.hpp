@@ -52,8 +52,10 @@ std::vector<Threshold> thresholds_in(const Run& run);
 /// Runs of the MPM that ended, of one variant, ascending in t_T.
 std::vector<const PhaseFolder*> runouts_of(const Run& run, const std::string& variant);
 double runout_of(const PhaseFolder* mpm);  ///< of one of them [m]
-/// Of all variants; null when the run has none.
+/// The one that governs (services/findings/governing.hpp); null when the run has none.
 const PhaseFolder* farthest_runout(const Run& run);
+/// The stability analysis with the least factor of safety; null when none has one.
+const PhaseFolder* least_factor(const Run& run);
 
 /// Of several phases of a kind the one that is looked at closely: what the farthest runout came
 /// from, or the first where there is no runout or that is not known; null when there is none.

@@ -100,14 +100,18 @@ export const read_workers = () => get_json("/v1/workers");
 /// {events, next} after the given number.
 export const page_of_events = (after) => get_json(`/v1/events?after=${after}&wait=0`);
 export const read_run = (run) => get_json(path_of("runs", run));
+/// The same without its tasks.
+export const read_run_alone = (run) => get_json(`${path_of("runs", run)}?tasks=0`);
+export const report_of = (run) => path_of("runs", run, "report");
 export const submit_study = (text) => post_json("/v1/runs", text);
 export const remove_run = (run) => get_json(path_of("runs", run), { method: "DELETE" });
 /// order: cancel, pause, resume, retry, pin or unpin
 export const command_run = (run, order) => post_json(path_of("runs", run, order), "{}");
 export const read_task = (task) => get_json(path_of("tasks", task));
 export const read_triggers = async (run) => (await get_json(path_of("runs", run, "triggers"))).triggers;
-/// A stored JSON file.
+/// A stored file: JSON, or text.
 export const read_json_artifact = (sha256) => get_json(artifact_path(sha256), { cache: "default" });
+export const read_text_artifact = async (sha256) => body_of(await request(artifact_path(sha256), { cache: "default" }), "text");
 export const read_results = (run) => get_json(path_of("runs", run, "results"));
 export const results_csv = (run, means) => path_of("runs", run, "results") + (means ? "?format=csv&table=means" : "?format=csv");
 /// Percentiles, importance, samples of a study over distributions.
@@ -168,8 +172,7 @@ export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", te
 export async function read_telemetry(task, alone, from) {
     const stored = task.artifacts.find((file) => file.name === "telemetry.jsonl");
     if (stored && !alone) {
-        const text = await body_of(await request(artifact_path(stored.sha256), { cache: "default" }), "text");
-        const lines = text.split("\n").filter(Boolean).map((line) => JSON.parse(line));
+        const lines = (await read_text_artifact(stored.sha256)).split("\n").filter(Boolean).map((line) => JSON.parse(line));
         return { lines: lines.slice(from), next: lines.length };
     }
     const query = new URLSearchParams({ phase: task.phase, from });

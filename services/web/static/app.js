@@ -1,8 +1,10 @@
 // Puts the page together: which run is open, when to look again, what to say when the server is gone.
+import { Answer, governing_of } from "./answer.js";
 import * as api from "./api.js";
 import { Compare } from "./compare.js";
 import { Cost } from "./cost.js";
 import { Database } from "./database.js";
+import { Differences } from "./differences.js";
 import { by_id, set_text } from "./dom.js";
 import { is_active, variants_of } from "./format.js";
 import { Motions } from "./motions.js";
@@ -40,16 +42,18 @@ const telemetry = new Telemetry();
 const tasks = new Tasks();
 const motions = new Motions();
 const uncertainty = new Uncertainty({ open_task: (id) => tasks.open(id), ask: (sample) => ask(results.rows.find((row) => row.variant === sample), "runout") });
-const head = new RunHead(() => look_soon());
-new SubmitDialog((run) => {
+const answer = new Answer(look_at);
+const differences = new Differences();
+const submission = new SubmitDialog((run) => {
     location.hash = run_address(run.id);
     look_soon();
 });
+const head = new RunHead(() => look_soon(), (study) => submission.edit(study));
 
 by_id("run-search").addEventListener("input", () => look_soon());
 
 const open_table = () => location.hash.match(/^#\/database(?:\/([^/]+))?(?:\/([^/]+))?$/);
-const open_pair = () => location.hash.match(/^#\/compare\/([^/]+)(?:\/([^/]+))?$/)?.slice(1).filter(Boolean).map(decodeURIComponent);
+const pair_in = (view) => location.hash.match(new RegExp(`^#/${view}/([^/]+)(?:/([^/]+))?$`))?.slice(1).filter(Boolean).map(decodeURIComponent);
 const open_id = () => decodeURIComponent(location.hash.match(/^#\/runs\/(.+)$/)?.[1] ?? "");
 
 // ---- connection
@@ -91,7 +95,7 @@ async function look() {
         const found = await api.find_runs(search);
         if (search === searched()) draw_list(found, open_id());
         busy = found.runs.some((run) => is_active(run.state));
-        await show_open_run();
+        await show_open_run(found.runs);
         by_id("page-fault").hidden = true;
     } catch (fault) {
         busy = true; // look again
@@ -109,7 +113,7 @@ async function look() {
 
 // ---- the open run: no number of the one before stands under its name; a part is seen when its own have come
 
-const parts_of_a_run = ["uncertainty", "motions", "runouts", "particles", "telemetry", "cost", "tasks"];
+const parts_of_a_run = ["run-orders", "run-summary", "answer", "uncertainty", "motions", "runouts", "particles", "telemetry", "cost", "tasks"];
 let expected = "";
 
 function expect_parts_of(id) {
@@ -123,12 +127,15 @@ async function arrives(shown, ...parts) {
     for (const part of parts) by_id(part).classList.remove("coming");
 }
 
-async function show_open_run() {
+/// listed: runs as the list has them, which is enough to begin with.
+async function show_open_run(listed) {
     const id = open_id();
     const tables = open_table() !== null;
-    const pair = open_pair();
+    const [pictures, numbers] = ["compare", "differences"].map(pair_in);
+    const pair = pictures ?? numbers;
     by_id("welcome").hidden = tables || Boolean(pair) || id !== "";
-    by_id("compare").hidden = !pair;
+    by_id("compare").hidden = !pictures;
+    by_id("differences").hidden = !numbers;
     by_id("database").hidden = !tables;
     by_id("missing").hidden = true;
     if (tables) {
@@ -138,14 +145,22 @@ async function show_open_run() {
     if (pair) document.title = "Comparison – Breachline";
     if (tables || id === "") {
         by_id("run").hidden = true;
-        if (pair) await show_pair(pair);
+        if (pair) await show_pair(pair, pictures ? [compare, "compare"] : [differences, "differences"]);
         else if (!tables) document.title = "Breachline";
         return;
     }
-    let run;
+    const known = listed.find((each) => each.id === id);
+    if (known && expected !== id) {
+        expect_parts_of(id);
+        head.begin(known);
+        answer.begin(known);
+        by_id("run").hidden = false;
+        by_id("answer").classList.remove("coming");
+    }
+    let run, read;
     try {
-        run = await api.read_run(id);
-        run.triggers = await api.read_triggers(id);
+        [run, read] = await Promise.all([api.read_run(id), api.read_results(id)]);
+        run.triggers = run.tasks.some(({ phase }) => phase === "fem_solver") ? await api.read_triggers(id) : [];
     } catch (fault) {
         if (!(fault instanceof api.Problem) || fault.status !== 404) throw fault;
         by_id("run").hidden = true;
@@ -156,25 +171,34 @@ async function show_open_run() {
     by_id("run").hidden = false;
     expect_parts_of(id);
     head.show(run);
-    await arrives(tasks.show(run), "tasks");
+    arrives(null, "run-orders", "run-summary");
+    const governing = governing_of(run, read.rows, read.means);
+    const show_answer = () => answer.show(run, read.rows, governing, uncertainty.quantiles_of_runout(id));
+    const top = arrives(show_answer(), "answer");
+    await next_picture();
+    const rows = results.show(run, read);
+    cost.show(run, rows, variants_of(run));
     // One part that fails must not hide the others.
-    const sweep = arrives(results.show(run).then((rows) => {
-        cost.show(run, rows, variants_of(run));
-        return uncertainty.show(run, rows);
-    }), "runouts", "cost", "uncertainty");
     const parts = await Promise.allSettled([
-        sweep, arrives(motions.show(run), "motions"), arrives(telemetry.show(run), "telemetry"), arrives(particles.show(run), "particles"),
+        top, arrives(tasks.show(run), "tasks", "runouts", "cost"), arrives(uncertainty.show(run, rows).then(show_answer), "uncertainty"),
+        arrives(telemetry.show(run, governing.row), "telemetry"), arrives(particles.show(run, governing.row?.mpm_task), "particles"),
     ]);
     const broken = parts.find((part) => part.status === "rejected");
     if (broken) throw broken.reason;
 }
 
-async function show_pair(pair) {
+/// The top is seen before the tables of a large run are made.
+const next_picture = () => new Promise((seen) => {
+    if (document.hidden) seen();
+    else requestAnimationFrame(() => setTimeout(seen));
+});
+
+async function show_pair(pair, [view, part]) {
     try {
-        await compare.show(pair);
+        await view.show(pair);
     } catch (fault) {
         if (!(fault instanceof api.Problem) || fault.status !== 404) throw fault;
-        by_id("compare").hidden = true;
+        by_id(part).hidden = true;
         by_id("missing").hidden = false;
     }
 }

@@ -27,7 +27,7 @@ export class Cost {
         const finished = rows.filter((row) => Number.isFinite(row.runout) && Number.isFinite(row.cpu_seconds));
         const has_error = finished.some((row) => Number.isFinite(row.runout_error));
         set_text(by_id("cost-runout-title"), has_error ? "Error estimate of the runout" : "Runout (the results carry no error estimate)");
-        by_id("cost-plots").hidden = finished.length === 0;
+        by_id("cost-plots").hidden = finished.length < 2;
         by_id("cost-none").hidden = finished.length > 0;
         set_text(by_id("cost-none"), run.tasks.some(({ phase }) => phase === "lem_tool") && run.tasks.every(({ phase }) => phase === "lem_tool")
             ? "A stability analysis alone: no runout is asked for." : "No runout is known yet.");

@@ -20,9 +20,20 @@ export const looks = {
     doubtful: "questionable",
 };
 
-/// "still moving; coarse cells (warning)"; "none".
+/// One entry per kind and severity, the worst first: {code, severity, count, flags}.
+function kinds_of(flags) {
+    const kinds = Map.groupBy([...flags].sort((a, b) => is_doubt(b) - is_doubt(a)), ({ code, severity }) => `${severity} ${code}`);
+    return [...kinds.values()].map((some) => ({ ...some[0], flags: some, count: some.length }));
+}
+
+const counted = (code, count) => worded(code) + (count > 1 ? ` × ${count}` : "");
+
+/// "still moving; coarse elements × 11; 2 warnings"; "none".
 export function flag_codes(flags) {
-    return (flags ?? []).map((flag) => worded(flag.code) + (is_doubt(flag) ? "" : " (warning)")).join("; ") || "none";
+    const kinds = kinds_of(flags ?? []);
+    const warnings = kinds.filter((kind) => !is_doubt(kind)).length;
+    return [...kinds.filter(is_doubt).map(({ code, count }) => counted(code, count)), warnings ? `${warnings} warning${warnings > 1 ? "s" : ""}` : ""]
+        .filter(Boolean).join("; ") || "none";
 }
 
 /// Every flag with its message, one line each.
@@ -46,14 +57,40 @@ export function picture_verdict({ phase, state, ended, end_time }, row) {
     return "Whether the soil came to rest is not known.";
 }
 
-/// Flags as a list with messages and places, questionable ones first.
-export function flag_items(flags) {
-    const order = [...flags].sort((a, b) => is_doubt(b) - is_doubt(a));
-    return order.map((flag) => element("li", {}, element("span", { class: `state ${is_doubt(flag) ? "warn" : "calm"}` },
-        `${is_doubt(flag) ? "⚠ " : ""}${worded(flag.code)}`), ` ${flag.message} `, flag.pointer ? element("code", {}, flag.pointer) : null));
+const badge = (family, text) => element("span", { class: `state ${family}` }, `${family === "calm" ? "" : "⚠ "}${text}`);
+
+/// A kind in one line; all of its text, and what else there is of it, when it is opened. texts: [{text, pointer}]
+function line_of(family, name, [first, ...others]) {
+    const place = (pointer) => (pointer ? element("code", {}, pointer) : null);
+    return element("li", {}, element("details", {}, element("summary", {}, badge(family, name), ` ${first.text}`), place(first.pointer),
+        ...others.map(({ text, pointer }) => element("p", {}, `${text} `, place(pointer)))));
 }
 
-/// "7 × still moving · 8 × implausible", the most frequent first.
+/// Flags as a list, a line for each kind, questionable ones first.
+export const flag_items = (flags) => kinds_of(flags).map((kind) =>
+    line_of(is_doubt(kind) ? "warn" : "calm", counted(kind.code, kind.count), kind.flags.map(({ message, pointer }) => ({ text: message, pointer }))));
+
+/// How a verdict and its reasons look: `usable` of the findings.
+export const verdict_look = (usable) => ({ no: "bad", questionable: "warn", in_part: "warn", with_remarks: "calm", yes: "good" })[usable] ?? "off";
+
+/// The reasons of a verdict, which come worst first, a line for each kind. flags: the codes of those that are flags, as its members.
+export function reason_items({ reasons }, flags) {
+    const kinds = Map.groupBy(reasons, ({ usable, code }) => `${usable} ${code}`);
+    return [...kinds.values()].map((some) => {
+        const [{ usable, code }] = some;
+        const count = Math.max(...some.map((each) => each.count)); // the same results may carry several
+        return { key: `${usable} ${code} ${some.map(({ text }) => text).join()}`,
+                 make: () => line_of(verdict_look(usable), counted(code, count), some.map(({ text, pointer }) => ({ text: code in flags ? without_name(text, code) : text, pointer }))) };
+    });
+}
+
+/// Of a flag: its name stands before it already.
+function without_name(text, code) {
+    const name = `${worded(code)}, `;
+    return text.toLowerCase().startsWith(name) ? text.slice(name.length) : text;
+}
+
+/// "still moving × 7 · implausible × 8", the most frequent first.
 export function counts_text(counts) {
-    return Object.entries(counts ?? {}).sort((a, b) => b[1] - a[1]).map(([code, count]) => `${count} × ${worded(code)}`).join(" · ");
+    return Object.entries(counts ?? {}).sort((a, b) => b[1] - a[1]).map(([code, count]) => counted(code, count)).join(" · ");
 }

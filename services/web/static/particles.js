@@ -38,8 +38,14 @@ export class Particles {
             this.paint();
         });
         by_id("view-stride").addEventListener("change", () => this.reload());
-        by_id("view-time").addEventListener("input", (event) => this.seek(Number(event.target.value)));
-        by_id("view-play").addEventListener("click", () => (this.playing ? this.pause() : this.play()));
+        by_id("view-time").addEventListener("input", (event) => {
+            this.by_hand = true;
+            this.seek(Number(event.target.value));
+        });
+        by_id("view-play").addEventListener("click", () => {
+            this.by_hand = true;
+            (this.playing ? this.pause() : this.play());
+        });
         by_id("view-in").addEventListener("click", () => this.view.zoom(1.25));
         by_id("view-out").addEventListener("click", () => this.view.zoom(0.8));
         by_id("view-fit").addEventListener("click", () => this.view.fit());
@@ -54,8 +60,8 @@ export class Particles {
         return this.source?.frames ?? [];
     }
 
-    /// Another run, or the same one further on.
-    async show(run) {
+    /// Another run, or the same one further on. governing: the task to begin with, once it is known.
+    async show(run, governing) {
         const same = this.run?.id === run.id;
         this.run = run;
         if (!same) this.close();
@@ -63,11 +69,9 @@ export class Particles {
         mirror(by_id("view-source"), sources, (task) => task.id,
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
         by_id("particles").hidden = sources.length === 0;
-        const best = first_with_frames(sources);
         const current = sources.find((task) => task.id === this.task);
-        // Until a person chooses, the mesh gives way to the first runout that there is.
-        const follow = !current || (!this.by_hand && current.phase === "fem_solver" && !this.playing);
-        const chosen = follow ? best : current;
+        // Until a person chooses or plays, the governing variant is shown; before there is one, whatever runs.
+        const chosen = (this.by_hand && current) || (sources.find((task) => task.id === governing) ?? first_with_frames(sources));
         if (!chosen) return;
         const news = is_active(chosen.state) || this.frames.length === 0 || this.was_active;
         if (chosen.id !== this.task) await this.open(chosen.id);

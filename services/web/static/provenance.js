@@ -48,7 +48,7 @@ export class Provenance {
 }
 
 /// The stability analysis of a row's variant, or the one that serves all.
-const stability_of = (run, { variant }) => run.tasks.find((task) => task.phase === "lem_tool" && [variant, ""].includes(task.variant));
+export const stability_of = (run, { variant }) => run.tasks.find((task) => task.phase === "lem_tool" && [variant, ""].includes(task.variant));
 
 let known = { run: null, count: 0, fems: new Map() }; // of the run that was looked at last
 

@@ -80,8 +80,7 @@ export class Results {
     }
 
     /// Returns the rows, for those who want to draw other things of them.
-    async show(run) {
-        const { rows, means, without_transfer: without, verdict } = await api.read_results(run.id);
+    show(run, { rows, means, without_transfer: without }) {
         if (this.run?.id !== run.id) {
             this.of_mean = null;
             by_id("runout-draws").value = "means";
@@ -102,12 +101,8 @@ export class Results {
             : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
-        const explained = new Set(rows.flatMap(({ flags }) => (flags ?? []).map(({ code }) => code))); // beside their rows
-        const remarks = verdict.reasons.filter(({ code }) => !explained.has(code)).map(({ text }) => text);
-        by_id("runout-without").hidden = remarks.length === 0;
-        const nothing = rows.length === 0 && without?.length > 0; // empty axes would say no more
-        by_id("runout-plot").hidden = by_id("runout-table").parentElement.hidden = nothing;
-        mirror(by_id("runout-without"), remarks, (text) => text, () => element("li"), (item, text) => set_text(item, text));
+        by_id("runout-plot").hidden = rows.length < 2; // one number stands at the top
+        by_id("runout-table").parentElement.hidden = rows.length === 0 && without?.length > 0;
         return this.rows;
     }
 
@@ -157,8 +152,9 @@ export class Results {
         const chosen = this.chosen();
         by_id("runout-table").classList.toggle("one-variant", this.shown_variants().length < 2);
         by_id("runout-csv").href = api.results_csv(this.run.id, this.shows_means());
-        const of = this.of_mean ? `Only the draws of ${point_name(this.of_mean)}. ` : "";
-        const note = of + trust_note(chosen, chosen.length - this.shown().length) + this.unplaced_note();
+        const hidden = chosen.length - this.shown().length;
+        const note = [this.of_mean ? `Only the draws of ${point_name(this.of_mean)}.` : "", hidden ? `${hidden} not shown.` : "", this.unplaced_note()]
+            .filter(Boolean).join(" ");
         by_id("runout-note").hidden = !note;
         set_text(by_id("runout-note"), note);
         mirror(by_id("runout-rows"), this.shown(), key_of, () => this.new_row(), fill_row);
@@ -169,7 +165,7 @@ export class Results {
     unplaced_note() {
         const parameter = this.parameter();
         const without = parameter ? this.shown_variants().filter((variant) => parameter.value_of(variant) === null) : [];
-        return without.length === 0 ? "" : ` Not in the figure, because neither they nor the scene that was sent give ${parameter.pointer} as a number: ` +
+        return without.length === 0 ? "" : `Not in the figure, because neither they nor the scene that was sent give ${parameter.pointer} as a number: ` +
             `${without.map((variant) => variant || "the scene itself").join(", ")}.`;
     }
 
@@ -278,19 +274,6 @@ function mean_note(row, measure, deviation) {
         ? `the mean may be off by ${number(row.runout_error, 2)} m: ${row.runout_error_from}` : "";
     return [`${point_name(row) || "all draws"}: ${number(row[measure])}${unit}, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
         .filter(Boolean).join("\n");
-}
-
-/// In one line: how many of the finished runouts are not to be taken as they stand.
-function trust_note(rows, hidden) {
-    const finished = rows.filter(is_finished);
-    const looks = finished.map(look_of);
-    const count = (part) => looks.filter((look) => look.includes(part)).length;
-    const bounds = count("bound");
-    const doubtful = looks.filter((look) => look === "doubtful").length;
-    const parts = [bounds && `${bounds} still moving: lower bounds`, doubtful && `${doubtful} questionable for other reasons`].filter(Boolean);
-    if (parts.length === 0) return "";
-    const what = finished.every((row) => Number.isFinite(row.runout)) ? "runouts" : "results";
-    return `Of ${finished.length} ${what} ${parts.join(", ")}.${hidden ? ` ${hidden} not shown.` : ""}`;
 }
 
 /// [{variant, rows}] in the study's order, rows in order of time.

@@ -1,8 +1,9 @@
 // The list of runs at the side, and the head of the run that is open.
+import { brief_answer } from "./answer.js";
 import * as api from "./api.js";
+import { differences_address } from "./differences.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
-import { counts_text } from "./flags.js";
-import { bytes, clock, elapsed, is_active, percent, seconds, show_state, span, task_state } from "./format.js";
+import { bytes, clock, is_active, percent, seconds, show_state, span, task_state } from "./format.js";
 import { RenameDialog } from "./rename.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
@@ -23,16 +24,18 @@ export function draw_list({ runs, next }, open_id) {
 
 function new_item(run) {
     return element("li", {}, element("a", { href: run_address(run.id) },
-        element("span", { class: "run-name" }), element("span"), element("span", { class: "run-called" }), element("progress", { max: 1 }),
-        element("span", { class: "run-time" }), element("span", { class: "run-why" })));
+        element("span", { class: "run-name" }), element("span"), element("span", { class: "run-called" }), element("span", { class: "run-answer" }),
+        element("progress", { max: 1 }), element("span", { class: "run-time" }), element("span", { class: "run-why" })));
 }
 
 function fill_item(item, run, open_id) {
     const link = item.firstElementChild;
-    const [name, state, called, progress, time, why] = link.children;
+    const [name, state, called, answer, progress, time, why] = link.children;
     set_text(name, run.name);
     set_text(called, run.title);
     called.hidden = !run.title;
+    set_text(answer, brief_answer(run));
+    answer.hidden = answer.textContent === "";
     show_state(state, state_of(run));
     progress.value = run.progress ?? 0;
     progress.hidden = !is_active(run.state);
@@ -48,13 +51,20 @@ function fill_item(item, run, open_id) {
     else link.removeAttribute("aria-current");
 }
 
-/// The verdict in one line where it is against the results of a run; "" otherwise.
-const doubt_of = ({ verdict, message }) => (["questionable", "no"].includes(verdict.usable) ? `${verdict.words}: ${message}` : "");
+/// The verdict with its worst reason where it is against the results of a run; "" otherwise.
+const doubt_of = ({ verdict: { usable, words, reasons } }) => (["questionable", "no"].includes(usable) ? `${words}: ${reasons[0]?.brief}` : "");
+
+/// What the run's message says besides the reasons of its verdict.
+function beside_the_verdict({ verdict, message }) {
+    const told = new Set(verdict.reasons.flatMap(({ brief }) => brief.split("; ")));
+    return (message ?? "").split("; ").filter((part) => !told.has(part)).join("; ");
+}
 
 export class RunHead {
-    /// changed(): the run was given an order.
-    constructor(changed) {
+    /// changed(): the run was given an order. edit(study): a person wants to run it again with changes.
+    constructor(changed, edit) {
         this.changed = changed;
+        by_id("again").addEventListener("click", () => edit(this.run.study));
         by_id("cancel").addEventListener("click", () => by_id("cancel-dialog").showModal());
         by_id("cancel-dialog").addEventListener("close", () => this.answer(by_id("cancel-dialog").returnValue));
         by_id("remove").addEventListener("click", () => this.ask_removal());
@@ -65,21 +75,26 @@ export class RunHead {
         for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
     }
 
-    show(run) {
-        this.run = run;
-        const active = is_active(run.state);
+    /// What the list knows of a run, before the rest of it has come.
+    begin(run) {
         set_text(by_id("run-title"), run.title || run.name);
         document.title = `${percent(run.progress)} ${run.name} – Breachline`;
         show_state(by_id("run-state"), state_of(run));
         by_id("run-progress").value = run.progress ?? 0;
+        by_id("run-progress").hidden = !is_active(run.state);
+        set_text(by_id("run-message"), beside_the_verdict(run));
+        by_id("run-message").className = run.state === "budget_exhausted" ? "notice warn" : "muted";
+    }
+
+    show(run) {
+        this.run = run;
+        this.begin(run);
+        const active = is_active(run.state);
         set_text(by_id("run-summary"), summary(run));
-        set_text(by_id("run-message"), doubt_of(run) || (run.message ?? ""));
-        by_id("run-message").className = run.verdict.usable === "no" ? "notice unusable"
-            : run.verdict.usable === "questionable" || run.state === "budget_exhausted" ? "notice warn" : "muted";
-        const counts = counts_text(run.flag_counts);
-        by_id("run-flags").hidden = !counts;
-        set_text(by_id("run-flags"), `Flags of its results: ${counts}`);
         set_text(by_id("run-id"), run.id);
+        by_id("differences-with").href = differences_address(run.id);
+        by_id("report").href = api.report_of(run.id);
+        by_id("report").hidden = run.tasks_done === 0;
         by_id("cancel").hidden = !active;
         by_id("pause").hidden = !active || run.paused;
         by_id("resume").hidden = !active || !run.paused;
@@ -133,13 +148,18 @@ export class RunHead {
     }
 }
 
+function times_of({ finished, computing_seconds: computing, idle_seconds: idle }) {
+    if (computing > 0) return `computing ${span(computing)}, idle ${span(idle)}`;
+    return finished ? "nothing computed: all taken from earlier runs" : "nothing computed yet";
+}
+
 function summary(run) {
     const parts = [`${run.tasks_done} of ${run.tasks_total} tasks done`];
     if (run.tasks_failed > 0) parts.push(`${run.tasks_failed} failed`);
     if (run.questionable > 0) parts.push(`${run.questionable} questionable`);
     parts.push(`created ${clock(run.created)}${run.submitted_by ? ` by ${run.submitted_by}` : ""}`);
     if (run.state === "budget_exhausted") parts.push(`started ${clock(run.started)}, nothing of it runs now`);
-    else if (run.started) parts.push(`${is_active(run.state) ? "running for" : "took"} ${elapsed(run.started, run.finished)}`);
+    else parts.push(times_of(run));
     if (run.paused && is_active(run.state)) parts.push("paused: nothing new is started");
     if (Number.isFinite(run.budget_cpu_seconds)) {
         parts.push(`${seconds(run.spent_cpu_seconds)} of a budget of ${seconds(run.budget_cpu_seconds)} CPU time spent`);

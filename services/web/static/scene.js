@@ -50,7 +50,7 @@ export function water_of(scene) {
 }
 
 /// y at x of points from left to right.
-function level_at(line, x) {
+export function level_at(line, x) {
     const after = line.findIndex((point) => point[0] >= x);
     if (after === 0) return line[0][1];
     if (after < 0) return line.at(-1)[1];

@@ -57,6 +57,12 @@ export class SubmitDialog {
         }
     }
 
+    /// A study that was run, to be changed and run again: without the variants that the service made of it.
+    async edit({ variants = [], ...study }) {
+        await this.open();
+        this.take_text(print({ ...study, variants: variants.filter(({ made_by: by }) => !by) }));
+    }
+
     take_text(text) {
         this.clear();
         this.options.close();

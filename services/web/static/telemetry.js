@@ -12,7 +12,10 @@ export class Telemetry {
     constructor() {
         this.plots = new Map(); // panel title -> Plot
         this.fems = new Map(); // transfer task -> FEM task
-        by_id("telemetry-source").addEventListener("change", (event) => this.open(event.target.value));
+        by_id("telemetry-source").addEventListener("change", (event) => {
+            this.by_hand = true;
+            this.open(event.target.value);
+        });
         this.forget();
     }
 
@@ -23,8 +26,9 @@ export class Telemetry {
         this.refusal = "";
     }
 
-    async show(run) {
-        if (this.run?.id !== run.id) this.task = null;
+    /// governing: the row whose FEM, or else MPM, to begin with; null: none yet.
+    async show(run, governing) {
+        if (this.run?.id !== run.id) this.task = this.by_hand = null;
         this.run = run;
         draw_triggers(run.triggers);
         const sources = run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver")
@@ -35,7 +39,10 @@ export class Telemetry {
         const fems = await fems_of(run);
         if (this.run !== run) return;
         this.fems = fems;
-        const chosen = sources.find((task) => task.id === this.task) ?? sources[0];
+        const transfer = run.tasks.find(({ id }) => id && id === governing?.transfer_task);
+        const first = (transfer && fem_of(run, transfer, fems, governing.variant)) ?? governing?.mpm_task;
+        const current = sources.find((task) => task.id === this.task);
+        const chosen = (this.by_hand && current) || (sources.find((task) => task.id === first) ?? current ?? sources[0]);
         if (!chosen) return;
         if (chosen.id !== this.task) await this.open(chosen.id);
         else if (is_active(chosen.state) || this.was_active) await this.extend();

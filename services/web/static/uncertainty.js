@@ -49,6 +49,13 @@ export class Uncertainty {
         this.draw();
     }
 
+    /// {p10, p50, p90} of a run's runout; null where they are not known.
+    quantiles_of_runout(id) {
+        const known = this.run?.id === id ? this.answer.quantities.runout?.percentiles : null;
+        const [p10, p50, p90] = [10, 50, 90].map((p) => Array.isArray(known) && known.find((each) => each.p === p)?.value);
+        return [p10, p50, p90].every(Number.isFinite) ? { p10, p50, p90 } : null;
+    }
+
     forget() {
         for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).replaceChildren();
     }

@@ -180,10 +180,56 @@ class Breach(unittest.TestCase):
             self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)
         wrong = call("http://127.0.0.1:1", "restart", run_id)
         self.assertEqual(wrong.returncode, 2)
-        self.assertIn('there is no word "restart"', wrong.stderr)
+        self.assertIn('unknown command "restart"', wrong.stderr)
         for word in words:
             self.assertIn(word, wrong.stderr)
         self.assertIn("For example: breach submit", call("http://127.0.0.1:1").stderr)
+
+    def test_a_misspelt_word_or_option_is_answered_with_the_one_that_was_meant(self):
+        for words, said in ((["submitt"], 'breach: unknown command "submitt"; did you mean submit?'),
+                            (["list", "--jsn"], "breach list: unknown option --jsn; did you mean --json?"),
+                            (["results", "latest", "--flga=still_moving"], "breach results: unknown option --flga=still_moving; did you mean --flag?"),
+                            (["accuracy", "s.json", "--within2"], "did you mean --within?"),
+                            (["scenes", "ad"], 'breach scenes: unknown command "ad"; did you mean add?'),
+                            (["new", "upsteam_dam"], "did you mean upstream_dam?"),
+                            (["new", "upstream_dam", "--hight", "20"], "breach new upstream_dam: unknown option --hight; did you mean --height?")):
+            done = call("http://127.0.0.1:1", *words)
+            self.assertEqual((done.returncode, said in done.stderr), (2, True), done.stderr)
+
+    def test_options_stand_before_the_command_or_behind_it(self):
+        service = self.serve(looks=0)
+        for words in (["--csv", "results", run_id], ["results", "--csv", run_id], ["results", run_id, "--csv"],
+                      ["--flag", "list", "--csv", "results", run_id], ["--server", service.url, "--csv", "results", run_id]):
+            self.assertEqual(call(service, *words).stdout, "transfer_time,runout\n0.5,12.5\n", words)
+
+    def test_a_run_is_named_by_its_id_its_beginning_or_its_name(self):
+        service = self.serve(looks=0)
+        for name in (run_id, run_id[:6], "fake", "latest"):
+            self.assertEqual(call(service, "results", name, "--csv").stdout, "transfer_time,runout\n0.5,12.5\n", name)
+        none = call(service, "results", "fak")
+        self.assertEqual((none.returncode, 'no run has the name or id "fak"' in none.stderr), (65, True), none.stderr)
+
+    def test_rm_asks_and_says_how_much_it_frees(self):
+        service = self.serve(looks=0)
+        refused = call(service, "rm", "fake")
+        self.assertEqual((refused.returncode, "give --yes" in refused.stderr, service.removed), (65, True, []), refused.stderr)
+        self.assertIn("12.3 MB freed", call(service, "rm", "fake", "--yes").stdout)
+        self.assertEqual(service.removed, [f"/v1/runs/{run_id}"])
+        for answer, removed in (("n\n", 1), ("y\n", 2)):
+            leader, follower = os.openpty()
+            os.write(leader, answer.encode())
+            done = subprocess.run([breach, "rm", "fake"], stdin=follower, text=True, capture_output=True, timeout=30, env={"BREACH_SERVER": service.url})
+            os.close(leader), os.close(follower)
+            self.assertIn(f"{run_id}  fake  12.3 MB\nRemove it (12.3 MB)? [y/N]", done.stderr)
+            self.assertEqual(len(service.removed), removed)
+
+    def test_completion_knows_every_command_in_each_shell(self):
+        for shell, form in (("bash", "        results) options="), ("zsh", "#compdef breach\n"),
+                            ("fish", "complete -c breach -n '__fish_seen_subcommand_from results' -l csv -d")):
+            script = call("http://127.0.0.1:1", "completion", shell).stdout
+            self.assertIn(form, script)
+            for word in ("submit", "scenes", "hydrograph"):
+                self.assertIn(word, script)
 
     def test_a_file_that_the_server_does_not_find_is_sent_once_and_named_by_its_content(self):
         service = self.serve()
@@ -222,6 +268,8 @@ class Breach(unittest.TestCase):
         done = call(service, "telemetry", run_id, "mpm_solver", "--transfer-time", "0.5", "--json")
         self.assertEqual([json.loads(each)["kinetic_energy"] for each in done.stdout.splitlines()], [0, 2, 4, 6, 8])
         self.assertIn("transfer_time=0.5", service.asked[-1])
+        call(service, "telemetry", run_id, "mpm_solver", "--variant", "soft", "--json")
+        self.assertIn("variant=soft", service.asked[-1])
         csv = call(service, "telemetry", run_id, "mpm_solver", "--csv").stdout.splitlines()
         self.assertEqual((csv[0], csv[2]), ("kinetic_energy,time", "2.0,0.1"))
 
@@ -238,9 +286,13 @@ class Breach(unittest.TestCase):
         done = call(self.serve(), "cancel", run_id)
         self.assertEqual((done.returncode, "cancelled" in done.stdout), (0, True))
 
-    def test_plan(self):
+    def test_plan_takes_scenes_and_studies(self):
+        service = self.serve()
         self.study()
-        self.assertIn("the scene is dry", call(self.serve(), "plan", self.here / "scene.json").stdout)
+        self.assertIn("the scene is dry", call(service, "plan", self.here / "scene.json").stdout)
+        study = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/studies/slope_sweep.json"
+        self.assertIn("the scene is dry", call(service, "plan", study).stdout)
+        self.assertEqual(service.posted[-1][1]["format"], "breachline-scene/1")
 
     def test_draw_needs_no_server(self):
         scenes = pathlib.Path(os.environ["BREACH_ROOT"]) / "workflows/scenes"

@@ -94,7 +94,7 @@ class RealService(unittest.TestCase):
         for part in ("mpm_solver", "transfer_tool", "fem_solver", "particles.vtkhdf", "study column", "scene column", "scene column@1"):
             self.assertIn(part, told)
         self.breach("scenes", "rm", "column", code=65)
-        self.breach("rm", run)
+        self.breach("rm", "--yes", run)
         self.breach("scenes", "rm", "column")
 
     def test_error_against_run_time(self):
@@ -190,26 +190,26 @@ class RealService(unittest.TestCase):
         self.assertEqual((out / motion).read_bytes(), (scenes / "../motions/synthetic.csv").read_bytes())
         fem = next(each for each in entities.values() if each["@type"] == "CreateAction" and "fem_solver" in each["name"])
         self.assertIn({"@id": motion}, fem["object"])
-        refused = self.breach("rm", reference, code=65)
+        refused = self.breach("rm", "--yes", reference, code=65)
         self.assertIn("remove them first", refused.stderr)
         # The export is submitted as it is: its motion lies beside it, and what was computed is known.
         again = self.breach("submit", out / "study.json", "--watch").stdout.split()[0]
         tasks = json.loads(self.breach("show", again, "--json").stdout)["tasks"]
         self.assertEqual({each["state"] for each in tasks}, {"cached"})
-        self.assertIn("freed", self.breach("rm", run).stdout)
+        self.assertIn("freed", self.breach("rm", "--yes", run).stdout)
         self.breach("show", run, code=65)
-        self.breach("rm", again)
+        self.breach("rm", "--yes", again)
 
     def test_disk_is_given_back(self):
         run = self.breach("submit", self.study(small, [0.1]), "--watch", "--quiet").stdout.split()[0]
         self.assertIn(run, self.breach("du").stdout)
         self.assertEqual(self.breach("open", run).stdout, f"{self.url}/#/runs/{run}\n")
         self.breach("pin", run)
-        self.assertIn("breach unpin " + run, self.breach("rm", run, code=65).stderr)
+        self.assertIn("breach unpin " + run, self.breach("rm", "--yes", run, code=65).stderr)
         self.breach("unpin", run)
         long = self.breach("submit", self.study(["/fem/stages/1/duration=60", "/mpm/cell_size=2"], [59])).stdout.strip()
-        self.assertIn("breach cancel " + long, self.breach("rm", long, code=65).stderr)
-        self.assertEqual(len(self.breach("rm", run, long, "--cancel").stdout.splitlines()), 2)
+        self.assertIn("breach cancel " + long, self.breach("rm", "--yes", long, code=65).stderr)
+        self.assertEqual(len(self.breach("rm", "--yes", run, long, "--cancel").stdout.splitlines()), 2)
         self.assertNotIn(run, self.breach("list").stdout)
 
     def test_bash_completes_words_options_and_runs(self):

@@ -28,7 +28,7 @@ class Service(http.server.ThreadingHTTPServer):
     def __init__(self, end="succeeded", token=None, lies=False, looks=3):
         super().__init__(("127.0.0.1", 0), Handler)
         self.end, self.token, self.lies, self.looks_left = end, token, lies, looks
-        self.posted, self.asked = [], []
+        self.posted, self.asked, self.removed = [], [], []
         self.files, self.uploads = {}, 0
         self.seq = 0
         threading.Thread(target=lambda: self.serve_forever(0.05), daemon=True).start()
@@ -135,6 +135,10 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.server.files[sha256] = f"file:sha256/{sha256}.csv"
         self.answer(201, {"reference": self.server.files[sha256], "about": "a motion"})
 
+    def do_DELETE(self):
+        self.server.removed.append(self.path)
+        self.answer(202, {"id": run_id, "freed_bytes": 12.3e6})
+
     def do_HEAD(self):
         reference = self.server.files.get(self.path.split("/")[-1])
         self.send_response(200 if reference else 404)
@@ -153,6 +157,10 @@ class Handler(http.server.BaseHTTPRequestHandler):
         server = self.server
         if parts == ["runs"]:
             self.answer(200, {"runs": [server.run()]})
+        elif parts == ["storage"]:
+            self.answer(200, {"runs": [{"id": run_id, "name": "fake", "freed_bytes": 12.3e6}]})
+        elif parts == ["files"]:
+            self.answer(200, {"files": []})
         elif parts == ["runs", run_id]:
             server.looks_left -= 1
             self.answer(200, {**server.run(), "study": {"name": "fake"}, "tasks": server.tasks()})

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/findings/flags.hpp"
+#include "services/findings/governing.hpp"
 
 namespace breach::findings::verdict_test {
 
@@ -100,6 +101,30 @@ TEST(Verdict, IsNotFinishedWhileTheRunGoesOn) {
     EXPECT_EQ(
         verdict_of({.state = "failed", .broken = {{"fem_solver", 1, 1, "fem: full disk"}}}).usable,
         Usable::in_part);
+}
+
+TEST(Verdict, CountsWhatEachReasonIsAbout) {
+    const json reasons =
+        as_json(verdict_of({.state = "questionable",
+                            .raised = {raised("still_moving", Severity::questionable, 7, 8)},
+                            .unstable = Unstable{2, 3, 0.8, "loose"}}))
+            .at("reasons");
+    EXPECT_EQ(reasons.at(0).at("count"), 2);
+    EXPECT_EQ(reasons.at(1).at("count"), 7);
+}
+
+TEST(Governing, IsTheLargestRunoutElseTheLeastFactorOfSafety) {
+    EXPECT_EQ(governing({}), std::nullopt);
+    EXPECT_EQ(governing({{}, {.runout = {}}}), std::nullopt);
+    EXPECT_EQ(governing({{.factor_of_safety = 1.4}, {.factor_of_safety = 1.1}}), 1u);
+    EXPECT_EQ(governing({{.factor_of_safety = 1.1}, {.runout = -3.0}, {.runout = 20.0}}), 2u);
+}
+
+TEST(Governing, OfRepeatsIsTheLargestInTheLargestMean) {
+    EXPECT_EQ(governing({{.runout = 30.0, .mean_runout = 18.0},
+                         {.runout = 19.0, .mean_runout = 20.0},
+                         {.runout = 21.0, .mean_runout = 20.0}}),
+              2u);
 }
 
 TEST(Flags, MakeDistancesLowerBoundsWhereTheSoilStillMoves) {

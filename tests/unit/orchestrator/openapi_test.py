@@ -163,6 +163,9 @@ class Described(unittest.TestCase):
         post("/v1/runs", "/v1/runs", 202, study([0.25]))
         post("/v1/sweeps", "/v1/sweeps", 202, study([0.25, 0.75]))
         get("/v1/runs/{id}", f"/v1/runs/{run}")
+        self.assertNotIn("tasks", json.loads(get("/v1/runs/{id}", f"/v1/runs/{run}?tasks=0")))
+        get("/v1/runs/{id}", f"/v1/runs/{run}?tasks=2", 400)
+        get("/v1/runs/{id}/report", "/v1/runs/none/report", 404)
         get("/v1/runs/{id}/tasks", f"/v1/runs/{run}/tasks?limit=2")
         for kind, name in (("runs", "/v1/runs"), ("sweeps", "/v1/sweeps")):
             for form in ("", "?format=csv", "?format=hdf5", "?format=csv&table=means", "?format=hdf5&table=means",

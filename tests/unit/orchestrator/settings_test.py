@@ -46,6 +46,7 @@ class Settings(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             code, said = serve(pathlib.Path(folder), "[serve]\nslotz = 3\n")
             self.assertNotEqual(code, 0)
+            self.assertIn('breachline: settings.toml:2: unknown key "slotz"; did you mean slots?', said)
 
 
 if __name__ == "__main__":

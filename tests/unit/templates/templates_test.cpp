@@ -92,16 +92,17 @@ void hold_section(const std::string& name, const Made& made) {
     double area = 0.0, left = 0.0, highest = 0.0;
     const json scene = made.scene;
     for (const json& each : scene.at("section").at("regions")) {
+        const bool is_ground = each.at("name") == "foundation" || each.at("name") == "clay";
         rings.push_back(ring_of(each.at("polygon")));
         EXPECT_FALSE(geometry::defect(rings.back())) << *geometry::defect(rings.back());
         for (const Vec2& vertex : rings.back()) {
             left = std::min(left, vertex.x());
             highest = std::max(highest, vertex.y());
-            if (each.at("name") != "foundation") {
+            if (!is_ground) {
                 EXPECT_LE(vertex.y(), geometry::straight_level_at(ground, vertex.x()) + 2e-3);
             }
         }
-        if (each.at("name") != "foundation") area += geometry::area(rings.back());
+        if (!is_ground) area += geometry::area(rings.back());
     }
     const double length = 1e-3 * (std::abs(left) + highest);
     EXPECT_NEAR(highest, option("height"), 1e-3);
@@ -148,6 +149,36 @@ TEST(Templates, DefaultsGiveSoundScenesAtRestAndShaken) {
     }
 }
 
+TEST(Templates, HaveAWeakLayerAndAStarterDamOfRockfillWhereTheyAreAskedFor) {
+    const test::Folder folder;
+    for (const bool shaken : {false, true}) {
+        for (const char* name : {"upstream_dam", "downstream_dam"}) {
+            json options{
+                {"clay_thickness", 2.5}, {"clay_strength", 25}, {"rockfill_starter", true}};
+            if (shaken) options["with_fem"] = true;
+            const Made made = make(name, options);
+            EXPECT_EQ(listed(faults_of(made, folder.path())), "") << name;
+            hold_section(name, made);
+            const json scene = made.scene;
+            EXPECT_EQ(scene.at("/materials/clay/limit_strength/c_kPa"_json_pointer), 25.0);
+            const json& regions = scene.at("section").at("regions");
+            const auto material = [&](const std::string& region) {
+                return std::ranges::find_if(
+                           regions, [&](const json& each) { return each.at("name") == region; })
+                    ->at("material");
+            };
+            EXPECT_EQ(material("starter_dam"), "rockfill");
+            EXPECT_EQ(material("clay"), "clay");
+        }
+    }
+}
+
+TEST(Templates, ShakenOnesAreTransferredAtSeveralTimes) {
+    const Made made = make("upstream_dam", {{"with_fem", true}, {"shaking", 10}});
+    EXPECT_EQ(made.study.at("transfer_times").dump(), "[4.0,6.0,8.0,10.0]");
+    EXPECT_EQ(made.study.at("triggers").size(), 1u);
+}
+
 TEST(Templates, SayWhatIsAssumed) {
     const Made made = make("upstream_dam", {{"name", "ours"}});
     EXPECT_EQ(made.scene.at("name"), "ours");
@@ -188,7 +219,7 @@ TEST(Templates, AnyOptionsGiveASoundSceneOrARefusalThatNamesThem) {
     std::mt19937 random(19);
     for (const Template& each : catalogue()) {
         int sound = 0, refused = 0;
-        for (int k = 0; k < 40; ++k) {
+        for (int k = 0; k < 60; ++k) {
             const json options = drawn(each, random);
             SCOPED_TRACE(each.name + " " + options.dump());
             try {
@@ -224,6 +255,7 @@ TEST(Templates, CombinationsThatCloseNothingNameTheOptionToChange) {
         {"upstream_dam", {{"with_fem", true}, {"foundation_depth", 0}}, "/foundation_depth"},
         {"slope", {{"residual_ratio", 0.4}}, "/residual_ratio"},
         {"upstream_dam", {{"cell_size", 4}}, "/cell_size"},
+        {"upstream_dam", {{"clay_thickness", 8}}, "/clay_thickness"},
     };
     for (const auto& [name, options, pointer] : cases) {
         try {

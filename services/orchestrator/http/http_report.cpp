@@ -1,0 +1,131 @@
+// A run as the report that a person reads. The program `report` makes it of the folder that `breach export` would
+// write; the phases' files are linked into it, not copied.
+#include <memory>
+#include <mutex>
+
+#include "core/exchange/publish.hpp"
+#include "services/orchestrator/http/http_routes.hpp"
+#include "services/orchestrator/programs/command.hpp"
+
+namespace breach::orchestrator {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr auto longest = std::chrono::minutes(5);
+
+/// Gone with it.
+class ScratchFolder {
+  public:
+    ScratchFolder(const fs::path& scratch, const std::string& run)
+        : path_(scratch / ("report-" + run)) {
+        fs::remove_all(path_);  // of a service that was killed
+        fs::create_directories(path_);
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    const fs::path& path() const { return path_; }
+
+  private:
+    fs::path path_;
+};
+
+class Folder {
+  public:
+    Folder(const Router& router, const Service& service, const Call& call, fs::path path)
+        : router_(router), service_(service), call_(call), path_(std::move(path)) {}
+
+    void fill() {
+        const std::string& id = call_.parts[0];
+        const json run = answer("", {{"tasks", "0"}});
+        keep("run.json", run);
+        keep("study.json", run.at("study"));
+        keep("results.json", answer("/results"));
+        if (run.at("study").contains("uncertainty"))
+            for (const char* each : {"uncertainty", "envelopes"})
+                keep(std::string(each) + ".json", answer(std::string("/") + each));
+        if (const fs::path files = service_.data.run(id) / "files"; fs::exists(files))
+            fs::create_directory_symlink(fs::absolute(files), path_ / "files");
+        json page{{"next", ""}};
+        while (page.at("next").is_string()) {
+            page = answer("/tasks", {{"limit", "500"}, {"cursor", page["next"]}});
+            for (const json& each : page.at("tasks")) add_task(id, each);
+        }
+    }
+
+  private:
+    /// What the service answers to everybody; what refuses refuses the report.
+    json answer(const std::string& part,
+                const std::vector<std::pair<std::string, std::string>>& parameters = {}) const {
+        httplib::Request request;
+        request.method = "GET";
+        request.path = "/v1/runs/" + call_.parts[0] + part;
+        for (const auto& [name, value] : parameters)
+            if (!value.empty()) request.params.emplace(name, value);
+        httplib::Response response;
+        router_.answer(request, response, call_.caller);
+        json body = json::parse(response.body);
+        if (response.status >= 300)
+            throw Problem{response.status, body.at("type"), body.at("title"), body.at("detail")};
+        return body;
+    }
+
+    void keep(const std::string& name, const json& content) const {
+        exchange::publish_text(path_ / name,
+                               content.dump(-1, ' ', false, json::error_handler_t::replace));
+    }
+
+    void add_task(const std::string& run, const json& task) const {
+        const std::string label = task.at("label");
+        const fs::path here = path_ / "tasks" / label;
+        fs::create_directories(here);
+        keep("tasks/" + label + "/task.json", task);
+        for (const json& each : task.at("artifacts")) {
+            const fs::path name = each.at("name").get<std::string>();
+            fs::create_directories((here / name).parent_path());
+            fs::create_symlink(fs::absolute(service_.data.output(run, label) / name), here / name);
+        }
+    }
+
+    const Router& router_;
+    const Service& service_;
+    const Call& call_;
+    fs::path path_;
+};
+
+/// The program that was installed with this one.
+fs::path report_program() { return fs::canonical("/proc/self/exe").parent_path() / "report"; }
+
+void send_report(const Router& router, const Service& service, Call& call) {
+    call.allow_parameters({});
+    const Run run = wanted_run(service, call.parts[0]);
+    const ScratchFolder scratch(service.data.scratch(), run.id);
+    Folder(router, service, call, scratch.path()).fill();
+    const fs::path page = scratch.path() / "report.html";
+    const CommandResult made =
+        run_command({report_program(), scratch.path(), "--output", page, "--alone"}, "", longest);
+    if (made.exit_code != 0)
+        throw Problem{409, "/problems/nothing-to-report", "Nothing to report",
+                      made.err.empty() ? "the program report was stopped" : made.err};
+    call.response.set_header("Content-Disposition",
+                             "attachment; filename=\"" + run.id + "-report.html\"");
+    call.response.set_content(whole_text(page), "text/html; charset=utf-8");
+}
+
+}  // namespace
+
+void add_report_routes(Router& router, Service& service) {
+    const auto one_at_a_time = std::make_shared<std::mutex>();  // each takes a core and much memory
+    router.get("/v1/runs/{id}/report", [&router, &service, one_at_a_time](Call& call) {
+        const std::lock_guard lock(*one_at_a_time);
+        send_report(router, service, call);
+    });
+}
+
+}  // namespace breach::orchestrator
