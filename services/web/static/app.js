@@ -180,7 +180,7 @@ async function show_open_run(listed) {
     cost.show(run, rows, variants_of(run));
     // One part that fails must not hide the others.
     const parts = await Promise.allSettled([
-        top, arrives(tasks.show(run), "tasks", "runouts", "cost"), arrives(uncertainty.show(run, rows).then(show_answer), "uncertainty"),
+        top, arrives(motions.show(run), "motions"), arrives(tasks.show(run), "tasks", "runouts", "cost"), arrives(uncertainty.show(run, rows).then(show_answer), "uncertainty"),
         arrives(telemetry.show(run, governing.row), "telemetry"), arrives(particles.show(run, governing.row?.mpm_task), "particles"),
     ]);
     const broken = parts.find((part) => part.status === "rejected");
