@@ -148,14 +148,15 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
                         " heights upstream of the crest, and from " + text_of(enough_heights, 2) +
                         " on Mochikoshi's runout changed by less than 5 %",
                     "/section/regions"};
-    return Flag{"upstream_wall", Severity::questionable,
-                fact +
-                    ": the section is too short, soil that would have followed is missing, and "
-                    "the runout is too short (unsafe); draw the section and begin domain_x " +
-                    text_of(std::ceil(enough_heights * H - pond)) +
-                    " m farther upstream: from " + text_of(enough_heights, 2) +
-                    " heights upstream of the crest on Mochikoshi's runout changed by less than 5 %",
-                "/section/regions"};
+    return Flag{
+        "upstream_wall", Severity::questionable,
+        fact +
+            ": the section is too short, soil that would have followed is missing, and "
+            "the runout is too short (unsafe); draw the section and begin domain_x " +
+            text_of(std::ceil(enough_heights * H - pond)) + " m farther upstream: from " +
+            text_of(enough_heights, 2) +
+            " heights upstream of the crest on Mochikoshi's runout changed by less than 5 %",
+        "/section/regions"};
 }
 
 }  // namespace

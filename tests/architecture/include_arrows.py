@@ -41,10 +41,11 @@ arrows = {
     "services/templates": {"core/fault", "core/geometry", "core/motion", "core/scene", "core/words"},
     "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
-    "services/findings": {"core/fault", "core/phases", "core/words"},
+    "services/findings": {"core/fault", "core/phases", "core/statistics", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
-    "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
+    "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
+    "services/verify": {"services/report", "core/check", "core/exchange", "core/fault", "core/phases", "core/words"},
     "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
@@ -59,7 +60,7 @@ floors = {
 }
 # room -> what of it others may include: the rest is its own affair
 doors = {"services/import": ["services/import/import"],
-         "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question"]}
+         "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question", "services/report/chart/document", "services/report/chart/page"]}
 # units that are one thing in several files: a door that its own parts include
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|beds|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]

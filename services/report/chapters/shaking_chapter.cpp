@@ -151,9 +151,11 @@ std::string end_of(const PhaseFolder& fem) {
 
 /// What happens when, and when in the paper; nothing where nothing is known.
 std::optional<Figure> timeline_of(const Material& from) {
-    std::vector<PaperValue> events{{"window_lower", "window of transfer times opens", "s", 0.0},
-                                   {"window_upper", "window closes", "s", 0.0},
-                                   {"time_entangled", "mesh entangles", "s", 0.0}};
+    std::vector<PaperValue> events;
+    for (const auto& [title, key] : {std::pair{"window of transfer times opens", "window_lower"},
+                                     {"window closes", "window_upper"},
+                                     {"mesh entangles", "time_entangled"}})
+        events.push_back({key, title, "s", 0.0});
     if (from.paper) events = from.paper->values;
     Figure figure{"timeline",
                   {"What happens when", {"time [s]"}, {"", Scale::linear, {"here"}}, {}},

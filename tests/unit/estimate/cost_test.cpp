@@ -128,7 +128,8 @@ TEST(Cost, OfLimitEquilibriumIsWithinTwoOfWhatItTook) {
     expect(shipped("slope", {R"(/lem/tension_crack={"depth":2})"}), 0.562);
     expect(shipped("slope", {R"(/lem/sensitivity={"surface":"searched"})"}), 0.640);
     expect(shipped("slope", {R"(/lem/non_circular={"vertices":13})"}), 0.494);
-    expect(scene::read_scene(BREACH_ROOT "/workflows/verification/catalogue/lem/acads_4.json"), 0.587);
+    expect(scene::read_scene(BREACH_ROOT "/workflows/verification/catalogue/lem/acads_4.json"),
+           0.587);
     expect(shipped("mochikoshi", {R"(/lem/sensitivity={"surface":"searched"})"}), 5.735);
 }
 
