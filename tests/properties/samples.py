@@ -81,7 +81,7 @@ def uncertain(draw):
             }
         ]
         parameters[0]["factor_on"] = ["/materials/base_soil/density"]
-    block = draw(st.sampled_from([3, 4, 5]))
+    block = 6 if correlated else draw(st.sampled_from([3, 4, 5]))  # fewer are refused
     count = block * draw(st.sampled_from([1] if by_trigger else [1, 2, 4] if of_lem else [1, 2]))
     study["uncertainty"] = {
         "quantity": quantity,

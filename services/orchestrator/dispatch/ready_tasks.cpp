@@ -36,6 +36,7 @@ std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
 
 bool ReadyTasks::leave_to_the_cache(const Task& task) {
     if (in_the_cache_.contains(task.id)) return true;
+    if (!task.recipe) return false;  // a breakdown that is tried again has lost it
     const auto looked_up = not_cached_.find(task.id);
     const bool asks = looked_up == not_cached_.end()
                           ? cache_.may_answer(task)

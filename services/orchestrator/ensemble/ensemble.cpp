@@ -37,8 +37,9 @@ const ResultColumn& column_named(std::string_view name) {
 
 std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) {
     const auto study = store.study_of(run);
-    if (!study || !study->contains("uncertainty")) return std::nullopt;
-    Ensemble ensemble{*store.run(run), study->at("uncertainty"), {}};
+    auto about = store.run(run);  // which may be removed at any moment
+    if (!study || !study->contains("uncertainty") || !about) return std::nullopt;
+    Ensemble ensemble{std::move(*about), study->at("uncertainty"), {}};
     std::map<std::string, ResultRow> rows;
     for (ResultRow& each : store.results(run))
         rows.emplace(value_of(each, "variant").get<std::string>(), std::move(each));

@@ -34,7 +34,8 @@ std::vector<Task> Store::answers_to(const std::string& recipe, const std::string
          reader()->texts("SELECT id FROM tasks WHERE recipe=? AND input_sha256=? AND " +
                              is_an_answer + " ORDER BY id DESC LIMIT ?",
                          {recipe, input_sha256, static_cast<std::int64_t>(most)}))
-        found.push_back(*task(id));
+        if (auto answer = task(id))
+            found.push_back(std::move(*answer));  // else its run was removed meanwhile
     return found;
 }
 
