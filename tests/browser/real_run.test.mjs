@@ -219,7 +219,7 @@ test("a number is traced to its files, and the files are what they are said to b
     const points = transfer.artifacts.find((file) => file.name === "particles.vtkhdf");
     const mpm = page.locator("#provenance .step").first();
     assert.ok((await mpm.locator("li code").allTextContents()).includes(points.sha256), "the MPM's input is the transfer's output");
-    await mpm.locator("summary").click();
+    await mpm.locator("summary", { hasText: "files with their hashes" }).click();
     const file = await mpm.locator('a[download="result.json"]').getAttribute("href");
     assert.equal((await answer_of(file)).runout, row.runout);
     await page.keyboard.press("Escape");

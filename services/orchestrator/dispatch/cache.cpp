@@ -40,10 +40,8 @@ Cache::Cache(Store& store, const DataFolder& data, std::function<void(LookedUp)>
 bool Cache::may_answer(const Task& task) const { return task.recipe && store_.has_candidate(task); }
 
 bool Cache::has_changed_since(const LookedUp& earlier, const Task& task) const {
-    // What broke down and is retried has lost its recipe since.
-    return task.recipe &&
-           store_.answers_to(*task.recipe, earlier.input_sha256, most_candidates).size() !=
-               earlier.answers;
+    return store_.answers_to(*task.recipe, earlier.input_sha256, most_candidates).size() !=
+           earlier.answers;
 }
 
 void Cache::examine(Task task) { queue_.add(std::move(task)); }

@@ -38,7 +38,12 @@ void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
         canvas.svg << shape(path_of(canvas.panel, part) + "Z",
                             stroke(dark_red, 1.3, "class=\"liquefaction\"" + dash));
         const geometry::Box box = geometry::bounding_box(part);
-        const Vec2 inside = canvas.panel.inside(0.5 * (box.low + box.high));
+        // side by side, as layers may be thinner than a numeral
+        const double along =
+            0.5 + 0.06 * (static_cast<double>(i) - 0.5 * static_cast<double>(layers.size() - 1));
+        const Vec2 middle{box.low.x() + along * (box.high.x() - box.low.x()),
+                          0.5 * (box.low.y() + box.high.y())};
+        const Vec2 inside = canvas.panel.inside(middle);
         canvas.labels.write(canvas.over, canvas.panel.at(inside), std::to_string(i + 1), dark_red);
     }
     canvas.keys.push_back(line_key(

@@ -94,14 +94,15 @@ TEST(Drawn, ARegionFarFromTheOthersNeedsASupportOfItsOwn) {
 
 TEST(Drawn, AFreeFieldColumnNeedsAVerticalSideWithoutSupports) {
     expect_only(
-        changed("mochikoshi",
-                {R"(/fem/supports/1={"name":"left","from":[-40,-5],"to":[-40,29.4],"fixes":"x"})"}),
+        changed(
+            "mochikoshi",
+            {R"(/fem/supports/1={"name":"left","from":[-207.5,-5],"to":[-207.5,29.4],"fixes":"x"})"}),
         "/fem/supports/1", "where a free-field column stands");
     const Checked slanted = changed(
-        "mochikoshi",
-        {"/section/regions/0/polygon=[[-40,-5],[280,-5],[281,-2],[280,0],[220,0],[133,0],[-40,0],"
-         "[-40,-5]]",
-         "/section/regions/0/mesh={\"type\":\"unstructured\"}"});
+        "mochikoshi", {"/section/regions/0/"
+                       "polygon=[[-207.5,-5],[280,-5],[281,-2],[280,0],[220,0],[133,0],[-207.5,0],"
+                       "[-207.5,-5]]",
+                       "/section/regions/0/mesh={\"type\":\"unstructured\"}"});
     EXPECT_TRUE(has_fault(slanted, "/fem/free_field", "not one vertical line"))
         << told(slanted.faults);
 }
@@ -230,12 +231,12 @@ TEST(Drawn, LoadsThatEndAtTheTransferAreTold) {
 TEST(Drawn, AnUpstreamEndThatOnlyTheFemHoldsIsTold) {
     EXPECT_FALSE(has_warning(changed("mochikoshi", {}), "free_upstream_end", "/mpm/domain_x"));
     const Checked open =
-        changed("mochikoshi", {"/mpm/domain_x=[-80.5, 659.5]", "/mpm/floor/friction/0/from=-80.5"});
+        changed("mochikoshi", {"/mpm/domain_x=[-248, 692]", "/mpm/floor/friction/0/from=-248"});
     EXPECT_TRUE(open.faults.empty()) << told(open.faults);
     EXPECT_TRUE(has_warning(open, "free_upstream_end", "/mpm/domain_x"));
     const Checked held =
-        changed("mochikoshi", {"/mpm/domain_x=[-80.5, 659.5]", "/mpm/floor/friction/0/from=-80.5",
-                               "/mpm/terrain=[[-80.5,29.4],[-41,29.4],[-40.5,-6],[659.5,-6]]"});
+        changed("mochikoshi", {"/mpm/domain_x=[-248, 692]", "/mpm/floor/friction/0/from=-248",
+                               "/mpm/terrain=[[-248,29.4],[-208.5,29.4],[-208,-6],[692,-6]]"});
     EXPECT_FALSE(has_warning(held, "free_upstream_end", "/mpm/domain_x"));
 }
 
