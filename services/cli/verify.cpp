@@ -1,6 +1,7 @@
 #include "services/cli/verify.hpp"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "services/cli/table.hpp"
