@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/scene/beds.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
