@@ -80,7 +80,7 @@ std::string ServeOptions::explained(const CLI::ConfigError& error, const CLI::Ap
                                     const CLI::App& serving) {
     const std::string said = error.what();
     const std::string key = said.substr(said.find_last_of(" .") + 1);  // "... parse serve.slotz"
-    const std::string file = program.get_config_ptr()->as<std::string>();
+    const auto file = program.get_config_ptr()->as<std::string>();
     std::ifstream settings(file);
     std::string line;
     std::size_t number = 1;
