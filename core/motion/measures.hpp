@@ -1,6 +1,7 @@
 // What engineers measure a motion by.
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
@@ -32,5 +33,19 @@ struct Measures {
 
 Measures measures_of(const Series& acceleration);
 nlohmann::json as_json(const Measures& measures);
+
+/// A number of as_json.
+struct NamedMeasure {
+    const char* name;  ///< its entry
+    const char* title;
+    const char* unit;
+};
+inline constexpr std::array named_measures{NamedMeasure{"pga_g", "PGA", "g"},
+                                           NamedMeasure{"pgv", "PGV", "m/s"},
+                                           NamedMeasure{"pgd", "PGD", "m"},
+                                           NamedMeasure{"arias", "Arias intensity", "m/s"},
+                                           NamedMeasure{"strong_duration", "D5-95", "s"},
+                                           NamedMeasure{"cav", "CAV", "m/s"},
+                                           NamedMeasure{"masi", "MASI", "m/s"}};
 
 }  // namespace breach::motion

@@ -48,7 +48,7 @@ struct Measured {
     json measures;
 };
 
-/// Records of a folder by name; what is none is told and left out.
+/// The records of a folder, sorted by name. A file that is no record is named and left out.
 std::vector<Measured> records_in(const MotionWish& wish, const Console& console) {
     std::vector<std::filesystem::path> files;
     for (const auto& each : std::filesystem::directory_iterator(wish.file))

@@ -5,23 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "core/motion/measures.hpp"
 #include "core/statistics/importance.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::findings {
 
 using nlohmann::json;
-
-const std::vector<MotionMeasure>& motion_measures() {
-    static const std::vector<MotionMeasure> all{{"pga_g", "PGA", "g"},
-                                                {"pgv", "PGV", "m/s"},
-                                                {"pgd", "PGD", "m"},
-                                                {"arias", "Arias intensity", "m/s"},
-                                                {"strong_duration", "D5-95", "s"},
-                                                {"cav", "CAV", "m/s"},
-                                                {"masi", "MASI", "m/s"}};
-    return all;
-}
 
 namespace {
 
@@ -214,8 +204,8 @@ json row_of(const Shaken& each) {
              {"liquefaction_depth", each.liquefaction_depth},
              {"runout", each.runout ? json(*each.runout) : json()},
              {"lower_bound", each.lower_bound}};
-    for (std::size_t m = 0; m < motion_measures().size(); ++m)
-        row[motion_measures()[m].name] = each.measures[m];
+    for (std::size_t m = 0; m < motion::named_measures.size(); ++m)
+        row[motion::named_measures[m].name] = each.measures[m];
     return row;
 }
 
@@ -227,8 +217,8 @@ json motions_of(const std::vector<Shaken>& shaken) {
     const auto runout = [](const Shaken& each) { return *each.runout; };
     json found{{"rows", json::array()}, {"measures", json::array()}, {"best", nullptr}};
     for (const Shaken& each : shaken) found["rows"].push_back(row_of(each));
-    for (std::size_t m = 0; m < motion_measures().size(); ++m) {
-        const MotionMeasure& measure = motion_measures()[m];
+    for (std::size_t m = 0; m < motion::named_measures.size(); ++m) {
+        const motion::NamedMeasure& measure = motion::named_measures[m];
         const auto own = [m](const Shaken& each) { return each.measures[m]; };
         json entry{{"name", measure.name},
                    {"title", measure.title},

@@ -12,20 +12,12 @@ namespace breach::findings {
 /// A FEM and what came of it.
 struct Shaken {
     std::string variant;
-    std::vector<double> measures;  ///< of the input, in the order of motion_measures
+    std::vector<double> measures;  ///< of the input, in the order of motion::named_measures
     double liquefaction_depth;     ///< largest [m]
     std::optional<double> runout =
         {};                    ///< beyond the toe, the largest of its runouts; 0: the dam stood [m]
     bool lower_bound = false;  ///< of the runout
 };
-
-struct MotionMeasure {
-    const char* name;  ///< in the FEM's result, /motions/input
-    const char* title;
-    const char* unit;
-};
-
-const std::vector<MotionMeasure>& motion_measures();
 
 /// Fewer say nothing.
 inline constexpr std::size_t fewest_motions = 5;

@@ -41,7 +41,7 @@ arrows = {
     "services/templates": {"core/fault", "core/geometry", "core/motion", "core/scene", "core/words"},
     "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
-    "services/findings": {"core/fault", "core/phases", "core/statistics", "core/words"},
+    "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},

@@ -245,7 +245,7 @@ def uncertainty_differences(study, run, told):
         counted = [row for row in rows if row[name] is not None]
         if not counted:
             if name in told["quantities"]:
-                found.append(f"{name} is told of no result")
+                found.append(f"{name} has statistics, and no sample has a result")
             continue
         drawn = {
             each["name"]: [row["values"][each["name"]] for row in counted]

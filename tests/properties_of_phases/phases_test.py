@@ -93,7 +93,7 @@ def check_set(phase, scene, base, generator, folder):
 
 
 def check_stops(phase, scene, base, generator, folder):
-    """Stopped at any step, at most three times, and resumed. Where it stopped goes by the clock, not by the seed."""
+    """Stopped at any step, at most three times, and resumed. The clock decides where it stops, not the seed."""
     answer, stops = run_with_stops(phase, scene, folder / "other", [generator.choice([0, 0.002, 0.01]) for _ in range(3)])
     claim_same_bits(base, answer)
     return stops > 0

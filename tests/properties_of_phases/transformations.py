@@ -69,7 +69,7 @@ def shifted(scene, random):
 
 
 def mirrored(scene, random):
-    """Left to right. The MPM measures its runout to the right: numbers_of goes by the points, and the toe is the other side's."""
+    """Mirrored. The MPM measures its runout to the right, so numbers_of reads the points, and the toe is that of the other side."""
     made = with_places(scene, lambda x: -x, lambda y: y)
     for path in ["lem/water/line", "lem/floor", "fem/water/line", "lem/search/entry", "lem/search/exit", "mpm/domain_x",
                  "mpm/floor/friction"]:

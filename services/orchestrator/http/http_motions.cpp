@@ -1,5 +1,6 @@
 #include <map>
 
+#include "core/motion/measures.hpp"
 #include "core/phases/phases.hpp"
 #include "services/findings/motions.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -20,7 +21,7 @@ std::optional<findings::Shaken> shaken_by(const Task& fem) {
     findings::Shaken found{.variant = fem.variant,
                            .measures = {},
                            .liquefaction_depth = result.value("largest_liquefaction_depth", 0.0)};
-    for (const findings::MotionMeasure& each : findings::motion_measures())
+    for (const motion::NamedMeasure& each : motion::named_measures)
         found.measures.push_back(input.at(each.name));
     return found;
 }
@@ -34,9 +35,8 @@ std::vector<findings::Shaken> shaken_in(const Store& store, const std::string& r
             if (auto found = shaken_by(task)) by_fem.emplace(id, std::move(*found));
     for (const ResultRow& row : store.results(run)) {
         const json& runout = value_of(row, "runout_beyond_toe");
-        const auto transfer = tasks.find(value_of(row, "transfer_task").is_string()
-                                             ? value_of(row, "transfer_task").get<std::string>()
-                                             : "");
+        const json& made_by = value_of(row, "transfer_task");
+        const auto transfer = made_by.is_string() ? tasks.find(made_by) : tasks.end();
         if (!runout.is_number() || transfer == tasks.end()) continue;
         const auto fem = by_fem.find(transfer->second.parent.value_or(""));
         if (fem == by_fem.end() || fem->second.runout >= runout.get<double>()) continue;

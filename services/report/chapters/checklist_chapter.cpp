@@ -57,6 +57,7 @@ class Checklist {
   public:
     explicit Checklist(const Material& from)
         : run_(from.run),
+          has_element_tests_(!from.choice.element_tests.empty()),
           lem_(phase_named(run_, phases::lem.program)),
           fem_(phase_shown(run_, phases::fem.program)),
           mpm_(farthest_runout(run_)) {}
@@ -69,7 +70,10 @@ class Checklist {
         ask("What damps, and how much does it carry?", damping());
         ask("Which stresses does it begin with?", initial_stress());
         ask("Does pore water flow?", water());
-        ask("Was the soil calibrated on elements?", calibration_);
+        ask("Was the soil calibrated on elements?",
+            has_element_tests_
+                ? "see the chapter on element tests"
+                : "not shown here: --element-tests FOLDER adds the laboratory's curves");
         ask("Which motion, and how many?", motion());
         ask("What gives softening its length?", softening());
         ask("Why was it transferred when it was?", transfer());
@@ -93,7 +97,7 @@ class Checklist {
                (at(lem_->result, "/critical_depth").is_number()
                     ? ", critical depth " + three_digits(lem_->result, "/critical_depth") + " m"
                     : "") +
-               flagged(run_, {"bound_raises_factor", "does_not_stand"});
+               flagged(run_, {"bound_raises_factor"});
     }
     std::string mesh() const {
         if (!fem_ || !fem_->result.is_object()) return "";
@@ -176,8 +180,7 @@ class Checklist {
             text += (text.empty() ? "" : "; ") + each.value("name", each.value("kind", ""));
         const std::size_t times = study.value("transfer_times", json::array()).size();
         if (times > 0) text += (text.empty() ? "" : "; ") + std::to_string(times) + " given times";
-        return (text.empty() ? "not known: the run has no study" : text) +
-               flagged(run_, {"early_transfer"});
+        return (text.empty() ? "not known: the run has no study" : text);
     }
     std::string runout() const {
         if (!mpm_) return "";
@@ -197,6 +200,7 @@ class Checklist {
     }
 
     const Run& run_;
+    bool has_element_tests_;
     const PhaseFolder* lem_;
     const PhaseFolder* fem_;
     const PhaseFolder* mpm_;
@@ -206,21 +210,13 @@ class Checklist {
                  {},
                  "After the subjects of Boulanger & Beaty (2016) and USSD (2022). Of several "
                  "analyses, the one that is shown; of runouts, the farthest."};
-
-  public:
-    std::string calibration_;
 };
 
 }  // namespace
 
 void add_checklist(const Material& from, Document& document) {
-    Checklist checklist(from);
-    checklist.calibration_ =
-        from.choice.element_tests.empty()
-            ? "not shown here: --element-tests FOLDER adds the laboratory's curves"
-            : "see the chapter on element tests";
     Chapter chapter{"What a reviewer asks"};
-    chapter.tables.push_back(checklist.table());
+    chapter.tables.push_back(Checklist(from).table());
     document.chapters.push_back(std::move(chapter));
 }
 

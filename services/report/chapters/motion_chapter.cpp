@@ -116,26 +116,15 @@ std::vector<Figure> figures_of(const motion::Series& a) {
 
 /// What was measured where, as the FEM's result has it.
 Table measures_table(const json& motions) {
-    struct Row {
-        const char* title;
-        const char* key;
-    };
-    constexpr std::array rows{Row{"PGA [g]", "pga_g"},
-                              Row{"PGV [m/s]", "pgv"},
-                              Row{"PGD [m]", "pgd"},
-                              Row{"Arias intensity [m/s]", "arias"},
-                              Row{"D5-95 [s]", "strong_duration"},
-                              Row{"CAV [m/s]", "cav"},
-                              Row{"MASI [m/s]", "masi"}};
     Table table{"motions", "What the motion is measured by", {""}, {}};
     table.caption =
         "PGD with the baseline corrected; MASI: integral of the 5 % pseudo-acceleration over "
         "periods of 0.1 to 2 s. The crest's is until the analysis ended.";
     for (const auto& [place, all] : motions.items()) table.columns.push_back(place);
-    for (const Row& each : rows) {
-        table.rows.push_back({each.title});
+    for (const motion::NamedMeasure& each : motion::named_measures) {
+        table.rows.push_back({std::string(each.title) + " [" + each.unit + "]"});
         for (const auto& [place, all] : motions.items())
-            table.rows.back().push_back(rounded(all.at(each.key), 3));
+            table.rows.back().push_back(rounded(all.at(each.name), 3));
     }
     return table;
 }
