@@ -55,6 +55,7 @@ def main(folder):
         check("Python has it, from both", breachline.run(run, service.url).motions == found == breachline.run(folder / "run").motions)
         subprocess.run([programs / "report", folder / "run", "--output", folder / "page.html"], check=True, capture_output=True)
         page = (folder / "page.html").read_text()
+        check("the report over REST has it", found["sentences"][0] in service.text(f"/v1/runs/{run}/report"))
         check("the report has it", "Several motions" in page and found["sentences"][0] in page)
     finally:
         service.stop()

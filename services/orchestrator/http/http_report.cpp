@@ -50,6 +50,7 @@ class Folder {
         if (run.at("study").contains("uncertainty"))
             for (const char* each : {"uncertainty", "envelopes"})
                 keep(std::string(each) + ".json", answer(std::string("/") + each));
+        keep_motions();
         if (const fs::path files = service_.data.run(id) / "files"; fs::exists(files))
             fs::create_directory_symlink(fs::absolute(files), path_ / "files");
         json page{{"next", ""}};
@@ -74,6 +75,15 @@ class Folder {
         if (response.status >= 300)
             throw Problem{response.status, body.at("type"), body.at("title"), body.at("detail")};
         return body;
+    }
+
+    /// Of a study of several motions; any other has none.
+    void keep_motions() const {
+        try {
+            keep("motions.json", answer("/motions"));
+        } catch (const Problem& none) {
+            if (none.status != 404) throw;
+        }
     }
 
     void keep(const std::string& name, const json& content) const {
