@@ -39,6 +39,8 @@ const Soil foundation{"foundation", 2000, 0.6, 1e-6, 0.75, 890, 0.63, 20, 36, 20
 
 /// Of the weak layer; its strength is an option.
 const Soil clay{"clay", 1800, 1.0, 1e-9, 0, 0, 0, 0, 0, 0, 0, 20, 0.49};
+/// Their strength comes from slimes_ratio and residual_ratio.
+const Soil slimes{"slimes", 1700, 1.4, 1e-9, 0, 0, 0, 0, 28, 0, 0, 10, 0.49};
 const Soil rockfill{"rockfill", 2100, 0.4, 1e-3, 0.75, 890, 0.63, 0, 42, 0, 42, 80, 0.3};
 
 double millimetres(double value) { return std::round(value * 1e3) / 1e3; }
@@ -124,21 +126,38 @@ std::string name_of(const std::string& whole, int layer, int piece) {
            (piece > 0 ? "_" + std::to_string(piece + 1) : "");
 }
 
+/// The lower end of the foundation, which is level and foundation_depth below the ground's lowest.
+double base_of(const Values& values) {
+    return std::min(0.0, Terrain(values).at(values["foundation_extent"])) -
+           values["foundation_depth"];
+}
+
 std::vector<Region> regions_of(const Values& values, const Outline& outline, const Soil& wet) {
     std::vector<Part> parts;
     std::vector<int> layers;
     if (values["foundation_depth"] > 0.0) {
-        const double right = values["foundation_extent"], depth = values["foundation_depth"];
-        const auto stratum = [&](const std::string& soil, double bottom, double top) {
-            if (top <= bottom) return;
-            parts.push_back(
-                {soil,
-                 soil,
-                 {{outline.left, bottom}, {right, bottom}, {right, top}, {outline.left, top}}});
+        const double right = values["foundation_extent"];
+        const Terrain terrain(values);
+        // From the right to the left, so many metres below the ground.
+        const auto below_ground = [&](double depth) {
+            Line line{{right, terrain.at(right) - depth}};
+            if (!terrain.is_level()) line.push_back({0.0, -depth});
+            line.push_back({outline.left, terrain.at(outline.left) - depth});
+            return line;
+        };
+        const auto stratum = [&](const std::string& soil, Line bottom, double depth_of_top) {
+            const Line top = below_ground(depth_of_top);
+            bottom.insert(bottom.end(), top.begin(), top.end());
+            parts.push_back({soil, soil, bottom});
             layers.push_back(0);
         };
-        stratum("foundation", -depth, -values["clay_thickness"]);
-        stratum("clay", -values["clay_thickness"], 0.0);
+        const double clay = values["clay_thickness"], bottom = base_of(values);
+        stratum("foundation", {{outline.left, bottom}, {right, bottom}}, clay);
+        if (clay > 0.0) {
+            Line base = below_ground(clay);
+            std::ranges::reverse(base);
+            stratum("clay", base, 0.0);
+        }
     }
     for (const Part& part : outline.parts) {
         if (part.name != outline.wet) {
@@ -277,9 +296,41 @@ Json weak_layer(const Context& all) {
     return material;
 }
 
+/// The phases that take profiles have the strength by stress; the finite elements, that have not,
+/// its mean.
+Json slimes_of(const Context& all, bool in_elements) {
+    Json material{
+        {"notes",
+         {"assumed: slimes of density 1700 kg/m3, undrained: slimes_ratio sigma'_v0, softening to "
+          "residual_ratio sigma'_v0"}},
+        {"density", slimes.density},
+        {"viscosity", 1000},
+        {"void_ratio", slimes.void_ratio},
+        {"permeability", {slimes.permeability, slimes.permeability}}};
+    const auto share = [&](const char* option) {
+        return Json{{"type", "undrained_ratio"}, {"ratio", all.values[option]}, {"minimum_kPa", 1}};
+    };
+    material["law"] = {{"type", "mohr_coulomb"}, {"E_MPa", slimes.E_MPa}, {"nu", slimes.nu}};
+    if (in_elements) {
+        Sum sum;
+        for (const Region& each : all.regions)
+            if (each.part.name == "slimes")
+                add(sum, each.part.polygon, all.outline, slimes.density, all.outline.left);
+        material["law"]["c_kPa"] =
+            rounded(all.values["slimes_ratio"] * sum.stress_area / sum.area);
+        material["law"]["phi_deg"] = 0;
+        return material;
+    }
+    material["strength"] = {{"peak", share("slimes_ratio")},
+                            {"residual", share("residual_ratio")},
+                            {"softening", {{"epsilon_q_start", 0.02}, {"epsilon_q_end", 0.2}}}};
+    return material;
+}
+
 Json materials_at_rest(const Context& all) {
     Json materials;
     if (has(all, "clay")) materials["clay"] = weak_layer(all);
+    if (has(all, "slimes")) materials["slimes"] = slimes_of(all, false);
     if (has(all, "rockfill")) materials["rockfill"] = frictional(rockfill, strength_note(rockfill));
     if (has(all, "embankment")) {
         materials["embankment"] = frictional(embankment, strength_note(embankment));
@@ -307,6 +358,10 @@ Json materials_shaken(const Context& all) {
             materials[soil.name + "_runout"]["notes"].push_back(breaking_note(soil));
     };
     if (has(all, "clay")) materials["clay"] = materials["clay_runout"] = weak_layer(all);
+    if (has(all, "slimes")) {
+        materials["slimes"] = slimes_of(all, true);
+        materials["slimes_runout"] = slimes_of(all, false);
+    }
     if (has(all, "rockfill")) both(rockfill);
     if (has(all, "embankment")) both(embankment);
     both(all.wet);
@@ -350,7 +405,10 @@ Json stability_of(const Context& all) {
         {"notes",
          {"surfaces less deep than a quarter of the height are left out: a slip in the face is no "
           "breach",
-          "phreatic line: Dupuit's parabola from the pond (assumed: steady flow over a tight base)",
+          all.values.or_none("piezometer_depth") > 0.0
+              ? "phreatic line: straight from the pond through the piezometer to its exit"
+              : "phreatic line: Dupuit's parabola from the pond (assumed: steady flow over a tight "
+                "base)",
           all.with_fem ? "residual strengths: residual_ratio times sigma'_v0 of every slice"
                        : "residual strengths: those of the layers in the runout"}}};
     lem["search"] = {{"entry", {millimetres(back), millimetres(outline.crest.x() + 0.75 * face)}},
@@ -374,7 +432,7 @@ Json stability_of(const Context& all) {
 
 Json fem_of(const Context& all) {
     const Values& values = all.values;
-    const double bottom = -values["foundation_depth"];
+    const double bottom = base_of(values);
     const Outline& outline = all.outline;
     Json fem{
         {"notes",
@@ -449,10 +507,13 @@ Json transfer_of(const Context& all) {
 Json runout_of(const Context& all) {
     const Values& values = all.values;
     const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
+    const Terrain terrain(values);
     // The FEM's sides sway: room for them.
     const double left = nanometres(all.outline.left) - (all.with_fem ? 0.25 * h : 0.0);
     const double columns = std::ceil((values["runout_extent"] - left) / h);
-    const double below = depth > 0.0 ? std::ceil((depth + h) / h) : 0.0;
+    const double lowest = std::min(depth > 0.0 ? base_of(values) : 0.0,
+                                   terrain.at(left + columns * h));
+    const double below = lowest < 0.0 ? std::ceil((h - lowest) / h) : 0.0;
     const double above = std::ceil(1.15 * H / h);
     const double right = left + columns * h, floor = -below * h;
     Json mpm{{"notes",
@@ -467,10 +528,14 @@ Json runout_of(const Context& all) {
     mpm["floor"] = {{"level", floor},
                     {"friction", {{{"from", left}, {"to", right}, {"coefficient", 0.5}}}}};
     if (depth > 0.0)
-        mpm["terrain"] = {{left - h, nanometres(-depth)},
-                          {end + 0.2 * h, nanometres(-depth)},
-                          {end + 0.4 * h, 0.0},
-                          {right, 0.0}};
+        mpm["terrain"] = {{left - h, nanometres(base_of(values))},
+                          {end + 0.2 * h, nanometres(base_of(values))},
+                          {end + 0.4 * h, nanometres(terrain.at(end + 0.4 * h))},
+                          {right, nanometres(terrain.at(right))}};
+    else if (!terrain.is_level())
+        mpm["terrain"] = {{left - h, nanometres(terrain.at(left - h))},
+                          {0.0, 0.0},
+                          {right, nanometres(terrain.at(right))}};
     mpm["fill_points"] = 4;
     if (!all.with_fem) mpm["fill_stress"] = "overburden";
     mpm["overlap_correction"] = {{"rate", 5}};
@@ -509,7 +574,7 @@ Json scene_of(const Values& values, const Outline& outline, const std::string& n
         "what is marked as assumed stands for no site: put your own values there"};
     scene["materials"] = all.with_fem ? materials_shaken(all) : materials_at_rest(all);
     for (Json& material : scene["materials"])
-        if (material.at("law").contains("softening"))
+        if (material.at("law").contains("softening") || material.contains("strength"))
             material["nonlocal_length"] = 2.0 * values["cell_size"];
     scene["section"] = section_of(all);
     scene["lem"] = stability_of(all);
@@ -542,7 +607,7 @@ Json study_of(const Values& values, const Json& scene) {
     for (const Json& each : scene.at("section").at("regions")) {
         const std::string material = each.at("material");
         const Json& law = scene.at("materials").at(material).at("law");
-        if (law.value("phi_deg", 1.0) != 0.0) continue;
+        if (law.value("phi_deg", 1.0) != 0.0 || material == "clay") continue;
         const double peak = rounded(law.at("c_kPa").get<double>() * values["peak_ratio"] /
                                     values["residual_ratio"]);
         const std::string override =

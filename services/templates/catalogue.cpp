@@ -61,6 +61,22 @@ Options foundation_options() {
     };
 }
 
+/// Of the dams.
+Options site() {
+    return {
+        ratio("valley_slope", 0, 0.2, 0, "rise of the ground upstream of the toe, metres per metre"),
+        ratio("ground_slope", 0, 0.2, 0,
+              "fall of the ground downstream of the toe, metres per metre"),
+        length("piezometer_depth", 0, 200, 0,
+               "measured depth of the water below the crest's upstream edge; 0: Dupuit's parabola"),
+        length("slimes_distance", 0, 5000, 0,
+               "slimes begin that far behind the dam; 0: beach to the model's end"),
+        ratio("slimes_ratio", 0.05, 1, 0.22,
+              "undrained strength of the slimes over sigma'_v0 (Mesri 1989: 0.22); they soften to "
+              "residual_ratio"),
+    };
+}
+
 Options soil(double residual_ratio) {
     return {
         sized("layer_thickness", 1.0 / 6, 0.1, 100,
@@ -128,7 +144,10 @@ Template upstream() {
                  ratio("starter_slope", 1, 10, 2,
                        "downstream face of the starter dam, metres across per metre up"),
                  ratio("raise_slope", 1, 10, 3,
-                       "downstream faces of the raises, metres across per metre up"),
+                       "downstream face of the first raise, metres across per metre up"),
+                 of_type({"last_raise_slope", Kind::number, "", 1, 10, 0, "raise_slope", 1,
+                          "downstream face of the last raise; those between have slopes between"},
+                         "1"),
                  ratio("upstream_slope", 0.5, 10, 2, "upstream faces, metres across per metre up"),
                  sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
                  sized("bench_width", 1.0 / 15, 0, 50, "crest that a raise leaves free downstream"),
@@ -138,6 +157,7 @@ Template upstream() {
                         "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
              soil(0.08),
              foundation_options(),
+             site(),
              computation(),
              earthquake()})};
 }
@@ -164,6 +184,7 @@ Template downstream() {
                         "at the toe")},
              soil(0.08),
              foundation_options(),
+             site(),
              computation(),
              earthquake()})};
 }

@@ -22,9 +22,17 @@ void check(const Values& values, double at_end) {
     refusal.unless(values["freeboard"] <= 0.5 * values["height"], "freeboard",
                    "half of the dam or more would stand above the beach",
                    "give at most half of height");
-    refusal.unless(at_end >= 0.3 * values["height"], "beach_slope",
-                   "tailings at the model's end would be " + metres(at_end) + " high",
+    const bool valley = values["valley_slope"] > values["beach_slope"];
+    refusal.unless(at_end >= 0.3 * values["height"], valley ? "valley_slope" : "beach_slope",
+                   "tailings at the model's end would be " + metres(at_end) + " thick",
                    "make it flatter, lower freeboard, or shorten beach_length or pond_length");
+    refusal.speak();
+}
+
+void check_ground(const Values& values, double starter, double heel_level) {
+    Refusal refusal(values);
+    refusal.unless(heel_level < 0.5 * starter, "valley_slope",
+                   "the ground rises to the upper half of the starter dam", "make it flatter");
     refusal.speak();
 }
 
@@ -35,12 +43,15 @@ Outline downstream_dam(const Values& values) {
                  down = values["downstream_slope"], width = values["crest_width"];
     const int raises = values.whole("raises");
     const double starter = raises == 0 ? H : values["starter_height"];
-    const double heel = -(up * H + width + down * H);
+    const Terrain terrain(values);
+    const double level_heel = -(up * H + width + down * H);
+    const double heel = level_heel / (1.0 + up * terrain.rise);
     std::vector<Stage> stages;
     for (int k = 0; k <= raises; ++k) {
         const double height = k == raises ? H : starter + k * (H - starter) / raises;
-        const double edge = heel + up * height;
-        stages.push_back({height, edge, edge + width, edge + width + down * height});
+        const double edge = level_heel + up * height;
+        const double foot = edge + width + down * height;  // on level ground
+        stages.push_back({height, edge, edge + width, foot / (1.0 - down * terrain.rise)});
     }
     stages.back().toe = 0.0;
     const Stage& last = stages.back();
@@ -49,28 +60,31 @@ Outline downstream_dam(const Values& values) {
     const auto surface = [&](double x) { return contact.y() - fall * (contact.x() - x); };
     const double edge = contact.x() - values["beach_length"];
     const double left = std::min(edge - values["pond_length"], heel - 0.1 * H);
-    check(values, surface(left));
+    check(values, surface(left) - terrain.at(left));
+    check_ground(values, stages.front().height, terrain.at(heel));
 
     Outline outline;
     outline.parts.push_back({"starter_dam",
                              starter_fill(values),
-                             {{heel, 0.0},
-                              {stages[0].toe, 0.0},
+                             {{heel, terrain.at(heel)},
+                              {stages[0].toe, terrain.at(stages[0].toe)},
                               {stages[0].downstream_edge, starter},
                               {stages[0].upstream_edge, starter}}});
     for (std::size_t k = 1; k < stages.size(); ++k) {
         const Stage &before = stages[k - 1], &after = stages[k];
         outline.parts.push_back({"raise_" + std::to_string(k),
                                  "embankment",
-                                 {{before.toe, 0.0},
-                                  {after.toe, 0.0},
+                                 {{before.toe, terrain.at(before.toe)},
+                                  {after.toe, terrain.at(after.toe)},
                                   {after.downstream_edge, after.height},
                                   {after.upstream_edge, after.height},
                                   {before.upstream_edge, before.height},
                                   {before.downstream_edge, before.height}}});
     }
     outline.parts.push_back(
-        {"tailings", "tailings", {{left, 0.0}, {heel, 0.0}, contact, {left, surface(left)}}});
+        {"tailings",
+         "tailings",
+         {{left, terrain.at(left)}, {heel, terrain.at(heel)}, contact, {left, surface(left)}}});
     share_vertices(outline.parts);
     outline.ground = {{left, surface(left)},
                       contact,
@@ -82,8 +96,12 @@ Outline downstream_dam(const Values& values) {
     outline.crest_from = last.upstream_edge;
     outline.left = left;
     const double axis = last.upstream_edge + 0.5 * width;
-    outline.phreatic = drained_line({edge, surface(edge)}, values.is_on("drain") ? axis : 0.0, left,
-                                    values["foundation_extent"], outline.ground);
+    part_slimes(values, contact, heel, outline);
+    const double exit = values.is_on("drain") ? axis : 0.0;
+    Seepage flow{{edge, surface(edge)}, {exit, terrain.at(exit)}};
+    flow.measured = measured_level(values, {last.upstream_edge, H}, flow.from, flow.exit);
+    outline.phreatic =
+        phreatic_line(flow, left, values["foundation_extent"], outline.ground, terrain);
     return outline;
 }
 

@@ -34,7 +34,8 @@ Outline heap(const Values& values) {
     outline.parts = {{"heap", "soil", ring}};
     outline.wet = "heap";
     outline.phreatic =
-        drained_line({left, water}, 0.0, left, values["foundation_extent"], outline.ground);
+        phreatic_line({{left, water}, {0.0, 0.0}}, left, values["foundation_extent"], outline.ground,
+                      Terrain(values));
     return outline;
 }
 

@@ -21,6 +21,8 @@ class Values {
     /// What the template does not offer is off.
     bool is_on(const std::string& name) const { return has(name) && values_.at(name) > 0.5; }
     int whole(const std::string& name) const;
+    /// What the template does not offer is none.
+    double or_none(const std::string& name) const { return has(name) ? values_.at(name) : 0.0; }
     void set(const std::string& name, double value) { values_[name] = value; }
     const Template& of() const { return *template_; }
     nlohmann::json as_json() const;

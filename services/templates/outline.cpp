@@ -7,31 +7,87 @@
 
 namespace breach::templates {
 
-Line drained_line(const Vec2& from, double exit, double left, double right, const Line& ground) {
+Line phreatic_line(const Seepage& flow, double left, double right, const Line& ground,
+                   const Terrain& terrain) {
     constexpr int pieces = 8;
-    const double span = exit - from.x();
+    const auto& [from, exit, measured] = flow;
+    const double span = exit.x() - from.x();
     const double same = 0.005 * span;
     std::vector<double>
         xs;  // the ground's kinks, so that no chord leaves it, and places of the parabola
     for (const Vec2& kink : ground)
-        if (kink.x() > from.x() + same && kink.x() < exit - same) xs.push_back(kink.x());
-    for (int i = 1; i < pieces; ++i) {
-        const double share = 1.0 - static_cast<double>(i) / pieces;  // of the height that is left
-        const double x = exit - span * share * share;
+        if (kink.x() > from.x() + same && kink.x() < exit.x() - same) xs.push_back(kink.x());
+    const auto add = [&](double x) {
         const auto near = [&](double other) { return std::abs(other - x) < same; };
         if (std::ranges::none_of(xs, near)) xs.push_back(x);
+    };
+    if (measured) add(measured->x());
+    for (int i = 1; i < pieces && !measured; ++i) {
+        const double share = 1.0 - static_cast<double>(i) / pieces;  // of the height that is left
+        add(exit.x() - span * share * share);
     }
     std::ranges::sort(xs);
+    const auto level = [&](double x) {
+        if (measured) return geometry::level_at(Line{from, *measured, exit}, x);
+        return exit.y() + (from.y() - exit.y()) * std::sqrt((exit.x() - x) / span);
+    };
     Line line{{left, from.y()}, from};
-    for (const double x : xs) {
-        const double level = from.y() * std::sqrt((exit - x) / span);
-        line.push_back({x, std::min(level, geometry::level_at(ground, x))});
-    }
-    line.push_back({exit, 0.0});
-    if (right > exit + same) line.push_back({right, 0.0});
+    for (const double x : xs)
+        line.push_back({x, std::min(level(x), geometry::level_at(ground, x))});
+    line.push_back(exit);
+    if (exit.x() < -same && !terrain.is_level()) line.push_back({0.0, 0.0});
+    if (right > exit.x() + same) line.push_back({right, terrain.at(right)});
     if (from.x() - left < same) line.erase(line.begin());
     line.front().x() = left;
     return line;
+}
+
+std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, const Vec2& from,
+                                   const Vec2& exit) {
+    const double depth = values["piezometer_depth"];
+    if (depth == 0.0) return std::nullopt;
+    const Vec2 level{crest.x(), crest.y() - depth};
+    Refusal refusal(values);
+    refusal.unless(exit.x() > level.x() + 0.1 * values["crest_width"], "drain",
+                   "the drain lies upstream of the piezometer in the crest",
+                   "leave piezometer_depth or the drain out");
+    refusal.unless(level.y() <= from.y() && level.y() >= exit.y(), "piezometer_depth",
+                   "the level would be " + metres(level.y()) + ", and the water falls from " +
+                       metres(from.y()) + " at the pond to " + metres(exit.y()) + " at its exit",
+                   "give from " + metres(std::max(0.0, crest.y() - from.y())) + " to " +
+                       metres(crest.y() - exit.y()));
+    refusal.speak();
+    return level;
+}
+
+void part_slimes(const Values& values, const Vec2& contact, double heel, Outline& outline) {
+    const double distance = values["slimes_distance"];
+    if (distance == 0.0) return;
+    const double border = contact.x() - distance;
+    Refusal refusal(values);
+    refusal.unless(border >= outline.left + 2.0 * values["cell_size"], "slimes_distance",
+                   "the model ends " + metres(contact.x() - outline.left) + " behind the dam",
+                   "give less, or lengthen pond_length");
+    refusal.unless(border <= heel - values["cell_size"], "slimes_distance",
+                   "the dam's own fill reaches " + metres(contact.x() - heel) + " behind the beach",
+                   "give a cell more than that, or 0");
+    refusal.speak();
+    for (Part& part : outline.parts) {
+        if (part.name != outline.wet) continue;
+        Part slimes{"slimes", "slimes", {}};
+        Polygon beach;
+        for (std::size_t i = 0; i < part.polygon.size(); ++i) {
+            const Vec2 &a = part.polygon[i], &b = part.polygon[(i + 1) % part.polygon.size()];
+            (a.x() < border ? slimes.polygon : beach).push_back(a);
+            if ((a.x() < border) == (b.x() < border)) continue;
+            const Vec2 place{border, a.y() + (b.y() - a.y()) * (border - a.x()) / (b.x() - a.x())};
+            slimes.polygon.push_back(place);
+            beach.push_back(place);
+        }
+        part.polygon = beach;
+        outline.parts.push_back(slimes);
+        return;
+    }
 }
 
 }  // namespace breach::templates

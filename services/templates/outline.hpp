@@ -1,8 +1,8 @@
 // What a template draws: a section in parts with its water, before it is a scene. x points downstream,
-// the toe lies at (0, 0), the foundation's surface at y = 0.
+// the toe lies at (0, 0) on the foundation's surface.
 #pragma once
 
-#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +31,34 @@ struct Outline {
     double left;              ///< x of the model's left end
 };
 
-/// Dupuit's parabola from `from` to `exit` (h^2 linear in x), nowhere above the ground; level on
-/// either side. [m]
-Line drained_line(const Vec2& from, double exit, double left, double right, const Line& ground);
+/// The foundation's surface: level, or rising upstream of the toe and falling downstream of it.
+struct Terrain {
+    explicit Terrain(const Values& values)
+        : rise(values.or_none("valley_slope")), fall(values.or_none("ground_slope")) {}
+    double at(double x) const { return x < 0.0 ? -rise * x : -fall * x; }
+    bool is_level() const { return rise == 0.0 && fall == 0.0; }
+    double rise, fall;  ///< metres per metre
+};
+
+/// Steady flow through a dam: Dupuit's parabola (h^2 linear in x), or straight through the level
+/// that was measured.
+struct Seepage {
+    Vec2 from, exit;
+    std::optional<Vec2> measured = std::nullopt;
+};
+
+/// The phreatic line: level from `left` on, then the flow's, nowhere above the ground, beyond its
+/// exit on the foundation's surface.
+Line phreatic_line(const Seepage& flow, double left, double right, const Line& ground,
+                   const Terrain& terrain);
+
+/// The level in the piezometer below the crest, where the template asks for one; refused above the
+/// water at `from` or below that at `exit`.
+std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, const Vec2& from,
+                                   const Vec2& exit);
+
+/// Divides the tailings into beach and slimes, where slimes are asked for.
+void part_slimes(const Values& values, const Vec2& contact, double heel, Outline& outline);
 
 /// The material of the starter dam.
 inline std::string starter_fill(const Values& values) {

@@ -19,7 +19,8 @@ Outline slope(const Values& values) {
     outline.crest_from = left + 0.02 * (crest - left);
     outline.left = left;
     outline.phreatic =
-        drained_line({left, H - depth}, 0.0, left, values["foundation_extent"], outline.ground);
+        phreatic_line({{left, H - depth}, {0.0, 0.0}}, left, values["foundation_extent"],
+                      outline.ground, Terrain(values));
     return outline;
 }
 

@@ -1,5 +1,6 @@
 // Starter dam on the foundation, raises on the tailings upstream of it.
 #include <algorithm>
+#include <cmath>
 
 #include "services/templates/outline.hpp"
 
@@ -11,11 +12,17 @@ namespace {
 struct Dyke {
     double base, top;
     double heel, upstream_edge, downstream_edge, toe;  ///< x
+    double heel_level;
 };
 
 Dyke dyke_at(double toe, double base, double top, double face, const Values& values) {
-    Dyke dyke{
-        .base = base, .top = top, .heel = 0, .upstream_edge = 0, .downstream_edge = 0, .toe = toe};
+    Dyke dyke{.base = base,
+              .top = top,
+              .heel = 0,
+              .upstream_edge = 0,
+              .downstream_edge = 0,
+              .toe = toe,
+              .heel_level = base};
     dyke.downstream_edge = toe - face * (top - base);
     dyke.upstream_edge = dyke.downstream_edge - values["crest_width"];
     dyke.heel = dyke.upstream_edge - values["upstream_slope"] * (top - base);
@@ -27,11 +34,17 @@ std::vector<Dyke> dykes_of(const Values& values) {
     const double height = values["height"];
     const double starter = raises == 0 ? height : values["starter_height"];
     std::vector<Dyke> dykes{dyke_at(0.0, 0.0, starter, values["starter_slope"], values)};
+    // Its upstream face meets ground that rises.
+    const double rise = values["valley_slope"];
+    dykes[0].heel /= 1.0 + rise * values["upstream_slope"];
+    dykes[0].heel_level = -rise * dykes[0].heel;
     for (int k = 1; k <= raises; ++k) {
         const double base = dykes.back().top;
         const double top = k == raises ? height : starter + k * (height - starter) / raises;
         const double toe = dykes.back().downstream_edge - values["bench_width"];
-        dykes.push_back(dyke_at(toe, base, top, values["raise_slope"], values));
+        const double share = raises > 1 ? (k - 1.0) / (raises - 1.0) : 0.0;
+        const double face = std::lerp(values["raise_slope"], values["last_raise_slope"], share);
+        dykes.push_back(dyke_at(toe, base, top, face, values));
     }
     return dykes;
 }
@@ -58,9 +71,23 @@ void check_beach(const Values& values, const Dyke& last, double at_heel, double 
     refusal.unless(at_heel > last.base + 0.2 * (last.top - last.base), "beach_slope",
                    "the beach falls below the base of the last dyke before it has covered it",
                    "make it flatter, lower freeboard, or make fewer raises");
-    refusal.unless(at_end >= 0.3 * values["height"], "beach_slope",
-                   "tailings at the model's end would be " + metres(at_end) + " high",
+    const bool valley = values["valley_slope"] > values["beach_slope"];
+    refusal.unless(at_end >= 0.3 * values["height"], valley ? "valley_slope" : "beach_slope",
+                   "tailings at the model's end would be " + metres(at_end) + " thick",
                    "make it flatter, or shorten beach_length or pond_length");
+    refusal.speak();
+}
+
+void check_ground(const Values& values, const std::vector<Dyke>& dykes) {
+    Refusal refusal(values);
+    const Terrain terrain(values);
+    refusal.unless(dykes[0].heel_level < 0.5 * dykes[0].top, "valley_slope",
+                   "the ground rises to the upper half of the starter dam", "make it flatter");
+    for (std::size_t k = 1; k < dykes.size(); ++k)
+        refusal.unless(
+            terrain.at(dykes[k].heel) < dykes[k].base - values["cell_size"], "valley_slope",
+            "raise " + std::to_string(k) + " would stand on the ground, not on tailings",
+            "make it flatter, or make fewer raises");
     refusal.speak();
 }
 
@@ -77,7 +104,9 @@ void check_drain(const Values& values, double span, double level) {
 
 Outline upstream_dam(const Values& values) {
     check_raises(values);
+    const Terrain terrain(values);
     const std::vector<Dyke> dykes = dykes_of(values);
+    check_ground(values, dykes);
     const Dyke& last = dykes.back();
     const double fall = values["beach_slope"];
     const Vec2 contact{last.upstream_edge - values["upstream_slope"] * values["freeboard"],
@@ -86,16 +115,16 @@ Outline upstream_dam(const Values& values) {
     const double edge = contact.x() - values["beach_length"];
     double left = edge - values["pond_length"];
     for (const Dyke& each : dykes) left = std::min(left, each.heel - 0.1 * values["height"]);
-    check_beach(values, last, surface(last.heel), surface(left));
+    check_beach(values, last, surface(last.heel), surface(left) - terrain.at(left));
     const double exit = values.is_on("drain") ? dykes.front().heel : 0.0;
     check_drain(values, exit - edge, surface(edge));
 
     Outline outline;
-    Polygon tailings{{left, 0.0}};
+    Polygon tailings{{left, terrain.at(left)}};
     outline.ground = {{left, surface(left)}, contact, {last.upstream_edge, last.top}};
     for (std::size_t k = 0; k < dykes.size(); ++k) {
         const Dyke& each = dykes[k];
-        Polygon ring{{each.heel, each.base}};
+        Polygon ring{{each.heel, each.heel_level}};
         if (k > 0) ring.push_back({dykes[k - 1].upstream_edge, each.base});
         ring.push_back({each.toe, each.base});
         ring.push_back({each.downstream_edge, each.top});
@@ -105,7 +134,7 @@ Outline upstream_dam(const Values& values) {
         if (k + 1 == dykes.size()) ring.push_back(contact);
         outline.parts.push_back({k == 0 ? "starter_dam" : "raise_" + std::to_string(k),
                                  k == 0 ? starter_fill(values) : "embankment", ring});
-        tailings.push_back({each.heel, each.base});
+        tailings.push_back({each.heel, each.heel_level});
         tailings.push_back(k + 1 == dykes.size() ? contact : Vec2{each.upstream_edge, each.top});
     }
     tailings.push_back({left, surface(left)});
@@ -119,8 +148,11 @@ Outline upstream_dam(const Values& values) {
     outline.crest = {last.downstream_edge, last.top};
     outline.crest_from = last.upstream_edge;
     outline.left = left;
-    outline.phreatic = drained_line({edge, surface(edge)}, exit, left, values["foundation_extent"],
-                                    outline.ground);
+    part_slimes(values, contact, std::ranges::min(dykes, {}, &Dyke::heel).heel, outline);
+    Seepage flow{{edge, surface(edge)}, {exit, terrain.at(exit)}};
+    flow.measured = measured_level(values, {last.upstream_edge, last.top}, flow.from, flow.exit);
+    outline.phreatic =
+        phreatic_line(flow, left, values["foundation_extent"], outline.ground, terrain);
     return outline;
 }
 

@@ -37,7 +37,9 @@ Line asked_ground(const std::string& name, const Numbers& option, bool beach) {
         for (int k = 0; k < raises; ++k) {
             const double rise = (H - starter) / raises;
             walk(option("bench_width"), 0.0);
-            walk(option("raise_slope") * rise, rise);
+            const double first = option("raise_slope"), last = option("last_raise_slope");
+            const double slope = raises > 1 ? first + (last - first) * k / (raises - 1) : first;
+            walk(slope * rise, rise);
         }
         walk(option("crest_width"), 0.0);
     } else if (name == "downstream_dam") {
@@ -106,7 +108,8 @@ void hold_section(const std::string& name, const Made& made) {
     }
     const double length = 1e-3 * (std::abs(left) + highest);
     EXPECT_NEAR(highest, option("height"), 1e-3);
-    EXPECT_NEAR(area, area_below(ground, left), 5.0 * length);
+    const double below = dam ? 0.5 * option("valley_slope") * left * left : 0.0;
+    EXPECT_NEAR(area, area_below(ground, left) - below, 5.0 * length);
     for (std::size_t i = 0; i < rings.size(); ++i)
         for (std::size_t k = i + 1; k < rings.size(); ++k)
             EXPECT_LT(geometry::overlap_area(rings[i], rings[k]), length);
@@ -171,6 +174,65 @@ TEST(Templates, HaveAWeakLayerAndAStarterDamOfRockfillWhereTheyAreAskedFor) {
             EXPECT_EQ(material("clay"), "clay");
         }
     }
+}
+
+TEST(Templates, FollowTheGroundTheWaterAndTheSlimesOfASite) {
+    const test::Folder folder;
+    for (const bool shaken : {false, true}) {
+        for (const char* name : {"upstream_dam", "downstream_dam"}) {
+            SCOPED_TRACE(name);
+            json options{
+                {"valley_slope", 0.03},  {"ground_slope", 0.02},  {"piezometer_depth", 6},
+                {"drain", false},        {"slimes_distance", 60}, {"beach_length", 70},
+                {"clay_thickness", 2.5}, {"slimes_ratio", 0.25},  {"residual_ratio", 0.06}};
+            if (shaken) options["with_fem"] = true;
+            if (name == std::string("upstream_dam")) options["last_raise_slope"] = 4;
+            const Made made = make(name, options);
+            EXPECT_EQ(listed(faults_of(made, folder.path())), "");
+            hold_section(name, made);
+            const json scene = made.scene;
+
+            double right_end = 0.0, ground_there = 0.0, first_slimes = -1e9;
+            for (const json& each : scene.at("section").at("regions")) {
+                for (const json& vertex : each.at("polygon")) {
+                    const double x = vertex[0], y = vertex[1];
+                    if (each.at("name") == "clay" &&
+                        (x > right_end || (x == right_end && y > ground_there)))
+                        right_end = x, ground_there = y;
+                    if (each.at("name") == "slimes") first_slimes = std::max(first_slimes, x);
+                }
+            }
+            EXPECT_NEAR(ground_there, -0.02 * right_end, 1e-9);
+            // The beach meets the dam at the freeboard below the crest's upstream edge.
+            const json& line = scene.at("lem").at("water").at("line");
+            const auto piezometer = std::ranges::find_if(line, [&](const json& place) {
+                return std::abs(place[1].get<double>() - 24.0) < 1e-3;
+            });
+            ASSERT_NE(piezometer, line.end());
+            const double crest_edge = (*piezometer)[0];
+            EXPECT_NEAR(first_slimes, crest_edge - 2.0 * 1.5 - 60.0, 2e-3);
+            EXPECT_NEAR(line.back()[1].get<double>(), -0.02 * line.back()[0].get<double>(), 1e-3);
+            const json& runout = scene.at("materials").at(shaken ? "slimes_runout" : "slimes");
+            EXPECT_EQ(runout.at("/strength/peak/ratio"_json_pointer), 0.25);
+            EXPECT_EQ(runout.at("/strength/residual/ratio"_json_pointer), 0.06);
+            const json& terrain = scene.at("mpm").at("terrain");
+            EXPECT_NEAR(terrain.back()[1].get<double>(), -0.02 * terrain.back()[0].get<double>(),
+                        1e-6);
+        }
+    }
+}
+
+TEST(Templates, PeakStrengthIsOfWhatLiquefiesAlone) {
+    const Made made = make("upstream_dam", {{"clay_thickness", 2.5}, {"clay_strength", 25}});
+    const json overrides = made.study.at("variants")[1].at("overrides");
+    const auto starts = [](const std::string& text) {
+        return [&text](const json& each) { return each.get<std::string>().starts_with(text); };
+    };
+    EXPECT_TRUE(std::ranges::any_of(overrides, starts("/materials/tailings_1/law/c_kPa=")));
+    EXPECT_FALSE(std::ranges::any_of(overrides, starts("/materials/clay/law")));
+    const auto undrained = std::ranges::find_if(overrides, starts("/lem/undrained="));
+    ASSERT_NE(undrained, overrides.end());
+    EXPECT_EQ(undrained->get<std::string>().find("clay"), std::string::npos) << *undrained;
 }
 
 TEST(Templates, ShakenOnesAreTransferredAtSeveralTimes) {
@@ -256,6 +318,12 @@ TEST(Templates, CombinationsThatCloseNothingNameTheOptionToChange) {
         {"slope", {{"residual_ratio", 0.4}}, "/residual_ratio"},
         {"upstream_dam", {{"cell_size", 4}}, "/cell_size"},
         {"upstream_dam", {{"clay_thickness", 8}}, "/clay_thickness"},
+        {"upstream_dam", {{"valley_slope", 0.15}}, "/valley_slope"},
+        {"downstream_dam", {{"valley_slope", 0.2}, {"pond_length", 200}}, "/valley_slope"},
+        {"upstream_dam", {{"piezometer_depth", 0.5}}, "/piezometer_depth"},
+        {"downstream_dam", {{"piezometer_depth", 40}, {"drain", false}}, "/piezometer_depth"},
+        {"upstream_dam", {{"raises", 0}, {"drain", true}, {"piezometer_depth", 5}}, "/drain"},
+        {"upstream_dam", {{"slimes_distance", 3000}}, "/slimes_distance"},
     };
     for (const auto& [name, options, pointer] : cases) {
         try {
