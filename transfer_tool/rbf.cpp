@@ -13,6 +13,9 @@ namespace {
 
 constexpr double coincident = 1e-9;  // of the extent of the centres
 constexpr double flat = 1e-6;        // spread across a line over spread along it
+// Spreads beside the middle. Elements two rows thick reach 2; one row of single Gauss points, bent
+// by the failure, hundreds: the slope across it is that of the bend, and no field's.
+constexpr double farthest_across = 8.0;
 
 double phi(const Vec2& a, const Vec2& b, double epsilon) {
     return std::sqrt((a - b).squaredNorm() + epsilon * epsilon);
@@ -65,8 +68,8 @@ double average_distance(std::span<const Vec2> position) {
     return 1.0;  // a single centre: any length will do
 }
 
-LocalInterpolant::LocalInterpolant(const Centres& centres) {
-    normalise(centres.position);
+LocalInterpolant::LocalInterpolant(const Centres& centres, std::span<const Vec2> wanted) {
+    normalise(centres.position, wanted);
     for (const Vec2& x : centres.position) centre_.push_back(normalised(x));
     epsilon_ = average_distance(centre_);
 
@@ -91,7 +94,7 @@ LocalInterpolant::LocalInterpolant(const Centres& centres) {
     coefficient_.bottomRows(t) += linear;
 }
 
-void LocalInterpolant::normalise(const std::vector<Vec2>& position) {
+void LocalInterpolant::normalise(const std::vector<Vec2>& position, std::span<const Vec2> wanted) {
     const auto k = static_cast<double>(position.size());
     for (const Vec2& x : position) middle_ += x / k;
     Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
@@ -103,7 +106,10 @@ void LocalInterpolant::normalise(const std::vector<Vec2>& position) {
     axes_.col(0) = spread.eigenvectors().col(1) / along;
     directions_ = 1;
     if (across <= flat * along) return;
-    axes_.col(1) = spread.eigenvectors().col(0) / across;
+    const Vec2 beside = spread.eigenvectors().col(0) / across;
+    for (const Vec2& place : wanted)
+        if (std::abs(beside.dot(place - middle_)) > farthest_across) return;
+    axes_.col(1) = beside;
     directions_ = 2;
 }
 

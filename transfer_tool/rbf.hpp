@@ -33,17 +33,17 @@ double average_distance(std::span<const Vec2> position);
 /// Interpolant through a few centres: multiquadric plus a linear tail, exact for constant and
 /// linear fields. Distances are measured along the principal directions of the centres in units of
 /// their spread there, so that a mesh of aspect 1:100 is as well conditioned as one of squares.
-/// Centres on a line give a field that is linear along it and constant across, one centre gives its
-/// value.
+/// Centres on a line, or so near to one that `wanted` places lie many spreads beside it, give a
+/// field that is linear along the line and constant across. One centre gives its value.
 class LocalInterpolant {
   public:
     /// At least one centre.
-    explicit LocalInterpolant(const Centres& centres);
+    explicit LocalInterpolant(const Centres& centres, std::span<const Vec2> wanted = {});
     /// Writes one value per field.
     void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;
 
   private:
-    void normalise(const std::vector<Vec2>& position);
+    void normalise(const std::vector<Vec2>& position, std::span<const Vec2> wanted);
     Vec2 normalised(const Vec2& place) const;
 
     Vec2 middle_ = Vec2::Zero();

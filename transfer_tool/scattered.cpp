@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <nanoflann.hpp>
+#include <span>
 
 #include "core/fault/fault.hpp"
 #include "core/numerics/blocks.hpp"
@@ -80,7 +81,8 @@ LocalInterpolant interpolant_of(const Task& task, const Neighbourhoods& neighbou
     report.merged_centres += centres.merged;
     report.smallest_neighbourhood =
         std::min(report.smallest_neighbourhood, centres.position.size());
-    return LocalInterpolant(centres);
+    const std::size_t first = task.to.first[group], end = task.to.first[group + 1];
+    return LocalInterpolant(centres, std::span(task.to.place).subspan(first, end - first));
 }
 
 void carry_group(const Task& task, const Neighbourhoods& neighbourhoods, std::size_t group,

@@ -109,7 +109,7 @@ Options earthquake() {
         of_type(
             ratio("pga", 0.01, 1.5, 0.3, "peak acceleration of the outcrop motion, with with_fem"),
             "g"),
-        of_type(length("shaking", 2, 60, 8, "length of the motion, with with_fem"), "s"),
+        of_type(length("shaking", 4, 60, 8, "length of the motion, with with_fem"), "s"),
     };
 }
 

@@ -209,10 +209,6 @@ def fem_scenes(draw):
 def chain_scenes(draw):
     """A FEM scene with what the transfer needs: the MPM's grid, in which elements are half a cell or a whole one."""
     scene = draw(fem_scenes())
-    # Gauss points of one row of ssp elements lie nearly on a line, across which the transfer extrapolates hundreds of times their
-    # offset (transfer_tool/rbf.cpp, "flat"): an open fault, flagged as coarse_elements only.
-    divisions = scene["section"]["regions"][0]["mesh"]["divisions"]
-    divisions[1] = max(2, divisions[1])
     low, high = scene["section"]["regions"][0]["mesh"]["corners"], scene["section"]["regions"][1]["mesh"]["corners"]
     (x0, bottom), (x1, _) = low[0], low[1]
     size = (x1 - x0) / scene["section"]["regions"][0]["mesh"]["divisions"][0]

@@ -62,6 +62,18 @@ TEST(LocalInterpolant, CentresOnALineKeepTheSlopeAlongIt) {
     EXPECT_NEAR(at(f, beside), linear(on_it), 1e-9);
 }
 
+TEST(LocalInterpolant, CentresOnABentRowKeepTheSlopeAlongItAlone) {
+    // One Gauss point per element, a row 1 m thick that sags by 2 mm; the field changes across it.
+    std::vector<Vec2> row;
+    for (int i = 0; i < 12; ++i) row.emplace_back(i, 2e-3 * std::sin(0.5 * i));
+    const auto noisy = [](const Vec2& x) { return 100.0 + x.x() + 3.0 * std::cos(5.0 * x.x()); };
+    const std::vector<Vec2> wanted{{5.2, 0.4}, {5.7, -0.4}};
+    const Centres c = centres(row, noisy);
+    const LocalInterpolant f(c, wanted), unaware(c);
+    for (const Vec2& x : wanted) EXPECT_NEAR(at(f, x), 100.0 + x.x(), 6.0);
+    EXPECT_GT(std::abs(at(unaware, wanted[0]) - 100.0), 30.0);
+}
+
 TEST(LocalInterpolant, TwoCentresAndOneCentre) {
     const LocalInterpolant two(centres({{0, 0}, {2, 0}}, linear));
     EXPECT_NEAR(at(two, {1, 0}), linear({1, 0}), 1e-12);
