@@ -17,7 +17,7 @@ using Readings = std::vector<std::optional<TriaxialReading>>;
 using Values = OfEach<double>;
 using Sought = sought::Name;
 
-/// Usual of sands and silts (design page of NorSand, section 2); where an estimate begins, and
+/// Usual of sands and silts (docs/reference/methods/norsand.md, section 2); where an estimate begins, and
 /// stays when no test holds it.
 constexpr Values usual{0.9, 0.03, 1.25, 0.3, 4.0, 100.0, 0.0};
 constexpr Values least{0.0, 1e-3, 0.3, 0.0, 0.2, 11.0, -1e4};

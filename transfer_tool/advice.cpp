@@ -12,7 +12,7 @@
 namespace breach::transfer {
 namespace {
 
-/// What docs/design/case.md names as signs, in the order of a failure's course.
+/// What docs/reference/methods/mochikoshi_case.md names as signs, in the order of a failure's course.
 struct KnownSign {
     const char* name;
     const char* condition;

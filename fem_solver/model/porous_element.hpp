@@ -51,7 +51,7 @@ struct PorousElement {
 /// Single point. Q is a one-point integral (McGann et al. 2012): a pressure that alternates from
 /// node to node pushes nothing. Departs from: there L, H and the storage are one-point integrals as
 /// well, so that such a pressure costs nothing and drains nowhere; here they are full
-/// (docs/design/pore_pressure.md), unless the fluid asks for one point.
+/// (docs/reference/methods/pore_pressure.md), unless the fluid asks for one point.
 void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
                      const Vec2& body, PorousElement& out);
 /// 2 x 2 points: full integrals; Q with the mean dilatation that the skeleton sees (B-bar).

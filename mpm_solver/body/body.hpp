@@ -51,7 +51,7 @@ struct Body {
     double widest;
     KernelKind kernel;
     UpdateOrder order;
-    /// Anti-locking (A3 of docs/design/mpm.md): the points of a zone in a cell share their
+    /// Anti-locking (docs/reference/methods/mpm.md): the points of a zone in a cell share their
     /// volumetric strain rate and mean stress. Per zone, then per cell; empty: no averages.
     std::vector<std::vector<CellSum>> averages;
     std::vector<Loops> loops;  ///< per zone

@@ -15,7 +15,7 @@ double friction_at(const std::vector<scene::FrictionZone>& zones, double x, doub
     return coefficient;
 }
 
-/// Nodes within half a cell of the terrain, and all below it, feel it (docs/design/mpm.md, 5).
+/// Nodes within half a cell of the terrain, and all below it, feel it (docs/reference/methods/mpm.md, *Contact*).
 void lay_terrain(Grid& grid, const scene::Mpm& mpm) {
     grid.terrain.emplace(mpm.terrain);
     grid.contact_of.assign(grid.conditions.size(), 0);

@@ -1,6 +1,6 @@
 // Softening that does not hang on the lattice: what a brittle soil's softening strain grows by in some
 // steps is averaged over its neighbourhood, so that a shear band is as wide as the soil's own length
-// says and not as wide as a cell. How and why: docs/mpm_method.md.
+// says and not as wide as a cell. How and why: docs/reference/methods/softening.md.
 #pragma once
 
 #include <cstdint>

@@ -102,7 +102,7 @@ enum class Viscosity { none, newtonian };
 /// How the volume of the force follows the soil.
 enum class VolumeRule {
     tracked,  ///< V = volume: laws that never open, or gap closure switched off
-    /// V = V_0 (1 + sigma_m / K): opened gaps carry no stress (docs/design/mpm.md, section 0)
+    /// V = V_0 (1 + sigma_m / K): opened gaps carry no stress (docs/reference/methods/mpm.md, *One step*)
     from_stress,
 };
 

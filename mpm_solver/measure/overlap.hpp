@@ -1,5 +1,5 @@
 // Overlap: soil that lies on top of soil. Points may clump although every tracked volume is right
-// (docs/design/mpm.md, section 10), so a run reports it.
+// (docs/reference/methods/mpm.md, *One step*), so a run reports it.
 #pragma once
 
 #include <vector>

@@ -234,7 +234,7 @@ Json sand(const Soil& soil, const std::string& note) {
     return {{"notes",
              {note,
               "assumed: PM4Sand, void ratio and permeability; calibrate them ("
-              "docs/design/pm4sand.md)"}},
+              "docs/how-to/calibrate_a_sand.md)"}},
             {"density", soil.density},
             {"void_ratio", soil.void_ratio},
             {"permeability", {soil.permeability, soil.permeability}},

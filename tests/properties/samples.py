@@ -1,5 +1,5 @@
 """Studies over distributions, ladders, back-analyses and bisections: random ones, and what each must say
-(core/statistics/README.md)."""
+(docs/reference/methods/statistics.md)."""
 import copy
 import math
 import statistics

@@ -204,7 +204,7 @@ def mpm_numbers(answer, mirrored=False):
 def told_by_mpm(result, h, lift):
     """Lengths in cells, and energies by what lifts the points by a cell.
 
-    For a stable slope the result's own shares are of a fall of 2.5 cm (mpm_solver/README.md), which no similarity scales."""
+    For a stable slope the result's own shares are of a fall of 2.5 cm (docs/reference/methods/runout.md), which no similarity scales."""
     told = {"runout": result["runout"] / h, "volume_ratio": result["volume_ratio"],
             "deepest at the gauge": next(iter(result["gauges"].values()))["largest_depth"] / h if result.get("gauges") else 0.0}
     told |= {f"energy, {name}": result["energy"][name]["J"] / lift for name in ("kinetic", "plastic", "friction", "numerical")}

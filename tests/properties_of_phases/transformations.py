@@ -289,7 +289,7 @@ EXACT = {
 CHANGES = [shifted, mirrored, renamed, reordered, written_otherwise, begun_elsewhere, with_extra_vertices, split,
            with_unused_material, with_untouched_layer, with_longer_water_line, similar]
 
-# A vertex more is a strip more, and a slice's border: 50 slices leave about 1e-4 in a factor (lem_tool/README.md).
+# A vertex more is a strip more, and a slice's border: 50 slices leave about 1e-4 in a factor (docs/reference/methods/lem.md).
 SLICES = 5e-4
 # Other round-off sends a descent another way; it stops at a gain of 1e-5 (lem_tool/search.cpp).
 DESCENT = 2e-5

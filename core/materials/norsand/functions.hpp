@@ -1,4 +1,4 @@
-// The state functions of NorSand, sections 1 to 7 of docs/design/norsand.md, for one point or for
+// The state functions of NorSand, sections 1 to 7 of docs/reference/methods/norsand.md, for one point or for
 // several side by side. Pure formulas: no integration in here. Compression positive.
 #pragma once
 

@@ -1,6 +1,6 @@
 // NorSand (Jefferies 1993; Jefferies & Shuttle 2002-2011) for one material point: parameters, state,
 // and the pure function from (parameters, state, strain increment) to a new state. Sections are
-// those of docs/design/norsand.md. Whether water drains is the caller's business.
+// those of docs/reference/methods/norsand.md. Whether water drains is the caller's business.
 #pragma once
 
 #include <optional>

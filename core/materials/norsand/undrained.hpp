@@ -11,7 +11,8 @@ namespace breach::materials::norsand {
 double plane_shear(const State& state);
 
 /// The law's own path from `state` at constant volume along its deviator in the plane, with the
-/// law's S. Critical: tau = M cos(theta) / sqrt(3) p_c(e), design section 6. `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
+/// law's S. Critical: tau = M cos(theta) / sqrt(3) p_c(e) (docs/reference/methods/norsand.md, section
+/// 15). `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
 /// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.
 UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
 /// The same of many states, side by side: to the last bit what each alone gives.

@@ -1,4 +1,5 @@
-// Sections 13.2, 13.4 and 13.5 of docs/design/pm4sand.md, as OpenSees does them, its quirks included.
+// Sections 13.2, 13.4 and 13.5 of docs/reference/methods/pm4sand_integration.md, as OpenSees does
+// them, its quirks included.
 #include "core/materials/pm4sand/explicit.hpp"
 
 #include <algorithm>
@@ -159,7 +160,7 @@ bool Part::advance(const Strain<double>& d) {
 }
 
 /// Departs from: OpenSees, which sets a positive shear far outside the surfaces; the direction is
-/// kept here (section 13.4, R). Rarely reached.
+/// kept here (section 13.4). Rarely reached.
 void Part::correct_low_pressure(double f) {
     const double least = fixed_.p_min / 5.0;
     if (f < 1e-8 * law_.unit) {

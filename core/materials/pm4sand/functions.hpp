@@ -1,4 +1,4 @@
-// The state functions of PM4Sand, sections 4 to 9 of docs/design/pm4sand.md, for one point or for
+// The state functions of PM4Sand, sections 4 to 9 of docs/reference/methods/pm4sand.md, for one point or for
 // several side by side. Pure formulas: no integration in here. Compression positive.
 #pragma once
 

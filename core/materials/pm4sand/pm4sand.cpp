@@ -20,7 +20,7 @@ Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
 
 namespace {
 
-/// C_e of section 1.5 with the out-of-plane row that the model itself does not have.
+/// C_e of section 1.4 with the out-of-plane row that the model itself does not have.
 Matrix4 elastic_matrix(double G, double K) {
     const double M = K + 4.0 / 3.0 * G, lambda = K - 2.0 / 3.0 * G;
     Matrix4 C = Matrix4::Zero();

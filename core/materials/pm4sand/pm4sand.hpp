@@ -47,7 +47,7 @@ struct Parameters {
     Reconsolidation reconsolidation = Reconsolidation::off;
 };
 
-/// All secondary parameters from the three primary ones (docs/design/pm4sand.md, section 2).
+/// All secondary parameters from the three primary ones (docs/reference/methods/pm4sand.md, section 2).
 /// Departs from: OpenSees, which lets C_DR fall to 0 and below for D_R < 0.15; here it stays >= 1.
 Parameters defaults(double D_R, double G_0, double h_po);
 

@@ -1,5 +1,5 @@
 // Published relations between a sounding and the strength of liquefied soil. Their equations, sources
-// and ranges: README.md beside this file.
+// and ranges: docs/reference/methods/strength.md.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The state functions of NorSand against the formulas of docs/design/norsand.md written a second
+// The state functions of NorSand against the formulas of docs/reference/methods/norsand.md written a second
 // time with angles, and the beginning of a point.
 #include <gtest/gtest.h>
 

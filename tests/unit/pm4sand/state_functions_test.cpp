@@ -1,5 +1,5 @@
 // Parameters, initial states and state functions against the numbers of
-// docs/design/pm4sand.md, section 19 (an independent implementation), kPa.
+// docs/reference/methods/pm4sand.md in an independent implementation, kPa.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 """The pore pressure of the failing Mochikoshi section on 2.4 m elements does not alternate from node to node: rms of the
-alternating part in the wet tailings below the dam (docs/design/pore_pressure.md), at most 5 kPa until the crest has moved 1.7 m.
+alternating part in the wet tailings below the dam (docs/reference/methods/pore_pressure.md), at most 5 kPa until the crest has moved 1.7 m.
 With one-point integrals it is six times that: what there is to hold."""
 import os
 import pathlib

@@ -1,6 +1,6 @@
 // A pore pressure that alternates from node to node: what it costs in one element, and how much of
 // it random plastic contraction leaves in a liquefied band of single-point quads (the prototype's
-// table in docs/design/pore_pressure.md).
+// table in docs/reference/methods/pore_pressure.md).
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseLU>
 #include <random>
@@ -210,7 +210,7 @@ TEST(LiquefiedBand, LosesThreeQuartersOfWhatAlternatesWithFullIntegrals) {
         double soft, alternating, moved;  // what full integrals may leave and move
     };
     // A softer alpha for the smooth part as well would leave 10 % in both, and smear the pressure of
-    // the band into its neighbours (docs/design/pore_pressure.md).
+    // the band into its neighbours (docs/reference/methods/pore_pressure.md).
     for (const Case& c : {Case{0.1, 0.12, 0.03}, Case{0.01, 0.35, 0.02}}) {
         const Pressures one = mean_of_seeds(model, c.soft, PressureIntegration::one_point);
         const Pressures full = mean_of_seeds(model, c.soft, PressureIntegration::full);

@@ -112,7 +112,7 @@ inline std::string place_refused(const json& scene) {
     return "";
 }
 
-/// CJ1 of docs/design/norsand.md.
+/// CJ1 of docs/reference/methods/norsand.md, section 14.
 inline json cj1(double psi_0, double K_0 = 0.7) {
     return {{"type", "norsand"}, {"Gamma", 0.9}, {"lambda", 0.02},   {"M_tc", 1.2}, {"N", 0.3},
             {"chi_tc", 3.5},     {"H_0", 300},   {"G_ref_MPa", 30},  {"m", 1.0},    {"nu", 0.15},

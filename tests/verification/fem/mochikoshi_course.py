@@ -1,5 +1,5 @@
 """The course of the calibrated Mochikoshi section after it liquefies, beside OpenSees' histories f24, x35 and y35 that were
-kept back until ours had been run. Its law hardens spuriously under long increments (docs/fem_method.md), so later than
+kept back until ours had been run. Its law hardens spuriously under long increments, so later than
 5 s ours moves more with the same elastic stabilisation; and with next to none (y35) both slide away.
 Skipped where ../shared is not there."""
 import csv

@@ -196,14 +196,14 @@ TEST(SandColumn, LiquefiesAndKeepsItsPressureRatioWhenStepsAreHalved) {
     }
     double largest = 0.0;
     for (const Row& row : usual) largest = std::max(largest, row[0]);
-    // Mean stress stalls at about 1 kPa (docs/design/pm4sand.md, 18.9): 20 kPa vertically at 2.5 m.
+    // Mean stress stalls at about 1 kPa (docs/reference/methods/pm4sand.md, 7.2): 20 kPa vertically at 2.5 m.
     expect_error("2.5 m deep: 1 less the largest r_u", std::abs(1.0 - largest), 0.15);
     expect_error("r_u with half the time step", apart(usual, shaken(1e-3, "corrected")), 0.03);
 }
 
 TEST(SandColumn, HasNodesWhoseRatioAlternatesAndMeansThatDoNot) {
     // Rows of nodes in turn high and low are a gradient within each element: one point sees it as
-    // full integrals do, and only a softer alpha would hold it (docs/design/pore_pressure.md).
+    // full integrals do, and only a softer alpha would hold it (docs/reference/methods/pore_pressure.md).
     for (const std::string integration : {"one_point", "full"}) {
         const Shaken column = shaken_column(2e-3, "corrected", integration.c_str());
         std::printf("    %s: at most %.1f kPa beyond both neighbours, %g m deep; means %.1f kPa\n",

@@ -82,8 +82,8 @@ TEST(SandInTheMesh, CountsTheStressThatDoesNotFit) {
     motion.points[0].sigma = Voigt(-20e3, -100e3, -36e3, 0.0);  // K_0 = 0.2 lies outside
     const StressBias bias = begin_memory(model, motion);
     EXPECT_EQ(bias.points, 1u);
-    // OpenSees moves this stress to 14.29 kPa less horizontally (docs/design/pm4sand.md, 18.2);
-    // the nodes must not notice.
+    // OpenSees moves this stress to 14.29 kPa less horizontally
+    // (docs/reference/methods/pm4sand_integration.md, 17); the nodes must not notice.
     EXPECT_GT(bias.largest, 1e3);
     expect_error("stress returned at the switch",
                  std::abs(motion.points[0].sigma[0] + 20e3) / 100e3, 1e-12);

@@ -44,10 +44,9 @@ TEST(SspQuad, HasTheEigenvaluesOfSquareAndRectangle) {
     rectangle << 0, 0, 0, .16666667, .66666667, 1.35165334, 2.5, 7.39834666;
     const Stiffness K_1 = stiffness_of(geometry_of(corners({{0, 0}, {1, 0}, {1, 1}, {0, 1}})));
     const Stiffness K_2 = stiffness_of(geometry_of(corners({{0, 0}, {2, 0}, {2, 1}, {0, 1}})));
-    expect_error("unit square (docs/design/ssp_quad_up.md, 10.1)",
+    expect_error("unit square (docs/reference/methods/up_element.md)",
                  (eigenvalues(K_1) - square).norm(), 1e-14);
-    expect_error("2 x 1 rectangle (10.2, eight decimals)", (eigenvalues(K_2) - rectangle).norm(),
-                 2e-8);
+    expect_error("2 x 1 rectangle (eight decimals)", (eigenvalues(K_2) - rectangle).norm(), 2e-8);
 }
 
 TEST(SspQuad, HasTheOperatorsOfASkewedQuad) {
@@ -56,13 +55,13 @@ TEST(SspQuad, HasTheOperatorsOfASkewedQuad) {
     dN << -.18648019, .34965035, .18648019, -.34965035,  //
         -.44289044, -.41958042, .44289044, .41958042;
     const Eigen::Vector4d gamma(.26923077, -.19230769, .23076923, -.30769231);
-    expect_error("gradients (10.4)", (s.dN - dN).norm(), 2e-8);
-    expect_error("gamma (10.4)", (s.gamma - gamma).norm(), 2e-8);
-    expect_error("area (10.4)", std::abs(s.volume - 2.145), 1e-14);
+    expect_error("gradients of a quad", (s.dN - dN).norm(), 2e-8);
+    expect_error("gamma of a quad", (s.gamma - gamma).norm(), 2e-8);
+    expect_error("area of a quad", std::abs(s.volume - 2.145), 1e-14);
     Matrix2 H;  // sign of the cross term: F = c_s [[H_ss, -H_st], [-H_st, H_tt]]
     H << 1.0 / 3, 1.0 / 6, 1.0 / 6, 5.0 / 12;
     const SspGeometry p = geometry_of(corners({{0, 0}, {1, 0}, {1.5, 1}, {.5, 1}}));
-    expect_error("exact hourglass form of a parallelogram (10.3)", (p.H - H).norm(), 1e-14);
+    expect_error("exact hourglass form of a parallelogram", (p.H - H).norm(), 1e-14);
 }
 
 TEST(SspQuad, IsDefiniteButForRigidMotionOnEveryConvexQuad) {

@@ -160,7 +160,7 @@ json shear_column(double k_h, int rows, double stabilisation, double duration) {
 }
 
 // tau = k_h rho g z, sigma'_v0 = (rho - rho_w) g z: at every depth the same ratio.
-constexpr double peak_ratio = 0.253556;  // docs/design/norsand.md 15.2, S = 1
+constexpr double peak_ratio = 0.253556;  // docs/reference/methods/norsand.md, section 15, S = 1
 constexpr double k_peak = peak_ratio * (rho - rho_w) / rho;
 
 TEST(Undrained, AShearColumnOfNorSandCollapsesAtTheElementTestsPeak) {

@@ -55,8 +55,8 @@ struct Surface {
     double y;
 };
 
-// Bui, Fukagawa, Sako & Ohno (2008), 0.2 x 0.1 m of aluminium bars; final surface as digitised in
-// docs/design/mpm.md, section 11. phi = 19.8 degrees, no cohesion, rough base. Tolerance: a
+// Bui, Fukagawa, Sako & Ohno (2008), 0.2 x 0.1 m of aluminium bars; final surface as digitised by
+// open MPM and SPH codes. phi = 19.8 degrees, no cohesion, rough base. Tolerance: a
 // bar's diameter is 1.5-3 mm, and one repetition differs from the next by as much.
 constexpr Surface measured[] = {{0.0, .0992},  {.040, .0959}, {.080, .0844}, {.120, .0722},
                                 {.160, .0616}, {.200, .0474}, {.241, .0348}, {.282, .0265},

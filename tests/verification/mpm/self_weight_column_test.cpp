@@ -49,7 +49,7 @@ TEST(SelfWeightColumn, StressIsTheOverburdenAtLargeStrain) {
     expect_error_within("gimp, E 2 MPa (15 % strain): sigma_yy L2", stress_error(column(2e6)),
                         0.03);
 }
-// Without boundary-modified kernels the base is off by 30 % (design study).
+// Without boundary-modified kernels the base is off by 30 %.
 TEST(SelfWeightColumn, StressIsTheOverburdenWithTheBSpline) {
     for (const double E : {50e6, 2e6}) {
         scene::Scene scene = column(E);

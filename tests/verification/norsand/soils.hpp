@@ -1,5 +1,5 @@
 // Soils, specimens and reference runs that the tests of NorSand share. The parameter sets are those
-// of docs/design/norsand.md, section 14.
+// of docs/reference/methods/norsand.md, section 14.
 #pragma once
 
 #include <string>

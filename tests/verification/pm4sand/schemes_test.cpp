@@ -1,5 +1,6 @@
 // What separates the two schemes, as a table: the corrected one against the reference, which is
-// biased in flow (docs/design/pm4sand.md, 18.5) and moves alpha along b where it drifts (section 8).
+// biased in flow (docs/reference/methods/pm4sand_integration.md, 17) and moves alpha along b where
+// it drifts (docs/reference/methods/pm4sand.md, section 8).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +23,8 @@ Specimen specimen(const char* name, double sigma_v, const Options& options, doub
 }
 
 TEST(Schemes, UndrainedStrengthOfTheDefaultSchemeDoesNotHangOnTheStep) {
-    // Limit of vanishing steps at 100 kPa: 5.827 (docs/design/pm4sand.md); allowed 0.1 %.
+    // Limit of vanishing steps at 100 kPa: 5.827 kPa
+    // (docs/reference/methods/pm4sand_integration.md, 17); allowed 0.1 %.
     for (const double sigma_v : {50.0, 100.0, 250.0}) {
         const auto strength = [&](double step, const Options& options) {
             return monotonic(specimen("tailings_cal", sigma_v, options), Boundary::undrained_shear,
@@ -109,7 +111,7 @@ TEST(Schemes, UndrainedShearDoesNotHangOnWhichSideOfTheBoundItBegins) {
 
 struct Drained {
     const char* soil;
-    double allowed;  ///< kPa: the figures of docs/design/pm4sand.md, section 8, with some room
+    double allowed;  ///< kPa: what docs/reference/methods/pm4sand.md, section 8, says, with room
 };
 
 /// Volume that the shear opened after it had closed most.

@@ -1,4 +1,4 @@
-// The synthetic stress field on a graded mesh that docs/design/case.md measures interpolations on:
+// The synthetic stress field on a graded mesh that docs/reference/methods/transfer.md measures interpolations on:
 // 5,130 elements of 1 m height whose widths grow from 1 m to 10 m, one Gauss point each, stress
 // that grows with depth and drops across a shear band. The document gives no formula: this one was
 // chosen so that the paper's interpolation is as wrong here as it is there.
