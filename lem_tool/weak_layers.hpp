@@ -10,7 +10,7 @@ namespace breach::lem {
 using Path = std::vector<scene::Vec2>;
 
 /// The bottom line of every layer that is weaker than the soil above and below it and thinner than
-/// a tenth of the slide along it, within the search's ranges; from side to side of the section.
+/// a tenth of its depth, within the search's ranges; from side to side of the section.
 std::vector<Path> weak_lines(const Model& model, const scene::SlipSearch& ranges);
 
 /// The higher of the two lines; the other where one is empty.

@@ -72,8 +72,10 @@ Document filled(const Run& run, const Choice& choice) {
     } else {
         document.left_out.push_back({"runout, flow and deposit", "the run has no runout"});
     }
-    for (const auto add : {add_variants, add_checklist, add_numbers}) add(material, document);
+    for (const auto add : {add_variants, add_checklist, add_methods, add_numbers})
+        add(material, document);
     for (const auto& each : choice.companions) add_companion(each, paper, document);
+    add_annex(material, document);
     return document;
 }
 
@@ -112,8 +114,9 @@ void write_report(Document document, const std::filesystem::path& page, Files fi
             exchange::publish_text(folder / (each.name + ".csv"), as_csv(each));
         }
     }
-    exchange::publish_text(folder / (document.front.found.name + ".csv"),
-                           as_csv(document.front.found));
+    for (const Table* each : {&document.front.found, &document.front.gauges})
+        if (!each->rows.empty())
+            exchange::publish_text(folder / (each->name + ".csv"), as_csv(*each));
     exchange::publish_text(page, as_html(document, folder_name));
 }
 

@@ -119,13 +119,13 @@ Options joined(std::initializer_list<Options> all) {
     return joined;
 }
 
-Options pond(double beach) {
+Options pond(double beach, double heights) {
     return {
         sized("freeboard", 1.0 / 20, 0.1, 50,
               "height of the crest above the beach where they meet"),
         sized("beach_length", beach, 0, 5000, "dry beach between the dam and the pond's edge"),
         ratio("beach_slope", 0, 0.1, 0.01, "fall of the beach, metres per metre"),
-        sized("pond_length", 2, 1, 5000,
+        sized("pond_length", heights, 1, 5000,
               "tailings below the pond that are modelled, from its edge upstream"),
     };
 }
@@ -152,7 +152,7 @@ Template upstream() {
                  sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
                  sized("bench_width", 1.0 / 15, 0, 50, "crest that a raise leaves free downstream"),
              },
-             pond(3),
+             pond(3, 7.5),  // the end lies 10.5 heights behind the crest (upstream_wall)
              {yes_or_no("drain", false,
                         "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
              soil(0.08),
@@ -178,7 +178,7 @@ Template downstream() {
                  ratio("upstream_slope", 0.5, 10, 2, "upstream face, metres across per metre up"),
                  sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
              },
-             pond(1),
+             pond(1, 2),
              {yes_or_no("drain", true,
                         "yes: the phreatic line ends in a drain below the middle of the crest; no: "
                         "at the toe")},

@@ -74,5 +74,8 @@ void add_ground(const Material& from, Document& document);
 void add_variants(const Material& from, Document& document);
 void add_numbers(const Material& from, Document& document);
 void add_checklist(const Material& from, Document& document);
+/// The methods of the phases that ran, with their sources.
+void add_methods(const Material& from, Document& document);
+void add_annex(const Material& from, Document& document);
 
 }  // namespace breach::report

@@ -41,8 +41,8 @@ Table gauge_table(const Run& run) {
     Table table{
         "gauges",
         "Gauges",
-        {"run", "t_T [s]", "variant", "gauge", "x [m]", "arrival [s]", "largest depth [m]",
-         "at [s]", "largest velocity [m/s]"},
+        {"t_T [s]", "variant", "gauge", "x [m]", "arrival [s]", "largest depth [m]", "at [s]",
+         "largest velocity [m/s]"},
         {},
         "Arrival: first time at which the flow is as deep as the gauge's arrival_depth, in "
         "seconds since the transfer; - when it never is, or was not yet where the soil still "
@@ -51,8 +51,8 @@ Table gauge_table(const Run& run) {
         if (!each->result.is_object() || !each->result.contains("gauges")) continue;
         for (const auto& [name, seen] : each->result.at("gauges").items()) {
             table.rows.push_back(
-                {each->label, each->transfer_time ? short_number(*each->transfer_time) : "-",
-                 each->variant, name, fact(seen, "/x"), fact(seen, "/arrival_time"),
+                {each->transfer_time ? short_number(*each->transfer_time) : "-", each->variant,
+                 name, fact(seen, "/x"), fact(seen, "/arrival_time"),
                  bounded(*each, fact(seen, "/largest_depth")), fact(seen, "/time_of_largest_depth"),
                  bounded(*each, fact(seen, "/largest_velocity"))});
         }

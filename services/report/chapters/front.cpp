@@ -198,30 +198,28 @@ void add_mean(const Run& run, Table& table) {
              (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
 }
 
-/// Of each gauge, as far as the page has room: when it came, how deep, how fast.
-void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolder*>& all,
-                    Table& table) {
-    const json gauges = shown.scene.value("/mpm/gauges"_json_pointer, json::array());
-    for (std::size_t i = 0; i < std::min(gauges.size(), most_gauges); ++i) {
-        const std::string name = gauges[i].at("name"), at = "/gauges/" + name;
-        if (!shown.result.contains(json::json_pointer(at))) continue;
-        const std::string arrival = brief_fact(shown, at + "/arrival_time");
-        const auto largest = [&](const char* of) {
-            return bounded(shown, brief_fact(shown, at + of));
-        };
-        table.rows.push_back(
-            {"Gauge " + name + " (x = " + short_number(gauges[i].at("x")) +
-                 " m): arrival [s]; largest depth [m]; velocity [m/s]",
-             arrival + "; " + largest("/largest_depth") + "; " + largest("/largest_velocity"),
-             range_of(all, at + "/arrival_time", false) + "; " +
-                 range_of(all, at + "/largest_depth", true) + "; " +
-                 range_of(all, at + "/largest_velocity", true),
-             arrival == "-" ? "the flow was not there by the end"
-                            : "arrival since the soil was let go"});
+/// When the flow of the governing runout came to each gauge, how deep and how fast.
+Table gauges_of(const Run& run) {
+    const PhaseFolder* shown = farthest_runout(run);
+    if (!shown) return {};
+    Table table{
+        "front_gauges",
+        "At the gauges",
+        {"quantity"},
+        {{"arrival [s]"}, {"largest depth [m]"}, {"largest velocity [m/s]"}},
+        "Of the governing case. Arrival: time since the soil began to move; -: the flow did "
+        "not arrive."};
+    const json gauges = shown->scene.value("/mpm/gauges"_json_pointer, json::array());
+    for (const json& gauge : gauges) {
+        const std::string name = gauge.at("name"), at = "/gauges/" + name;
+        if (table.columns.size() > most_gauges || !shown->result.contains(json::json_pointer(at)))
+            continue;
+        table.columns.push_back(name + ", x = " + short_number(gauge.at("x")) + " m");
+        table.rows[0].push_back(brief_fact(*shown, at + "/arrival_time"));
+        table.rows[1].push_back(bounded(*shown, brief_fact(*shown, at + "/largest_depth")));
+        table.rows[2].push_back(bounded(*shown, brief_fact(*shown, at + "/largest_velocity")));
     }
-    if (gauges.size() > most_gauges)
-        table.rows.push_back({"Further gauges", std::to_string(gauges.size() - most_gauges), "-",
-                              "in the chapter \"Flow and deposit\""});
+    return table.columns.size() > 1 ? table : Table{};
 }
 
 void add_runouts(const Run& run, Table& table) {
@@ -255,8 +253,7 @@ void add_runouts(const Run& run, Table& table) {
     table.rows.push_back({"At rest", rest_of(shown),
                           std::to_string(at_rest) + " of " + std::to_string(asked.size()),
                           still_moves(shown) ? "distances and volumes are lower bounds" : ""});
-    add_gauge_rows(shown, asked, table);
-    table.caption = "Here: the largest runout of all (" + of_transfer(shown) +
+    table.caption = "Governing case: the largest runout of all (" + of_transfer(shown) +
                     (any_moves(asked) && !still_moves(shown)
                          ? "), unless one whose soil still moved would have gone farther. "
                          : "). ") +
@@ -264,32 +261,50 @@ void add_runouts(const Run& run, Table& table) {
                     "\u2265: a lower bound, the soil still moved.";
 }
 
-/// The last stage of each analysis, of which variants may have different numbers; nothing: none has
-/// stages.
-std::optional<std::vector<std::string>> liquefied_row(const std::vector<const PhaseFolder*>& all) {
+/// The factor of safety of an analysis' last stage; nothing: it has none.
+std::optional<double> liquefied_factor(const PhaseFolder& lem) {
+    if (!lem.result.is_object()) return {};
+    const json stages = lem.result.value("stages", json::array());
+    const json factor = stages.empty() ? json() : stages.back().value("factor_of_safety", json());
+    if (!factor.is_number()) return {};
+    return factor.get<double>();
+}
+
+/// Nothing: no analysis has stages.
+std::optional<std::vector<std::string>> liquefied_row(const std::vector<const PhaseFolder*>& all,
+                                                      const PhaseFolder& governing) {
     std::multimap<double, const PhaseFolder*> factors;
-    for (const PhaseFolder* each : all) {
-        if (!each->result.is_object()) continue;
-        const json stages = each->result.value("stages", json::array());
-        const json factor =
-            stages.empty() ? json() : stages.back().value("factor_of_safety", json());
-        if (factor.is_number()) factors.emplace(factor.get<double>(), each);
-    }
+    for (const PhaseFolder* each : all)
+        if (const auto factor = liquefied_factor(*each)) factors.emplace(*factor, each);
     if (factors.empty()) return {};
     const auto& [least, of] = *factors.begin();
     const std::string largest =
         factors.size() > 1 ? " to " + rounded(factors.rbegin()->first, digits) : "";
+    const auto governs = liquefied_factor(governing);
+    std::string remark = "residual strengths";
+    if (of != &governing) remark += "; " + rounded(least, digits) + " in " + of->variant;
     return std::vector<std::string>{
-        "Factor of safety with every layer liquefied that may", rounded(least, digits),
-        rounded(least, digits) + largest + counted(factors.size(), all.size()),
-        "residual strengths of /lem/liquefaction" +
-            (of->variant.empty() ? "" : "; the least, " + of->variant)};
+        "Factor of safety with every layer liquefied that may",
+        governs ? rounded(*governs, digits) : "-",
+        rounded(least, digits) + largest + counted(factors.size(), all.size()), remark};
+}
+
+/// Of the variant that runs farthest, or the analysis that serves all; without a runout the one with
+/// the least factor.
+const PhaseFolder* governing_stability(const Run& run, const std::vector<const PhaseFolder*>& all) {
+    if (const PhaseFolder* farthest = farthest_runout(run))
+        for (const std::string& variant : {farthest->variant, std::string()})
+            for (const PhaseFolder* each : all)
+                if (each->variant == variant && each->result.is_object() &&
+                    each->result.contains("factor_of_safety"))
+                    return each;
+    return least_factor(run);
 }
 
 void add_factors(const Run& run, Table& table) {
     const auto all = phases_named(run, phases::lem.program);
     if (all.empty()) return;
-    const PhaseFolder* least = least_factor(run);
+    const PhaseFolder* least = governing_stability(run, all);
     if (!least) {
         table.rows.push_back({"Factor of safety", "no result", "0 of " + std::to_string(all.size()),
                               all.front()->fault});
@@ -300,9 +315,10 @@ void add_factors(const Run& run, Table& table) {
                                      std::pair{"Spencer", "/bishop/spencer/factor_of_safety"}})
         if (const std::string factor = brief_fact(*least, fact); factor != "-")
             worth += std::string("; ") + name + " " + factor;
-    if (!least->variant.empty()) worth += "; the least, " + least->variant;
+    if (const PhaseFolder* other = least_factor(run); other != least)
+        worth += "; " + brief_fact(*other, "/factor_of_safety") + " in " + other->variant;
     if (const std::string end = how_it_ended(*least); end != "well") worth += "; " + end;
-    auto liquefied = liquefied_row(all);
+    auto liquefied = liquefied_row(all, *least);
     table.rows.push_back(
         {liquefied ? "Factor of safety before any layer liquefies" : "Factor of safety",
          brief_fact(*least, "/factor_of_safety"), range_of(all, "/factor_of_safety", false),
@@ -439,8 +455,10 @@ std::string headline_of(const Run& run) {
 
 Front front_of(const Run& run) {
     const json& scene = run.scene;
-    Table found{
-        "found", "What comes out", {"quantity", "here", "in the whole run", "to be known"}, {}};
+    Table found{"found",
+                "What comes out",
+                {"quantity", "governing case", "in the whole run", "remark"},
+                {}};
     if (auto sampled = sampled_answer(run)) found.rows.push_back(std::move(*sampled));
     add_runouts(run, found);
     add_factors(run, found);
@@ -451,6 +469,7 @@ Front front_of(const Run& run) {
                 .headline = headline_of(run),
                 .asked = asked_of(run, scene),
                 .found = std::move(found),
+                .gauges = gauges_of(run),
                 .limits = limits_of(run),
                 .author = about.value("author", ""),
                 .reviewer = about.value("reviewer", "")};

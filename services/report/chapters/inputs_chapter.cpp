@@ -1,5 +1,5 @@
-// What went in: section, materials, water, boundary, motion and every setting, with what nobody set
-// marked as such. Every entry that the run's phases read stands in one of the tables.
+// What went in: the section, its soils and its water in the field's words; and the annex, where every
+// entry that the run's phases read stands in one of the tables, with what nobody set marked as such.
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +11,7 @@
 namespace breach::report {
 
 using nlohmann::json;
+using namespace nlohmann::literals;
 
 namespace {
 
@@ -102,9 +103,9 @@ std::string corners_of(const json& polygon) {
     return text;
 }
 
-Table section_of(const json& scene, const std::vector<SceneEntry>& entries) {
+Table regions_of(const json& scene, const std::vector<SceneEntry>& entries) {
     Table table{"section",
-                "Section",
+                "Regions",
                 {"region", "material", "area [m2]", "corners (x, y) [m]", "mesh"},
                 {},
                 about_marks};
@@ -197,21 +198,114 @@ std::string drawing_of(const Run& run) {
     return can_be_drawn(draft) ? as_svg(draft, {}) : "";
 }
 
+/// "drained c' = 5 kPa, phi' = 30 deg", "s_u = 0.22 sigma'_v0"; "-" where a law has no such entries.
+std::string strength_in_words(const json& strength) {
+    const auto number = [&](const char* key) { return rounded(strength.value(key, 0.0), 3); };
+    const std::string type = strength.value("type", "");
+    if (type == "effective" || type == "mohr_coulomb") {
+        if (strength.value("phi_deg", 0.0) == 0.0) return "s_u = " + number("c_kPa") + " kPa";
+        return "c' = " + number("c_kPa") + " kPa, phi' = " + number("phi_deg") + " deg";
+    }
+    if (type == "undrained") return "s_u = " + number("s_u_kPa") + " kPa";
+    if (type == "undrained_by_depth")
+        return "s_u = " + number("at_ground_kPa") + " kPa + " + number("per_metre_kPa") +
+               " kPa/m of depth";
+    if (type == "undrained_ratio") return "s_u = " + number("ratio") + " sigma'_v0";
+    if (type == "relation") return "s_r by " + strength.value("relation", "");
+    if (type == "pm4sand")
+        return "D_R = " + number("D_R") + ", G_0 = " + number("G_0") + ", h_po = " + number("h_po");
+    if (type == "norsand") return "psi_0 = " + number("psi_0");
+    return type.starts_with("undrained") ? "s_u by " + type.substr(10) : "-";
+}
+
+std::string peak_of(const json& material) {
+    if (const json profile = material.value("/strength/peak"_json_pointer, json());
+        profile.is_object())
+        return strength_in_words(profile);
+    return strength_in_words(material.at("law"));
+}
+
+std::string residual_of(const json& material) {
+    if (const json profile = material.value("/strength/residual"_json_pointer, json());
+        profile.is_object())
+        return strength_in_words(profile);
+    const json softening = material.at("law").value("softening", json());
+    if (!softening.is_object()) return "-";
+    const double phi =
+        softening.value("phi_residual_deg", material.at("law").value("phi_deg", 0.0));
+    return strength_in_words({{"type", "mohr_coulomb"},
+                              {"c_kPa", softening.value("c_residual_kPa", 0.0)},
+                              {"phi_deg", phi}});
+}
+
+/// One row per soil that a region has or the transfer makes.
+Table soils_of(const json& scene) {
+    Table table{
+        "soils",
+        "Soils",
+        {"soil", "law", "density [kg/m3]", "strength", "after softening", "E [MPa]", "nu",
+         "permeability [m/s]"},
+        {},
+        "Strength before failure, and what the soil softens to. The annex has every entry."};
+    const json materials = scene.value("materials", json::object());
+    for (const auto& [name, soil] : materials.items()) {
+        const json& law = soil.at("law");
+        const auto entry = [](const json& of, const char* key) {
+            const json value = of.value(key, json());
+            return value.is_number() ? rounded(value.get<double>(), 4) : std::string("-");
+        };
+        const json k = soil.value("permeability", json());
+        std::string type = law.value("type", "");
+        std::ranges::replace(type, '_', ' ');
+        table.rows.push_back({name, type, entry(soil, "density"), peak_of(soil), residual_of(soil),
+                              entry(law, "E_MPa"), entry(law, "nu"),
+                              k.is_array() ? rounded(k.at(0).get<double>(), 3) : "-"});
+    }
+    return table;
+}
+
+Table assumptions_of(const json& scene) {
+    Table table{"assumptions", "Notes of the scene", {"of", "note"}, {}};
+    const auto add = [&](const std::string& of, const json& part) {
+        if (!part.is_object()) return;
+        const json notes = part.value("notes", json::array());
+        for (const json& each : notes.is_array() ? notes : json::array({notes}))
+            if (each.is_string()) table.rows.push_back({of, each});
+    };
+    add("scene", scene);
+    const json materials = scene.value("materials", json::object());
+    for (const auto& [name, soil] : materials.items()) add(name, soil);
+    for (const auto& [key, title] :
+         {std::pair("lem", "limit equilibrium"), std::pair("fem", "finite elements"),
+          std::pair("transfer", "transfer"), std::pair("mpm", "runout")})
+        add(title, scene.value(key, json()));
+    return table;
+}
+
 }  // namespace
 
 void add_inputs(const Material& from, Document& document) {
     const json& scene = from.run.scene;
+    Chapter chapter{"Inputs",
+                    "What variants change stands in their table, every entry in the annex."};
+    chapter.drawing = drawing_of(from.run);
+    chapter.tables.push_back(soils_of(scene));
+    if (Table notes = assumptions_of(scene); !notes.rows.empty())
+        chapter.tables.push_back(std::move(notes));
+    document.chapters.push_back(std::move(chapter));
+}
+
+void add_annex(const Material& from, Document& document) {
+    const json& scene = from.run.scene;
     const std::vector<SceneEntry> entries = entries_read(from.run, scene);
     const auto defaults = std::ranges::count_if(entries, &SceneEntry::is_default);
-    Chapter chapter{"Inputs",
-                    "The scene as it was computed, whole: " + std::to_string(entries.size()) +
-                        " entries, " + std::to_string(defaults) +
-                        " of them at the program's own value (*). What variants change stands in "
-                        "their table."};
-    chapter.drawing = drawing_of(from.run);
-    chapter.tables.push_back(section_of(scene, entries));
+    Chapter chapter{"Annex: the scene, entry by entry",
+                    std::to_string(entries.size()) + " entries, " + std::to_string(defaults) +
+                        " of them at the program's own value (*)."};
+    chapter.tables.push_back(regions_of(scene, entries));
     for (Table& each : materials_of(scene, entries)) chapter.tables.push_back(std::move(each));
     for (Table& each : tables_of(entries)) chapter.tables.push_back(std::move(each));
+    chapter.opens_page = true;
     document.chapters.push_back(std::move(chapter));
 }
 

@@ -37,6 +37,8 @@ std::string settings_of(const Run& run, const PhaseFolder& phase) {
         if (override.starts_with("/fem/snapshot_")) continue;
         text += (text.empty() ? "" : "; ") + override;
     }
+    constexpr std::size_t longest = 120;
+    if (text.size() > longest) return text.substr(0, longest) + " ... (whole: Variants)";
     return text.empty() ? "as in the scene" : text;
 }
 

@@ -40,17 +40,10 @@ Series surface_of(const PhaseFolder& mpm) {
 
 /// Of the phase that has one; without points: none has.
 Series phreatic_line(const json& scene) {
-    Series s{"phreatic line", {}, {}};
-    for (const char* each : {"/fem/water/line", "/lem/water/line", "/transfer/phreatic_line"}) {
-        const json line = scene.value(json::json_pointer(each), json());
-        if (!line.is_array()) continue;
-        for (const json& point : line) {
-            s.x.push_back(point.at(0));
-            s.y.push_back(point.at(1));
-        }
-        return s;
-    }
-    return s;
+    for (const char* each : {"/fem/water/line", "/lem/water/line", "/transfer/phreatic_line"})
+        if (const json line = scene.value(json::json_pointer(each), json()); line.is_array())
+            return line_of(line, "phreatic line");
+    return {};
 }
 
 }  // namespace

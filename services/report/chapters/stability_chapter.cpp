@@ -24,7 +24,9 @@ void add_stability(const Material& from, Document& document) {
                 "Factor of safety of the critical surface while layers liquefy from the "
                 "top down.";
         } else {
-            each.caption = "The section as it was analysed and the critical surface of every kind.";
+            each.caption =
+                "The critical surface of each stage, and of the other kinds before any layer "
+                "liquefies.";
         }
     }
     if (!lem->result.contains("stages")) {

@@ -49,6 +49,7 @@ struct Front {
     std::vector<Figure> pictures = {};       ///< the section before and after
     std::vector<std::string> asked = {};     ///< in sentences
     Table found = {};                        ///< without rows: nothing came out
+    Table gauges = {};                       ///< of the governing runout, one column each
     std::vector<std::string> limits = {};    ///< of the model, in sentences
     std::string author = {}, reviewer = {};  ///< who sign
 };

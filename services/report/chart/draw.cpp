@@ -252,7 +252,8 @@ struct Entry {
 std::vector<Entry> entries_of(const Chart& chart, const std::vector<std::string>& colour) {
     std::vector<Entry> entries;
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
-        if (!chart.series[i].like) entries.push_back({chart.series[i].name, colour[i]});
+        if (!chart.series[i].like && chart.series[i].style != Style::area)
+            entries.push_back({chart.series[i].name, colour[i]});
     }
     for (const Certainty each : {Certainty::at_least, Certainty::doubtful}) {
         const bool there = std::ranges::any_of(chart.series, [&](const Series& s) {

@@ -47,6 +47,8 @@ constexpr const char* style =
     ".front figure svg{max-height:36mm}.people,.front li{font-size:8pt}.front h2{margin:.3em 0 "
     ".1em}"
     ".sign{margin-top:2.2em}nav>ol{columns:2}nav li{break-inside:avoid}"
+    "section>figure svg{max-height:105mm}section>figure.drawing svg{max-height:150mm}nav{"
+    "font-size:8.5pt;line-height:1.25}nav li ul{font-size:8pt}"
     ".wide{overflow:visible}.wide p{font-size:9pt}table{width:100%;font-size:8pt}td{max-width:none}"
     "th,td{padding:.15em "
     ".4em}td.long{overflow-wrap:anywhere;min-width:6em}td.long:first-child{min-width:11em}"
@@ -166,7 +168,8 @@ void write_front(std::ostream& html, const Document& document, const std::string
     for (const Figure& each : front.pictures) write_figure(html, each, folder);
     if (!front.of.empty()) html << "<p>" << escaped(front.of) << "</p>\n";
     write_list(html, "What was asked", front.asked);
-    if (!front.found.rows.empty()) write_table(html, front.found, folder);
+    for (const Table* each : {&front.found, &front.gauges})
+        if (!each->rows.empty()) write_table(html, *each, folder);
     write_verdict(html, document.verdict);
     std::vector<std::string> limits = front.limits;
     limits.insert(limits.end(), document.remarks.begin(), document.remarks.end());

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
+#include "core/geometry/polygon.hpp"
 #include "core/geometry/polyline.hpp"
 #include "core/phases/files.hpp"
 #include "services/report/read/read_results.hpp"
@@ -12,6 +13,7 @@
 namespace breach::report {
 
 using nlohmann::json;
+using namespace nlohmann::literals;
 
 namespace {
 
@@ -88,18 +90,18 @@ std::string with_factor(const std::string& name, const json& facts) {
     return name + ", FS " + short_number(std::round(1e3 * F) / 1e3);
 }
 
-/// The surface of the answer, and beside it the other kinds that were analysed. `before`: "5.88 m, "
-/// of a stage, or nothing.
-void add_surfaces(const json& facts, const json& floor, const std::string& name,
-                  const std::string& before, Chart& chart) {
-    const std::string answer = facts.value("surface", "circle");
+void add_answer(const json& facts, const json& floor, const std::string& name, Chart& chart) {
     if (facts.contains("circle"))
         chart.series.push_back(arc(facts, facts.value("floor", floor), name));
+}
+
+/// The kinds of surface that were analysed beside the answer's.
+void add_other_kinds(const json& facts, const json& floor, Chart& chart) {
+    const std::string answer = facts.value("surface", "circle");
     const auto add_arc = [&](const char* key, const char* surface, const std::string& what) {
         const json other = facts.value(key, json());
         if (other.is_null() || answer == surface) return;
-        chart.series.push_back(
-            arc(other, other.value("floor", floor), with_factor(before + what, other)));
+        chart.series.push_back(arc(other, other.value("floor", floor), with_factor(what, other)));
     };
     add_arc("bishop", "circle", "circle");
     add_arc("composite", "composite", "along weak layer");
@@ -107,42 +109,88 @@ void add_surfaces(const json& facts, const json& floor, const std::string& name,
                                     std::pair{"given_polyline", "given polyline"}}) {
         const json polyline = facts.value(key, json());
         if (polyline.is_null()) continue;
-        Series s{with_factor(before + kind, polyline), {}, {}};
-        for (const json& point : polyline.at("points")) {
-            s.x.push_back(point.at(0));
-            s.y.push_back(point.at(1));
-        }
-        chart.series.push_back(s);
+        chart.series.push_back(line_of(polyline.at("points"), with_factor(kind, polyline)));
     }
+}
+
+/// What lies between two places along x.
+Series between(Series s, double from, double to) {
+    geometry::Polygon ring;
+    for (std::size_t i = 0; i + 1 < s.x.size(); ++i) ring.emplace_back(s.x[i], s.y[i]);
+    ring = geometry::clipped_left(ring, {from, 1.0}, {from, 0.0});
+    ring = geometry::clipped_left(ring, {to, 0.0}, {to, 1.0});
+    s.x.clear();
+    s.y.clear();
+    for (const mechanics::Vec2& each : ring) s.x.push_back(each.x()), s.y.push_back(each.y());
+    return s;
+}
+
+Series within(const Series& line, double from, double to) {
+    std::vector<mechanics::Vec2> places;
+    for (std::size_t i = 0; i < line.x.size(); ++i) places.emplace_back(line.x[i], line.y[i]);
+    from = std::max(from, line.x.front());
+    to = std::min(to, line.x.back());
+    Series part{line.name, {from}, {geometry::level_at(places, from)}};
+    for (const mechanics::Vec2& each : places) {
+        if (each.x() <= from || each.x() >= to) continue;
+        part.x.push_back(each.x());
+        part.y.push_back(each.y());
+    }
+    part.x.push_back(to);
+    part.y.push_back(geometry::level_at(places, to));
+    return part;
 }
 
 Figure section_with_circles(const json& scene, const json& result) {
     Chart chart{"Section and critical surfaces", {"x [m]"}, {"y [m]"}, {}, {}, Aspect::equal};
-    for (const json& region : scene.at("section").at("regions")) {
-        Series s{region.at("name"), {}, {}, Style::area};
-        for (const json& p : region.at("polygon")) {
-            s.x.push_back(p.at(0));
-            s.y.push_back(p.at(1));
-        }
-        chart.series.push_back(s);
-    }
     const json floor = scene.value(json::json_pointer("/lem/floor"), json::array());
-    if (!result.contains("stages")) add_surfaces(result, floor, "critical", "", chart);
-    for (const json& stage : result.value("stages", json::array())) {
-        const std::string depth = short_number(stage.at("liquefied_depth"));
-        add_surfaces(stage, floor, with_factor(depth + " m liquefied", stage), depth + " m, ",
-                     chart);
+    const json stages = result.value("stages", json::array());
+    if (stages.empty()) add_answer(result, floor, "critical", chart);
+    for (const json& stage : stages) {
+        const std::string depth = rounded(stage.at("liquefied_depth"), 3);
+        add_answer(stage, floor, with_factor(depth + " m liquefied", stage), chart);
+        const std::size_t n = chart.series.size();  // a deeper layer may leave the surface as it is
+        if (n > 1 && chart.series[n - 1].x == chart.series[n - 2].x &&
+            chart.series[n - 1].y == chart.series[n - 2].y)
+            chart.series.pop_back();
     }
+    add_other_kinds(stages.empty() ? result : stages.front(), floor, chart);
+
+    // Only where soil slides, so that one scale shows it.
+    double from = 1e300, to = -1e300;
+    for (const Series& each : chart.series)
+        for (const double x : each.x) from = std::min(from, x), to = std::max(to, x);
+    const double margin = from < to ? 0.25 * (to - from) : 1e300;
+    std::vector<Series> soil;
+    for (const json& region : scene.at("section").at("regions")) {
+        Series s = line_of(region.at("polygon"), region.at("name"));
+        s.style = Style::area;
+        s = between(std::move(s), from - margin, to + margin);
+        if (!s.x.empty()) soil.push_back(std::move(s));
+    }
+    Series water =
+        line_of(scene.value("/lem/water/line"_json_pointer, json::array()), "phreatic line");
+    if (!water.x.empty()) soil.push_back(within(water, from - margin, to + margin));
+    chart.series.insert(chart.series.begin(), soil.begin(), soil.end());
     return {"section_with_critical_surfaces", chart};
 }
 
 }  // namespace
 
+Series line_of(const json& points, const std::string& name) {
+    Series s{name, {}, {}};
+    for (const json& point : points) {
+        s.x.push_back(point.at(0));
+        s.y.push_back(point.at(1));
+    }
+    return s;
+}
+
 std::optional<Series> critical_surface(const json& scene, const json& result) {
     if (!result.is_object()) return {};
     Chart chart{};
-    add_surfaces(result, scene.value(json::json_pointer("/lem/floor"), json::array()),
-                 with_factor("slip surface", result), "", chart);
+    add_answer(result, scene.value(json::json_pointer("/lem/floor"), json::array()),
+               with_factor("slip surface", result), chart);
     if (chart.series.empty()) return {};
     return std::move(chart.series.front());
 }
