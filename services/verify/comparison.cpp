@@ -142,27 +142,53 @@ Found found_in(const fs::path& folder, const Quantity& quantity) {
     return found;
 }
 
-Outcome outcome_of(const Case& of, const Settings& settings) {
-    const fs::path folder = settings.output / "cases" / of.id;
-    fs::remove_all(folder);
+/// The slope of log |error| over log size, by least squares.
+Found order_in(const fs::path& folder, const Case& of, const Quantity& quantity) {
+    const auto n = static_cast<double>(of.levels.size());
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (std::size_t k = 0; k < of.levels.size(); ++k) {
+        const Found found = found_in(folder / std::to_string(k), quantity);
+        if (!found.value) return found;
+        const double size = std::log(of.levels[k].size);
+        const double error = std::log(std::abs(*found.value - *quantity.limit));
+        x += size, y += error, xx += size * size, xy += size * error;
+    }
+    return {&quantity, (n * xy - x * y) / (n * xx - x * x), ""};
+}
+
+/// Why it broke, or nothing.
+std::string run_commands(const Case& of, const std::vector<std::string>& set,
+                         const fs::path& folder, const Settings& settings, double& cpu_seconds) {
     fs::create_directories(folder);
-    Outcome outcome{&of};
-    std::string broke;
     for (std::vector<std::string> words : of.commands) {
+        for (const std::string& each : set) words.insert(words.end(), {"--set", each});
         for (std::string& each : words)
             each =
                 replaced(replaced(each, "{input}", of.scene.string()), "{output}", folder.string());
         const std::string program = words.front();
         words.front() = (settings.programs / program).string();
         const auto [code, seconds] = run_program(std::move(words), folder);
-        outcome.cpu_seconds += seconds;
-        if (code == 0) continue;
-        broke = program + " ended with exit code " + std::to_string(code) + ": " +
-                (folder / "log.txt").string();
-        break;
+        cpu_seconds += seconds;
+        if (code != 0)
+            return program + " ended with exit code " + std::to_string(code) + ": " +
+                   (folder / "log.txt").string();
     }
+    return "";
+}
+
+Outcome outcome_of(const Case& of, const Settings& settings) {
+    const fs::path folder = settings.output / "cases" / of.id;
+    fs::remove_all(folder);
+    Outcome outcome{&of};
+    std::string broke;
+    if (of.levels.empty()) broke = run_commands(of, {}, folder, settings, outcome.cpu_seconds);
+    for (std::size_t k = 0; k < of.levels.size() && broke.empty(); ++k)
+        broke = run_commands(of, of.levels[k].set, folder / std::to_string(k), settings,
+                             outcome.cpu_seconds);
     for (const Quantity& each : of.quantities)
-        outcome.found.push_back(broke.empty() ? found_in(folder, each) : Found{&each, {}, broke});
+        outcome.found.push_back(!broke.empty() ? Found{&each, {}, broke}
+                                : each.limit   ? order_in(folder, of, each)
+                                               : found_in(folder, each));
     return outcome;
 }
 
