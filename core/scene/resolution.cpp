@@ -92,7 +92,7 @@ void judge_fine_cells(const Scene& scene, Resolved& resolved) {
     if (cells <= most) return;
     resolved.flags.push_back(
         {"implausible", fault::Severity::warning,
-         text_of(h) + " m fills the section with " + text_of(std::round(cells)) +
+         text_of(h) + " m fills the section with " + std::to_string(std::lround(cells)) +
              " cells, and the time to compute grows with the third power of their number across: "
              "cells of " +
              rounded_down(std::sqrt(area / (0.1 * most))) + " m have a tenth of that",

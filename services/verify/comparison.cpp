@@ -1,11 +1,5 @@
 #include "services/verify/comparison.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <fstream>
@@ -15,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/command/command.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
 
@@ -37,31 +32,17 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-/// Its exit code and CPU seconds; what it says goes to log.txt.
-std::pair<int, double> run_program(std::vector<std::string> words, const fs::path& folder) {
-    std::vector<char*> arguments;
-    for (std::string& each : words) arguments.push_back(each.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    const std::string log = (folder / "log.txt").string();
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                     O_WRONLY | O_CREAT | O_APPEND, 0644);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    pid_t child = 0;
-    const int failed =
-        posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) return {127, 0.0};
-    int status = 0;
-    rusage spent{};
-    while (wait4(child, &status, 0, &spent) < 0 && errno == EINTR) {
+/// What it says goes to log.txt. One that cannot be started has no exit code.
+command::Result run_program(std::vector<std::string> words, const fs::path& folder) {
+    constexpr auto longest = std::chrono::hours(2);
+    command::Result result;
+    try {
+        result = command::run(std::move(words), "", longest);
+    } catch (const fault::IoError& error) {
+        result.err = error.what();
     }
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128,
-            seconds(spent.ru_utime) + seconds(spent.ru_stime)};
+    std::ofstream(folder / "log.txt", std::ios::app) << result.out << result.err;
+    return result;
 }
 
 std::optional<double> number_in(const json& document, const std::string& pointer) {
@@ -167,10 +148,11 @@ std::string run_commands(const Case& of, const std::vector<std::string>& set,
                 replaced(replaced(each, "{input}", of.scene.string()), "{output}", folder.string());
         const std::string program = words.front();
         words.front() = (settings.programs / program).string();
-        const auto [code, seconds] = run_program(std::move(words), folder);
-        cpu_seconds += seconds;
-        if (code != 0)
-            return program + " ended with exit code " + std::to_string(code) + ": " +
+        const command::Result ran = run_program(std::move(words), folder);
+        cpu_seconds += ran.cpu_seconds;
+        if (!ran.exit_code) return program + " was stopped: " + (folder / "log.txt").string();
+        if (*ran.exit_code != 0)
+            return program + " ended with exit code " + std::to_string(*ran.exit_code) + ": " +
                    (folder / "log.txt").string();
     }
     return "";
@@ -230,13 +212,14 @@ std::string versions_of(const Settings& settings) {
     for (const phases::Phase& each : phases::all) {
         fs::remove_all(folder);
         fs::create_directories(folder);
-        if (run_program({(settings.programs / each.program).string(), "--version"}, folder).first !=
-            0)
+        const command::Result told =
+            run_program({(settings.programs / each.program).string(), "--version"}, folder);
+        if (told.exit_code != 0)
             throw fault::IoError((settings.programs / each.program).string() + ": cannot be run");
-        std::ifstream log(folder / "log.txt");
+        std::istringstream said(told.out);
         std::string version, numerics;
-        std::getline(log, version);
-        std::getline(log, numerics);
+        std::getline(said, version);
+        std::getline(said, numerics);
         versions += (versions.empty() ? "" : ", ") + version + " (" + numerics + ")";
     }
     fs::remove_all(folder);

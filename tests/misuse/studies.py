@@ -29,7 +29,6 @@ def studies(bases):
         ("a trigger of a field that is not there", study(triggers=[{"kind": "criterion", "name": "t", "when": "pore_joy > 1"}]), r"pore_joy"),
         ("a trigger that is never true", study(triggers=[{"kind": "criterion", "name": "t", "when": "strained_share > 5"}]),
          r"strained_share > 5[\s\S]*from 0 to 1"),
-        ("a trigger after the FEM's end", study(triggers=[{"kind": "criterion", "name": "t", "when": "time > 5000"}]), r"never be true"),
         ("a coefficient of variation of 30 for 0.30", study(uncertainty={"samples": 4, "parameters": [
             {"name": "c", "factor_on": ["/materials/slope_soil/law/c_kPa"], "distribution": {"type": "lognormal", "median": 1, "cov": 30}}]}),
          r"cov[\s\S]*%[\s\S]*0\.3"),

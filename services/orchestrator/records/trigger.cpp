@@ -93,17 +93,15 @@ void check_entries(const json& entry, const KindRule& rule, const std::string& p
     }
 }
 
-/// `span`: until the FEM ends [s].
-criteria::Range range_of(const std::string& field, double span) {
-    if (field == "time") return {0.0, span};
+criteria::Range range_of(const std::string& field) {
     const telemetry::Column* column = telemetry::column_named(field);
     return column ? criteria::Range{column->least, column->most} : criteria::Range{};
 }
 
-std::string ranges_of(const criteria::Expression& condition, double span) {
+std::string ranges_of(const criteria::Expression& condition) {
     std::string text;
     for (const std::string& field : condition.fields) {
-        const auto [least, most] = range_of(field, span);
+        const auto [least, most] = range_of(field);
         if (std::isinf(least) && std::isinf(most)) continue;
         text += (text.empty() ? "" : ", ") + field;
         if (std::isinf(most))
@@ -114,17 +112,16 @@ std::string ranges_of(const criteria::Expression& condition, double span) {
     return text;
 }
 
-void check_condition(const json& spec, const char* key, double span, const std::string& pointer,
+void check_condition(const json& spec, const char* key, const std::string& pointer,
                      std::vector<Fault>& faults) {
     if (!spec.contains(key)) return;
     try {
         const auto asked = criteria::parse(spec[key].get<std::string>(), criteria::Kind::condition,
                                            pointer + "/" + key, telemetry_fields());
-        const bool can_be = criteria::can_be_true(
-            asked, [&](const std::string& field) { return range_of(field, span); });
+        const bool can_be = criteria::can_be_true(asked, range_of);
         if (!can_be && std::string_view(key) != "upper")
             faults.push_back({pointer + "/" + key, "can never be true: " + asked.text,
-                              "check sign and unit: " + ranges_of(asked, span)});
+                              "check sign and unit: " + ranges_of(asked)});
     } catch (const fault::BadInput& error) {
         faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }
@@ -213,8 +210,7 @@ CheckedTriggers check_triggers(const json& entries, double span, const std::stri
         const std::string kind = entry.at("kind");
         const std::size_t before = faults.size();
         check_entries(entry, *std::ranges::find(kind_rules(), kind, &KindRule::kind), at, faults);
-        for (const char* key : {"when", "lower", "upper"})
-            check_condition(entry, key, span, at, faults);
+        for (const char* key : {"when", "lower", "upper"}) check_condition(entry, key, at, faults);
         std::string name = entry.value("name", kind + "_" + std::to_string(i + 1));
         if (!names.insert(name).second)
             faults.push_back({at + "/name", "the name \"" + name + "\" is given twice",
