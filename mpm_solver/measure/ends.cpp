@@ -115,7 +115,7 @@ double crest_edge(const std::vector<double>& places, const std::vector<double>& 
     return places[k];
 }
 
-/// Of tailings upstream of the crest: docs/mochikoshi_authors.md. Its 317 m are 10.8 heights.
+/// Of tailings upstream of the crest: docs/verification/mochikoshi_authors.md. Its 317 m are 10.8 heights.
 constexpr double enough_heights = 10.5;
 
 /// Soil that has left lowers the surface.

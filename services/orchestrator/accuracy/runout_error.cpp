@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_studies = 20;  // the newest are asked
 /// Standard deviation of a runout over lattices of points where no draws tell it: about what
-/// docs/accuracy.md has of short runouts (up to 0.5 of a cell) and of long ones (1.2 to 1.5 %).
+/// docs/verification/accuracy.md has of short runouts (up to 0.5 of a cell) and of long ones (1.2 to 1.5 %).
 constexpr double scatter_in_cells = 0.5;
 constexpr double scatter_of_runout = 0.015;
 constexpr const char* noise_of_points =

@@ -38,7 +38,7 @@ std::string override_of(const std::string& pointer, double value) {
 /// What may be left out of balance gets 5 % smaller from draw to draw, and steps are shorter by what is
 /// left of multiples of the golden section, 0 to 10 %: changes too small to be of the model. Where soil
 /// is about to fail the runs part ways. By the residuals alone they part too little: the crest of
-/// docs/mochikoshi_fem.md scatters three times as much with the steps.
+/// docs/verification/mochikoshi_fem.md scatters three times as much with the steps.
 std::vector<std::string> fem_of_draw(std::size_t draw, const json& scene) {
     if (draw == 0 || !scene.contains("fem")) return {};
     const auto d = static_cast<double>(draw);

@@ -113,8 +113,8 @@ class RealService(unittest.TestCase):
     def test_a_recommendation_is_checked_on_new_lattices(self):
         file = self.accuracy_study()  # of the column as it is shipped, which comes to rest
         study = json.loads(file.read_text()) | {"overrides": [], "transfer_times": [0.4]}
-        # The mean on cells of 2 m in docs/accuracy.md. One run scatters by 2 %: the mean of some keeps 5.5 %.
-        study["accuracy"] |= {"draws": 3, "asked_error": 0.055, "reference": {"value": 29.35, "source": "docs/accuracy.md"}}
+        # The mean on cells of 2 m in docs/verification/accuracy.md. One run scatters by 2 %: the mean of some keeps 5.5 %.
+        study["accuracy"] |= {"draws": 3, "asked_error": 0.055, "reference": {"value": 29.35, "source": "docs/verification/accuracy.md"}}
         file.write_text(json.dumps(study))
         run = self.breach("accuracy", file).stdout.strip()
         self.breach("watch", run)
