@@ -275,12 +275,12 @@ class HttpServer::Implementation {
                   settings_.host + " can be reached from other machines, and there is "
                                    "no token",
                   "stay on 127.0.0.1; for other machines give --tokens FILE (or --token-file FILE) "
-                  "and put nginx with TLS in front (docs/reverse_proxy.md)"}});
+                  "and put nginx with TLS in front (docs/how-to/reverse_proxy.md)"}});
         }
         if (!is_loopback(settings_.host))
             spdlog::warn(
                 "tokens and results travel unencrypted: stay on 127.0.0.1 and put nginx with TLS "
-                "in front (docs/reverse_proxy.md)");
+                "in front (docs/how-to/reverse_proxy.md)");
         if (settings_.port == 0) {
             port_ = server_.bind_to_any_port(settings_.host);
         } else if (server_.bind_to_port(settings_.host, settings_.port)) {
