@@ -41,7 +41,7 @@ void doubt_blows(const scene::Fem& fem, Findings& findings) {
         if (stage.kind != scene::StageKind::dynamic || !changes || stage.ramp > 0.0) continue;
         warn(findings, "sudden_change", "/fem/stages/" + std::to_string(i),
              "places or takes away soil or supports at once, which shakes the body as a blow does; "
-             "give the stage a ramp in which it comes to bear");
+             "give the stage a ramp");
     }
 }
 

@@ -309,8 +309,9 @@ json parse_json(std::string_view text, const std::string& file) {
                 {"", "has the key \"" + key + "\" twice in one object", "keep one of them"});
         }
         if (!can_be_pointed_at(key)) {
-            faults.push_back({"", "has the key \"" + key + "\" with / or ~ in it",
-                              "name it without: entries are told by their path, /materials/sand"});
+            faults.push_back(
+                {"", "has the key \"" + key + "\" with / or ~ in it",
+                 "name it without: messages name entries by their path, /materials/sand"});
         }
         return true;
     };
@@ -319,7 +320,7 @@ json parse_json(std::string_view text, const std::string& file) {
         document = json::parse(text, watch);
     } catch (const json::exception& error) {
         throw fault::BadInput(file, {{"", std::string("is not valid JSON: ") + error.what(),
-                                      "mend the text at the place named"}});
+                                      "correct the text at this place"}});
     }
     if (!faults.empty()) throw fault::BadInput(file, faults);
     return document;

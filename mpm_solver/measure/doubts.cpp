@@ -65,7 +65,7 @@ Flag overlap_work(const Ending& ending) {
                 " % of the released energy (5 % can be trusted), and the rest of the scheme took " +
                 three_digits(100.0 * (ending.numerical_share + ending.correction_share)) +
                 " %: the two cancel in the energy, not in the runout, which may be a tenth too "
-                "long and hangs on where the points lie; compare with 16 points per cell (4 per "
+                "long and depends on where the points lie; compare with 16 points per cell (4 per "
                 "direction)",
             "/mpm/overlap_correction/rate"};
 }

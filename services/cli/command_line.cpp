@@ -89,8 +89,7 @@ std::optional<std::string> read_token(const std::string& file) {
 class CommandLine {
   public:
     CommandLine()
-        : app_("Talks to a Breachline server: submits studies and shows what became of them.",
-               "breach") {
+        : app_("Talks to a Breachline server: submits studies and shows their results.", "breach") {
         app_.set_version_flag("--version", std::string("breach ") + version());
         app_.require_subcommand(1);
         app_.fallthrough();  // --json may stand behind the command
@@ -340,7 +339,7 @@ class CommandLine {
                             [this](Server& s, const Console& c) { return uncertainty(s, c); });
         take_run(sub);
         sub->add_flag("--watch", a_.watch, "watch the run until it ends, then show");
-        sub->add_flag("--csv", a_.csv, "the samples with their draws and results");
+        sub->add_flag("--csv", a_.csv, "the samples with their values and results");
         sub->add_option("--quantity", a_.uncertainty.quantity,
                         "only of this number of the results: runout_beyond_toe");
         take_strict(sub);
@@ -348,8 +347,7 @@ class CommandLine {
 
     void take_check(CLI::App* sub, CLI::Option* of) {
         CheckWish& wish = a_.check;
-        sub->add_option("--within", wish.asked_error,
-                        "the error that is asked for instead of the study's: 0.1")
+        sub->add_option("--within", wish.asked_error, "required error instead of the study's: 0.1")
             ->check(CLI::Range(0.0, 1.0))
             ->needs(of);
         CLI::Option* check =
@@ -365,7 +363,8 @@ class CommandLine {
                            : "";
             })
             ->needs(check);
-        sub->add_option("--mean-of", wish.mean_of, "so many draws are averaged, not as recommended")
+        sub->add_option("--mean-of", wish.mean_of,
+                        "number of repeats per mean, instead of the recommended one")
             ->check(CLI::Range(1, 20))
             ->needs(check);
     }
@@ -445,7 +444,7 @@ class CommandLine {
         results_->add_option("--flag", a_.results.flag,
                              "only rows that carry this flag: still_moving");
         results_->add_flag("--means", a_.results.means,
-                           "only the means over the draws, where the study has draws");
+                           "only the means over the repeats, if the study has repeats");
         take_strict(results_);
     }
 
@@ -457,10 +456,10 @@ class CommandLine {
 
     void add_orders() {
         add_order("cancel", "stop a run's tasks and skip the rest");
-        add_order("pause", "start nothing new of a run; what runs goes on");
-        add_order("resume", "go on with a run that was paused");
+        add_order("pause", "start no more tasks of a run; running tasks finish");
+        add_order("resume", "continue a paused run");
         add_order("retry", "try what failed, was skipped or cancelled once more");
-        add_order("pin", "keep a run whatever the server is told to remove");
+        add_order("pin", "protect a run from removal");
         add_order("unpin", "let a pinned run be removed again");
         CLI::App* rename_ =
             add("rename", "give a run another title", "latest \"Weak beach, second try\"",
@@ -652,7 +651,8 @@ class CommandLine {
                 return remove_all(s, a_.ids, wish, a_.confirmed ? Confirm::given : Confirm::ask, c);
             });
         rm->add_option("RUN|FILE", a_.ids, "runs, or files as file:sha256/...")->required();
-        rm->add_flag("--cancel", a_.cancel_first, "cancel what still goes on, then remove it");
+        rm->add_flag("--cancel", a_.cancel_first,
+                     "cancel runs that have not ended, then remove them");
         rm->add_flag("-y,--yes", a_.confirmed, "do not ask, for scripts");
         add("du", "what holds the server's disk, and what removing each run would free", "--json",
             [](Server& s, const Console& c) { return disk_use(s, c); });

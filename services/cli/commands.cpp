@@ -221,7 +221,7 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
         const std::string means = as_mean_table(answer);
         console.out << as_verdict(answer) << means;
         if (!wish.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
-        if (wish.means && means.empty()) console.notes << "the study has no draws\n";
+        if (wish.means && means.empty()) console.notes << "the study has no repeats\n";
     }
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";

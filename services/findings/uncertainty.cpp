@@ -109,7 +109,7 @@ std::string probability_in_words(const json& stability, const std::string& when)
         return shown(100.0 * failed.at(which).get<double>());
     };
     return "Probability of failure (factor of safety below 1" + when +
-           "), by the same draws as the other results: " + percent("value") + " % (" +
+           "), from the same samples as the other results: " + percent("value") + " % (" +
            percent("low") + " to " + percent("high") + " %), of " +
            counted(stability.at("count"), "sample") + ".";
 }

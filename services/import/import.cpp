@@ -281,11 +281,11 @@ class Import {
         if (!odd) return true;
         if (!drawing_.knows_unit) return false;
         if (length > longest_section) {
-            refuse("unit", size + ", as if millimetres were taken for metres",
+            refuse("unit", size + ", as if millimetres were read as metres",
                    "say its unit: with mm it is " + metres(1e-3 * length) + ", with ft " +
                        metres(0.3048 * length) + " long");
         } else {
-            refuse("unit", size + ", as if metres were taken for a smaller unit",
+            refuse("unit", size + ", as if metres were read as a smaller unit",
                    "say its unit, m or ft");
         }
         return false;
@@ -400,8 +400,8 @@ class Import {
                   "give the distance along the section as x and the level as y");
         if (looks_upside_down(soils))
             doubt("drawing",
-                  "the section's top is level and its bottom has a slope: depths look taken for "
-                  "levels",
+                  "the section's top is level and its bottom has a slope: the drawing looks "
+                  "as if depths were given as levels",
                   "give levels as y, positive upwards: -depth");
     }
 
@@ -498,7 +498,7 @@ class Import {
             const std::size_t more = faults.size() - most_faults;
             faults.resize(most_faults);
             refuse("drawing", "has " + std::to_string(more) + " more faults",
-                   "mend these, and import it again");
+                   "correct these, then import it again");
         }
         json draft{{"format", "breachline-scene/1"},
                    {"name", scene_name(wish_)},

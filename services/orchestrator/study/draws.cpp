@@ -87,7 +87,7 @@ void check_draws(const Draws& draws, Reach reach, const std::string& where,
     if (draws.of == Redrawn::fem && !can_redraw(draws.of, reach))
         faults.push_back(
             {where + "/draws_of",
-             std::string("draws are to compute the FEM again, and ") + program + " comes first",
+             std::string("each repeat computes the FEM again, and ") + program + " comes first",
              "leave \"draws_of\" out"});
     else if (draws.first + draws.count > 1 && !can_redraw(draws.of, reach))
         faults.push_back(
@@ -113,7 +113,7 @@ Draws draws_of(const json& study) {
 
 std::string_view refusal_of_triggers(const Draws& draws) {
     if (draws.of != Redrawn::fem || draws.count == 1) return "";
-    return "each draw has a FEM of its own, and a trigger fires at another time in each: there "
+    return "each repeat has its own FEM, and a trigger fires at another time in each: there "
            "would be no mean at a transfer time";
 }
 

@@ -79,7 +79,7 @@ std::string question_of(const Run& run, const json& scene) {
                "? Finite elements for " + seconds_of_stages(scene) +
                "; their state becomes material points at t_T = " + transfers_of(run) + ".";
     if (phase_named(run, phases::mpm.program))
-        return "How far does the soil run out when it is let go as it stands, with the strengths "
+        return "How far does the soil run out from the given section, with the strengths "
                "of the scene? A static scene: no earthquake, no finite elements; material points "
                "fill the section, with the stress \"" +
                scene.value("/mpm/fill_stress"_json_pointer, "none") + "\" at the start.";
@@ -190,7 +190,7 @@ void add_mean(const Run& run, Table& table) {
     const std::string doubt =
         largest->value("missing_draws", "") + largest->value("questionable_draws", "");
     table.rows.push_back(
-        {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " draws" +
+        {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " repeats" +
              (variant.empty() ? "" : ", " + variant) + " [m]",
          (moves ? at_least : "") + rounded(largest->at("runout").get<double>(), digits), "-",
          (error.is_number() ? "\u00b1 " + rounded(error.get<double>(), 2) + " m (nine of ten)"
@@ -216,8 +216,7 @@ void add_gauge_rows(const PhaseFolder& shown, const std::vector<const PhaseFolde
              range_of(all, at + "/arrival_time", false) + "; " +
                  range_of(all, at + "/largest_depth", true) + "; " +
                  range_of(all, at + "/largest_velocity", true),
-             arrival == "-" ? "the flow was not there by the end"
-                            : "arrival since the soil was let go"});
+             arrival == "-" ? "the flow was not there by the end" : "arrival since the transfer"});
     }
     if (gauges.size() > most_gauges)
         table.rows.push_back({"Further gauges", std::to_string(gauges.size() - most_gauges), "-",
@@ -384,8 +383,8 @@ std::vector<std::string> limits_of(const Run& run) {
     if (!asks_for_runouts(run)) return limits;
     limits.emplace_back("No mixing with water: nothing is diluted, and no free water flows along.");
     limits.emplace_back(
-        "Total stress in the runout: strength is what the soil had when it was let go, but for "
-        "what strain softens; no pore pressure builds or drains.");
+        "Total stress in the runout: strength is that at the transfer, reduced "
+        "by softening; no pore pressure builds up or drains.");
     if (!phase_named(run, phases::fem.program))
         limits.emplace_back("Static: whether and when the section fails is not asked.");
     else

@@ -76,7 +76,7 @@ Table errors_of(const Run& run) {
                 {"run", "t_T [s]", "variant", "runout [m]", "error of one run [m]", "from"},
                 {},
                 "The error of a setting (bias and scatter against a reference) comes from an "
-                "accuracy study of the same scene at the same setting; draws, and neighbours in "
+                "accuracy study of the same scene at the same setting; repeats, and neighbours in "
                 "transfer time, tell the scatter alone."};
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->runout_error_from.empty()) continue;
@@ -102,14 +102,14 @@ std::string with_scatter(const Run& run, const json& mean, const std::string& me
 /// Mean and scatter of every runout of a study with draws.
 Table means_of(const Run& run) {
     Table table{"numbers_means",
-                "Means over the draws",
-                {"t_T [s]", "variant", "draws", "runout [m]", "beyond the toe [m]", "farthest [m]",
-                 "mean runout is off by [m]", "not as it should be"},
+                "Means over the repeats",
+                {"t_T [s]", "variant", "repeats", "runout [m]", "beyond the toe [m]",
+                 "farthest [m]", "mean runout is off by [m]", "not as it should be"},
                 {},
-                "Mean +- standard deviation of one draw. A draw is the same setting on another "
+                "Mean +- standard deviation of one repeat. A repeat is the same setting on another "
                 "lattice of points. Off by: nine of ten such means, by Student's distribution for "
-                "so few draws, with the bias where an accuracy study tells it. \u2265: a lower "
-                "bound, soil of a draw still moved."};
+                "so few repeats, with the bias where an accuracy study tells it. \u2265: a lower "
+                "bound, soil of a repeat still moved."};
     for (const json& mean : run.means) {
         const json error = mean.value("runout_error", json());
         std::string doubt;

@@ -121,9 +121,9 @@ class RealService(unittest.TestCase):
         answer = json.loads(self.breach("accuracy", "--of", run, "--json").stdout)
         best = answer["recommended"]
         self.assertGreater(best["draws"], 1, answer["recommendation"])
-        self.assertIn(f"the mean of {best['draws']} draws of cells: /mpm/cell_size=2", answer["recommendation"])
+        self.assertIn(f"the mean of {best['draws']} repeats of cells: /mpm/cell_size=2", answer["recommendation"])
         shown = self.breach("accuracy", "--of", run, "--check", 5, "--watch").stdout
-        self.assertRegex(shown, rf"\d of 5 means of {best['draws']} new draws are within 5.5 % of 29.35 m")
+        self.assertRegex(shown, rf"\d of 5 means of {best['draws']} new repeats are within 5.5 % of 29.35 m")
         check = shown.split()[0]
         told = json.loads(self.breach("accuracy", "--of", check, "--json").stdout)
         self.assertEqual((told["of"], told["mean_of"], told["judged"]), (run, best["draws"], 5))

@@ -380,7 +380,7 @@ TEST(Import, SwappedAxesAndDepthsForLevelsAreAskedFor) {
               std::string::npos);
     EXPECT_NE(cause([](const Vec2& v) {
                   return Vec2(v.x(), 12.0 - v.y());
-              }).find("depths look taken for levels"),
+              }).find("looks as if depths were given as levels"),
               std::string::npos);
 }
 

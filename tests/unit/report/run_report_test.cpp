@@ -648,7 +648,7 @@ TEST_F(WetRun, MarksAMeanAsALowerBoundWhereADrawStillMoved) {
               (std::vector{Certainty::at_least, Certainty::certain}));
     const auto& rows = d.front.found.rows;
     const auto row = std::ranges::find_if(
-        rows, [](const auto& each) { return each[0].starts_with("Runout, mean of 2 draws"); });
+        rows, [](const auto& each) { return each[0].starts_with("Runout, mean of 2 repeats"); });
     ASSERT_NE(row, rows.end());
     EXPECT_EQ((*row)[1], "\u2265 220");
 }
@@ -671,14 +671,14 @@ TEST_F(WetRun, DrawsTheMeanOfItsDrawsWithTheirScatter) {
     const Document d = document();
     const Figure& against = figure(d, "runout_against_transfer_time");
     const Series& curve = against.chart.series.front();
-    EXPECT_EQ(curve.name, "mean of the draws");
+    EXPECT_EQ(curve.name, "mean of the repeats");
     EXPECT_EQ(curve.y, (std::vector{113.0, 116.0}));
     EXPECT_EQ(curve.error[0], 2.5);
-    EXPECT_TRUE(std::isnan(curve.error[1])) << "one draw has no scatter";
+    EXPECT_TRUE(std::isnan(curve.error[1])) << "one repeat has no scatter";
     EXPECT_EQ(curve.certainty, (std::vector{Certainty::certain, Certainty::doubtful}));
     EXPECT_EQ(cell(d, "numbers_means", 0, "runout [m]"), "113 +- 2.5");
     EXPECT_EQ(cell(d, "numbers_means", 1, "runout [m]"), "116");
-    EXPECT_EQ(cell(d, "numbers_means", 1, "draws"), "2 of 3");
+    EXPECT_EQ(cell(d, "numbers_means", 1, "repeats"), "2 of 3");
     EXPECT_EQ(cell(d, "numbers_means", 1, "not as it should be"), "without a result: d2: failed");
 }
 
@@ -687,7 +687,7 @@ TEST_F(WetRun, DrawsHowFarARunoutIsOffWhereItIsKnown) {
         return nlohmann::json{{"transfer_time", time},
                               {"variant", "softened"},
                               {"runout_error", error},
-                              {"runout_error_from", "scatter of 5 draws"}};
+                              {"runout_error_from", "scatter of 5 repeats"}};
     };
     std::ofstream(folder_ / "results.json")
         << nlohmann::json{{"rows", {row(13, 4.0), row(16, nullptr)}}};
