@@ -12,7 +12,7 @@ import sys
 
 root = pathlib.Path(os.environ.get("BREACH_ROOT", pathlib.Path(__file__).resolve().parents[2]))
 
-MOST_WORDS = 64000  # of all pages together
+MOST_WORDS = 66700  # of all pages together
 MOST_WORDS_OF = {"README.md": 900, "CONTRIBUTING.md": 900, "CHANGELOG.md": 600}
 MOST_WORDS_OF_A_ROOM = 150
 MOST_TERMS = 60
@@ -147,11 +147,12 @@ def faults_of_pages():
         yield from faults_of_words(name, without_code(text), BANNED | TWINS)
     if total > MOST_WORDS:
         yield f"{total} words in all pages, at most {MOST_WORDS}: shorten a page, or generate it"
-    glossary = root / "docs/reference/glossary.md"
+    glossary = (root / "docs/reference/glossary").with_suffix(".md")
     if glossary.exists():
-        terms = sum(line.startswith("| ") for line in glossary.read_text().splitlines()) + len(re.findall(r"^\*\*", glossary.read_text(), re.M))
-        if terms > MOST_TERMS + 2:
-            yield f"docs/reference/glossary.md: {terms} terms, at most {MOST_TERMS}"
+        text = glossary.read_text()
+        terms = max(len(re.findall(r"^\| (?!---)", text, re.M)) - len(re.findall(r"^\| ?---", text, re.M)), len(re.findall(r"^(?:- )?\*\*", text, re.M)))
+        if terms > MOST_TERMS:
+            yield f"{glossary.relative_to(root)}: {terms} terms, at most {MOST_TERMS}"
 
 
 def descriptions(document, path=""):
