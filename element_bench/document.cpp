@@ -519,7 +519,7 @@ std::vector<fault::Flag> doubts_of_starts(const Bench& bench) {
 
 }  // namespace
 
-std::vector<fault::Flag> doubts_of(const Bench& bench) {
+std::vector<fault::Flag> warnings_of(const Bench& bench) {
     const auto* law = std::get_if<NorSandLaw>(&bench.law);
     if (!law) return doubts_of_starts(bench);
     std::vector<fault::Flag> flags;

@@ -1,4 +1,4 @@
-// What being a phase means: one door for all executables. Owns arguments, log, progress, signals
+// What being a phase means: one main function for all executables. Owns arguments, log, progress, signals
 // and exit codes.
 #pragma once
 

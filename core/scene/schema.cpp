@@ -75,7 +75,7 @@ const std::regex& compiled(const std::string& pattern) {
                      .first->second;
 }
 
-/// Walks document and schema together; fills defaults in, collects faults and doubts.
+/// Walks document and schema together; fills defaults in, collects faults and warnings.
 class Walker {
   public:
     explicit Walker(const json& root) : root_(root) {}
@@ -105,7 +105,7 @@ class Walker {
     }
 
     std::vector<Fault> faults;
-    std::vector<Flag> doubts;  ///< numbers that are possible and hardly meant
+    std::vector<Flag> warnings;  ///< numbers that are possible and hardly meant
 
   private:
     const json& resolved(const json& schema) const {
@@ -157,8 +157,9 @@ class Walker {
         limit("maximum", std::greater<>(), "<=");
         limit("exclusiveMaximum", std::greater_equal<>(), "<");
         if (!possible) return;
-        if (auto doubt = doubt_about(number, schema, root_)) {
-            doubts.push_back({"implausible", fault::Severity::warning, std::move(*doubt), pointer});
+        if (auto warn = warning_about(number, schema, root_)) {
+            warnings.push_back(
+                {"implausible", fault::Severity::warning, std::move(*warn), pointer});
         }
     }
 
@@ -348,16 +349,16 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
 }
 
 std::vector<Fault> complete_and_check(json& document, const json& schema,
-                                      std::vector<Flag>& doubts) {
+                                      std::vector<Flag>& warnings) {
     Walker walker(schema);
     walker.visit(document, schema, "");
-    doubts = std::move(walker.doubts);
+    warnings = std::move(walker.warnings);
     return std::move(walker.faults);
 }
 
 std::vector<Fault> complete_and_check(json& document, const json& schema) {
-    std::vector<Flag> doubts;
-    return complete_and_check(document, schema, doubts);
+    std::vector<Flag> warnings;
+    return complete_and_check(document, schema, warnings);
 }
 
 }  // namespace breach::scene

@@ -161,8 +161,8 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
 
 }  // namespace
 
-std::vector<Flag> doubts_of_ends(const scene::Scene& scene, const FlowView& view,
-                                 const Depths& depths) {
+std::vector<Flag> flags_of_ends(const scene::Scene& scene, const FlowView& view,
+                                const Depths& depths) {
     std::vector<Flag> flags = walls_reached(scene::mpm_of(scene), view, depths);
     if (auto flag = ground_left(scene, view, depths)) flags.push_back(std::move(*flag));
     if (auto flag = upstream_end_reached(scene, view, depths)) flags.push_back(std::move(*flag));

@@ -168,7 +168,7 @@ bool is_doubtful(const json& run) {
     return is_one_of(cell(run.value("verdict", json::object()), "usable"), {"questionable", "no"});
 }
 
-std::string doubt_of(const json& run) {
+std::string warning_of(const json& run) {
     return is_doubtful(run) ? cell(run.at("verdict"), "words") + ": " + cell(run, "message") : "";
 }
 
@@ -181,7 +181,7 @@ std::string as_run_table(const json& runs) {
     for (const json& run : runs) {
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), percent(run),
                         moment(run, "created"),
-                        tasks_of(run) + (is_doubtful(run) ? "  " + doubt_of(run) : "")});
+                        tasks_of(run) + (is_doubtful(run) ? "  " + warning_of(run) : "")});
     }
     return as_table({{"run", Align::left},
                      {"name", Align::left},

@@ -159,7 +159,7 @@ std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
     return rounded(phase.result.at(at).get<double>(), digits);
 }
 
-/// How far the number is to be believed: what is known of its error, and its result's doubts.
+/// How far the number is to be believed: what is known of its error, and its result's cautions.
 std::string worth_of(const PhaseFolder& mpm) {
     std::string text =
         mpm.runout_error
@@ -187,7 +187,7 @@ void add_mean(const Run& run, Table& table) {
     const json error = largest->value("runout_error", json());
     const std::string variant = largest->at("variant");
     const bool moves = any_moves(draws_of(run, *largest));
-    const std::string doubt =
+    const std::string caution =
         largest->value("missing_draws", "") + largest->value("questionable_draws", "");
     table.rows.push_back(
         {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " repeats" +
@@ -195,7 +195,7 @@ void add_mean(const Run& run, Table& table) {
          (moves ? at_least : "") + rounded(largest->at("runout").get<double>(), digits), "-",
          (error.is_number() ? "\u00b1 " + rounded(error.get<double>(), 2) + " m (nine of ten)"
                             : std::string("numerical error not quantified")) +
-             (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
+             (caution.empty() ? "" : "; not whole or questionable: " + caution)});
 }
 
 /// Of each gauge, as far as the page has room: when it came, how deep, how fast.

@@ -112,11 +112,11 @@ Table means_of(const Run& run) {
                 "bound, soil of a repeat still moved."};
     for (const json& mean : run.means) {
         const json error = mean.value("runout_error", json());
-        std::string doubt;
+        std::string caution;
         for (const auto& [key, words] : {std::pair{"missing_draws", "without a result: "},
                                          std::pair{"questionable_draws", "questionable: "}})
             if (const std::string draws = mean.at(key); !draws.empty())
-                doubt += (doubt.empty() ? "" : "; ") + (words + draws);
+                caution += (caution.empty() ? "" : "; ") + (words + draws);
         const std::string variant = mean.at("variant");
         const json& time = mean.at("transfer_time");
         table.rows.push_back({time.is_number() ? rounded(time.get<double>(), 6) : "-",
@@ -127,7 +127,7 @@ Table means_of(const Run& run) {
                               with_scatter(run, mean, "runout_beyond_toe"),
                               with_scatter(run, mean, "runout_largest"),
                               error.is_number() ? rounded(error.get<double>(), 3) : "no estimate",
-                              doubt.empty() ? "-" : doubt});
+                              caution.empty() ? "-" : caution});
     }
     return table;
 }

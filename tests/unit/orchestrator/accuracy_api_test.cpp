@@ -247,8 +247,8 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
     Service service(sandbox);
     const std::string run = service.submit(noisy_study());
     service.wait_for_end(run);
-    const std::string door = "/v1/runs/" + run + "/accuracy/check";
-    const auto made = service.post(door + "?repeats=3", "{}");
+    const std::string route = "/v1/runs/" + run + "/accuracy/check";
+    const auto made = service.post(route + "?repeats=3", "{}");
     ASSERT_EQ(made.status, 202) << made.text;
     const std::string check = made.body.at("id");
     const json checked = service.wait_for_end(check);
@@ -265,7 +265,7 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
 
     // One by one the same six lattices: 0.02 m x 0.8649 and x 0.8298 are more than 0.15 %.
     const std::string single =
-        service.post(door + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
+        service.post(route + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
     const json ended = service.wait_for_end(single);
     for (const json& each : ended.at("tasks"))
         EXPECT_EQ(each.at("state"), "cached") << each.at("label");
@@ -433,8 +433,8 @@ TEST(RunoutError, OfAPageOrAFilterIsThatOfTheWholeTable) {
     sweep["scene"]["mpm"]["cell_size"] = 1;
     const std::string run = service.submit(sweep);
     service.wait_for_end(run);
-    const auto rows = [&](const std::string& wish) {
-        return service.get("/v1/runs/" + run + "/results" + wish).body.at("rows");
+    const auto rows = [&](const std::string& request) {
+        return service.get("/v1/runs/" + run + "/results" + request).body.at("rows");
     };
     const json whole = rows("");
     ASSERT_EQ(whole.size(), 5u);

@@ -44,7 +44,7 @@ constexpr double usual_damping_ratio = 0.1;
 /// every weakly compressible method.
 constexpr double largest_mach = 0.1;
 
-/// How a run ended, as far as doubts go.
+/// How a run ended, as far as flags go.
 struct Ending {
     double time;                        ///< [s]
     std::optional<std::string> moving;  ///< why the soil is not at rest; empty: it is
@@ -63,6 +63,6 @@ struct Ending {
     bool softer;           ///< soil is softer than in the scene, for longer steps
 };
 
-std::vector<fault::Flag> doubts_of(const Ending& ending);
+std::vector<fault::Flag> flags_of_ending(const Ending& ending);
 
 }  // namespace breach::mpm
