@@ -34,7 +34,7 @@ def main():
 
     with tempfile.TemporaryDirectory() as folder:
         keys, of_measurement = [], write.inputs_of
-        for text in ("docs/stiff.md", "docs/verification/stiff.md", "docs/verification/other.md"):
+        for text in ("docs/stiff", "docs/verification/stiff", "docs/verification/other"):
             (pathlib.Path(folder) / "input").write_text(text)
             write.inputs_of = lambda _: [pathlib.Path(folder) / "input"]
             keys.append(write.key_of({}))
