@@ -300,8 +300,8 @@ std::optional<double> mean_of(const View& view, const std::vector<Place>& places
 }
 
 /// Residual strengths that entries of the phases give, against the peak that the region has before.
-void doubt_residuals(const Region& region, const std::string& name,
-                     const std::vector<Place>& places, Findings& findings) {
+void warn_about_residuals(const Region& region, const std::string& name,
+                          const std::vector<Place>& places, Findings& findings) {
     const std::vector<View> peaks = region.peaks();
     if (peaks.empty()) return;
     const auto peak = mean_of(peaks.front(), places);
@@ -376,7 +376,7 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
         const std::string& name = scene.section.regions[r].name;
         compare(region.peaks(), name, "peak", places, findings);
         compare(region.residuals(), name, "residual", places, findings);
-        doubt_residuals(region, name, places, findings);
+        warn_about_residuals(region, name, places, findings);
         for (const scene::Soil& soil : scene::soils_of(scene))
             if (soil.region == r && soil.material < scene.materials.size()) {
                 auto& all = places_of[soil.material];

@@ -159,7 +159,7 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     } else {
         resolved.flags.push_back({"short_nonlocal_length", fault::Severity::warning,
                                   found + " (" + text_of(nonlocal_cells_wanted) +
-                                      " are wanted): bands hang on the lattice; " + wanted,
+                                      " are wanted): bands depend on the lattice; " + wanted,
                                   pointer});
     }
 }

@@ -127,7 +127,7 @@ Topic topic_in(const fs::path& path) {
     std::ifstream stream(path);
     const json file = json::parse(stream, nullptr, false);
     if (!file.is_object())
-        throw fault::BadInput(path.string(), {{"", "is no JSON object", "mend it"}});
+        throw fault::BadInput(path.string(), {{"", "is not a JSON object", "write one"}});
     std::vector<fault::Fault> faults;
     Entry entry(file, "", faults);
     entry.only({"title", "phase", "text", "program", "cases"});

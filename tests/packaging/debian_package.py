@@ -115,7 +115,7 @@ class DebianPackage(unittest.TestCase):
             self.assertEqual({each.stem for each in manuals.iterdir()}, {each for each in programs if "-" not in each})
             self.assertIn("--until\\-rest", (manuals / "mpm_solver.1").read_text().replace("\\-\\-", "--"))
         pages = self.root / "usr/share/doc/breachline"
-        for page in ("mpm_solver/README.md", "docs/reference/methods/mpm.md", "docs/notebook.ipynb", "workflows/README.md"):
+        for page in ("README.md", "docs/README.md", "docs/reference/methods/mpm.md", "docs/notebook.ipynb"):
             self.assertTrue((pages / page).is_file(), page)
         motions = self.root / "var/lib/breachline-motions"
         self.assertEqual((motions.is_dir(), stat.S_IMODE(motions.stat().st_mode)), (True, 0o755))
