@@ -3,7 +3,7 @@
 
 namespace breach {
 
-/// "0.2.0+1a2b3c4"; without the commit where the program was not built from a checkout.
+/// "1.0.0+1a2b3c4"; without the commit where the program was not built from a checkout.
 const char* version();
 
 }  // namespace breach
