@@ -1,4 +1,5 @@
-// Which Breachline this is. Kept apart so that a new commit compiles one file and no more.
+// Which Breachline this is, as a semantic version. CHANGELOG.md says what a major version keeps, and
+// tests/packaging/promises.py checks it. Kept apart so that a new commit compiles one file and no more.
 #pragma once
 
 namespace breach {
