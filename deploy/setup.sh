@@ -94,6 +94,7 @@ build() {
     [ "$1" = all ] && options=(-DBREACH_TESTS=ON) target=()  # or the preset's own
     [ "$1" != all ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
     command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    export CCACHE_BASEDIR=$root  # what one folder compiled, another finds
     options+=("${@:3}")
     check_machine "$1" "$preset"
     say "building ($1, $preset, $jobs at a time)"
