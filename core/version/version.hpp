@@ -1,5 +1,4 @@
-// Which Breachline this is, as a semantic version. CHANGELOG.md says what a major version keeps, and
-// tests/packaging/promises.py checks it. Kept apart so that a new commit compiles one file and no more.
+// The semantic version. What a major version keeps: CHANGELOG.md, tests/packaging/promises.py.
 #pragma once
 
 namespace breach {
