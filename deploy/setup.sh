@@ -44,7 +44,7 @@ need_packages() {
 
 # What one compiler at work holds at most, and what a build leaves on the disk [MB].
 compiler_MB=1100
-declare -A build_MB=([first_result]=700 [programs]=800 [all]=2500)
+declare -A build_MB=([first_result]=700 [programs]=800 [manuals]=800 [all]=2500)
 
 # Says what a build lacks before it begins. Sets `jobs` by cores and memory.
 check_machine() {
@@ -87,13 +87,14 @@ show_progress() {
     [ $open = no ] || printf '\n'
 }
 
-# build first_result|programs|all [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
+# build first_result|programs|manuals|all [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
 # need no test libraries; a folder that has been configured with tests keeps them.
 build() {
     local options=() target=(--target "$1") preset=${2:-release} jobs
     [ "$1" = all ] && options=(-DBREACH_TESTS=ON) target=()  # or the preset's own
     [ "$1" != all ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
     command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+    export CCACHE_BASEDIR=$root  # what one folder compiled, another finds
     options+=("${@:3}")
     check_machine "$1" "$preset"
     say "building ($1, $preset, $jobs at a time)"

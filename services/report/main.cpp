@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "core/fault/fault.hpp"
+#include "core/version/version.hpp"
 #include "services/report/accuracy_page.hpp"
 #include "services/report/figures/element_test_figures.hpp"
 #include "services/report/figures/stability_figures.hpp"
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
     using namespace breach;
     CLI::App app("A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",
                  "report");
+    app.set_version_flag("--version", std::string("report ") + version());
     std::filesystem::path folder, output;
     report::Choice choice;
     app.add_option("run", folder, "folder of breach export, or with one folder per phase");

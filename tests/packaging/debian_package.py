@@ -1,6 +1,7 @@
-"""The Debian package: made by cpack, it holds what it should; its service starts with the unit's own command line from
-an unpacked copy and runs a study with the phases beside it; a backup taken while it runs can be restored and served.
-Not tested here: the unit's sandbox and the maintainer scripts under a running systemd."""
+"""The Debian package: cpack makes it and it holds what it should. Its programs have manual pages and say version and commit.
+Its service starts with the command line of the unit from an unpacked copy and runs a study with the phases beside it. A backup
+taken meanwhile can be restored and served. deploy/release tests the maintainer scripts; no test has a running systemd."""
+import gzip
 import json
 import os
 import pathlib
@@ -80,6 +81,7 @@ class DebianPackage(unittest.TestCase):
         cls.root = cls.here / "root"
         assert call("dpkg-deb", "-R", cls.package, cls.root).returncode == 0
         cls.bin = cls.root / "usr/bin"
+        cls.version = re.search(r"^CMAKE_PROJECT_VERSION:\w+=(.*)$", (build / "CMakeCache.txt").read_text(), re.M)[1]
         cls.unit = Unit((cls.root / "lib/systemd/system/breachline.service").read_text())
 
     @classmethod
@@ -110,10 +112,6 @@ class DebianPackage(unittest.TestCase):
         self.assertEqual(files_below(self.root / "usr/lib/python3/dist-packages/breachline"),
                          {str(each.relative_to(source / "services/python/breachline"))
                           for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").glob(pattern)})
-        manuals = self.root / "usr/share/man/man1"
-        if shutil.which("help2man") and not instrumented:
-            self.assertEqual({each.stem for each in manuals.iterdir()}, {each for each in programs if "-" not in each})
-            self.assertIn("--until\\-rest", (manuals / "mpm_solver.1").read_text().replace("\\-\\-", "--"))
         pages = self.root / "usr/share/doc/breachline"
         for page in ("README.md", "docs/README.md", "docs/reference/methods/mpm.md", "docs/notebook.ipynb"):
             self.assertTrue((pages / page).is_file(), page)
@@ -125,6 +123,39 @@ class DebianPackage(unittest.TestCase):
         for library in ("libhdf5", "libcpp-httplib", "libsqlite3", "libssl3", "sqlite3", "adduser"):
             self.assertIn(library, control)
         self.assertNotIn("\n(", control)
+
+    @unittest.skipIf(instrumented or not shutil.which("help2man"), "no manual pages are made")
+    def test_each_program_has_a_manual_page_with_its_options(self):
+        manuals = self.root / "usr/share/man/man1"
+        self.assertEqual({each.name for each in manuals.iterdir()}, {f"{each}.1.gz" for each in programs})
+        for program in programs:
+            page = gzip.decompress((manuals / f"{program}.1.gz").read_bytes()).decode().replace("\\-", "-")
+            self.assertIn(f"{program} {self.version}", page.splitlines()[1])
+            for section in (".SH NAME", ".SH SYNOPSIS", ".SH OPTIONS", "--version"):
+                self.assertIn(section, page, program)
+            for option in {"breachline": ("--keep-days",), "mpm_solver": ("--until-rest",), "breach": ("submit", "--server")}.get(program, ()):
+                self.assertIn(option, page)
+
+    def test_each_program_says_the_version_and_the_commit(self):
+        said = {each: call(self.bin / each, "--version").stdout.splitlines()[0].split()[-1] for each in programs}
+        self.assertEqual(set(said.values()), {said["breachline"]})
+        self.assertRegex(said["breachline"], rf"^{re.escape(self.version)}(\+[0-9a-f]{{7,40}})?$")
+        self.assertEqual(self.package.name.split("_")[1], self.version)
+
+    def test_a_tree_without_git_has_the_version_and_an_archive_the_commit_too(self):
+        """Configures the room that says the version alone."""
+        def version_of(tree):
+            (tree / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.25)\nproject(Tree VERSION {self.version} LANGUAGES NONE)\n"
+                                                 "function(breach_room)\nendfunction()\nadd_subdirectory(core/version)\n")
+            made = call("cmake", "-B", tree / "build", tree)
+            self.assertEqual(made.returncode, 0, made.stderr)
+            return re.search(r'commit = "(.*)";', (tree / "build/core/version/version.cpp").read_text())[1]
+        exported = self.here / "exported_tree"
+        shutil.copytree(source / "core/version", exported / "core/version")
+        (exported / "core/version/archived_commit").write_text("$Format:%h$\n")
+        self.assertEqual(version_of(exported), "")
+        (exported / "core/version/archived_commit").write_text("1a2b3c4\n")
+        self.assertEqual(version_of(exported), "1a2b3c4")
 
     def test_its_scripts_are_sound_and_its_settings_are_kept_on_upgrade(self):
         for name in ("postinst", "prerm", "postrm"):
