@@ -89,7 +89,8 @@ def check_own_dam(service, here):
 def check_earthquake(service, here):
     weak, strong = service.call("/v1/runs")["runs"]
     runouts = [row["runout_beyond_toe"] for (_, time), row in sorted(rows(service, strong).items()) if time < 7]
-    check("the earlier the transfer, the shorter the runout", len(runouts) == 4 and runouts == sorted(runouts) and runouts[0] == 0, runouts)
+    check("the first transfer is too early, the others are on a plateau", len(runouts) == 4 and runouts[0] == 0 and
+          min(runouts[1:]) > 0.75 * max(runouts), runouts)
     check("a third of the shaking does not fail the dam", all(row["runout_beyond_toe"] == 0 for row in rows(service, weak).values()))
     check("the report is of the strong earthquake", "scaled to 0.1" not in (report := (here / "quake/report.html").read_text()) and
           "shaken by motion.csv" in report)
