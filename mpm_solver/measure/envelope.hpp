@@ -6,7 +6,7 @@
 
 namespace breach::mpm {
 
-/// Steps between two looks of the envelope. Measured in docs/hydrographs.md: what that costs, and how
+/// Steps between two looks of the envelope. Measured in docs/reference/flow.md: what that costs, and how
 /// far it is from looking after every step.
 inline constexpr std::int64_t steps_between_samples = 16;
 /// Rows of the depth over time that are kept; when they are full every second one goes.

@@ -1,5 +1,5 @@
 // A hydrograph as other programs take it: CSV, HEC-RAS's flow hydrograph, FLO-2D's INFLOW.DAT.
-// docs/hydrographs.md says where the formats come from and what could be tried.
+// docs/how-to/hydrographs.md says where the formats come from and what could be tried.
 #pragma once
 
 #include <optional>

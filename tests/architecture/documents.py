@@ -1,4 +1,4 @@
-"""Every page that a comment, a page or a message names exists, and every link between pages leads somewhere."""
+"""Every page that a comment, a page or a message names exists, every link between pages leads somewhere, and every tutorial is run."""
 import os
 import pathlib
 import re
@@ -39,6 +39,10 @@ def main():
             names += 1
             if not (root / page).exists() and not (file.parent / page).exists():
                 faults.append(f"{here}: names {page}, which does not exist (give its path from the project's root)")
+    registered = (root / "tests/workflow/CMakeLists.txt").read_text()
+    for page in (root / "docs/tutorials").glob("*.md"):
+        if not re.search(rf"tutorial [^)]*\b{page.stem}\b", registered):
+            faults.append(f"docs/tutorials/{page.name}: tests/workflow/CMakeLists.txt does not run its commands")
     print("\n".join(faults) or f"{names} names of pages, all there")
     return 1 if faults or names < 20 else 0
 

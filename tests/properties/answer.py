@@ -130,7 +130,7 @@ def same_results(study, rows):
 
 
 def verdict(study, scenes, rows, without):
-    """How far the results can be used (docs/reading_results.md)."""
+    """How far the results can be used (docs/reference/results.md)."""
     factors = [known.lem(each) for each in scenes] if "lem" in study["scene"] and study.get("stability", True) else []
     falls = [each < 1 for each in factors if each is not None] if not study.get("known_failure") else []
     missing = [each["variant"] for each in without] + [

@@ -1,6 +1,6 @@
 // The strength of one soil, written once: what it is at a place before failure (peak) and after it
 // (residual), and the strains between the two. Pure numbers; where a place lies is core/scene's
-// (ground.hpp), and which phase uses what is in workflows/README.md, *Strengths in one place*.
+// (ground.hpp), and which phase uses what is in docs/reference/strengths.md.
 #pragma once
 
 #include <array>

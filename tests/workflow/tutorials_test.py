@@ -1,0 +1,136 @@
+"""Runs the commands of a page in docs/tutorials as they stand, against a real service: tutorials_test.py PAGE [--show].
+
+Blocks fenced with sh are commands. They run in one shell, in a folder that looks like the source tree. A block fenced with text shows
+what the commands before it print: the words of its first line must be in their output. Exits with 77 where the page needs a program
+that is not installed."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+
+from phases import check, programs, root
+from service import Service
+
+block = re.compile(r"^```(sh|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+mark = "@@ commands"
+# Installing, building and serving: tests/workflow/quickstart_test runs the first, this test serves by itself.
+run_elsewhere = {"./deploy/quickstart", "build/release/bin/breachline serve --data var/quickstart"}
+needed = {"cluster": ("slurmctld", "slurmd", "sbatch", "munged")}
+
+
+def blocks_of(page):
+    text = (root / f"docs/tutorials/{page}.md").read_text()
+    return [(kind, body) for kind, body in block.findall(text) if not set(body.strip().splitlines()) <= run_elsewhere]
+
+
+def looks_like_the_source_tree(here):
+    for name in ("workflows", "deploy", "docs"):
+        (here / name).symlink_to(root / name)
+    (here / "build/release").mkdir(parents=True)
+    (here / "build/release/bin").symlink_to(programs)
+
+
+def outputs_of(page, blocks, here, url):
+    """What each block of commands printed, both streams together; nothing for a block of text."""
+    script = "".join(f"echo '{mark}'\n{body}" if kind == "sh" else f"echo '{mark}'\n" for kind, body in blocks)
+    environment = {**os.environ, "PATH": f"{os.environ['PATH']}:/usr/sbin:/sbin", "BREACH_SERVER": url}
+    shell = subprocess.Popen(["bash", "-e", "-c", script], cwd=here, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, text=True, start_new_session=True)
+    try:
+        printed, _ = shell.communicate()
+    finally:
+        try:
+            os.killpg(shell.pid, signal.SIGTERM)  # what a page started and did not stop
+        except ProcessLookupError:
+            pass
+    outputs = printed.split(f"{mark}\n")[1:]
+    if "--show" in sys.argv:
+        print(printed)
+    check(f"the commands of {page}.md run", shell.returncode == 0, f"{shell.returncode} in\n{blocks[len(outputs) - 1][1]}\n{printed[-3000:]}")
+    return outputs
+
+
+def check_shown(blocks, outputs):
+    printed = ""
+    for (kind, body), output in zip(blocks, outputs):
+        if kind == "sh":
+            printed = output
+            continue
+        first = body.splitlines()[0]
+        missing = [word for word in re.findall(r"[A-Za-z_]{2,}", first) if word not in printed]
+        check(f"the page shows what is printed: {first.strip()}", not missing, (missing, printed[-2000:]))
+
+
+def rows(service, run):
+    return {(each["variant"], each["transfer_time"]): each for each in service.rows(run["id"])}
+
+
+def check_own_dam(service, here):
+    runs = service.call("/v1/runs")["runs"]
+    check("each submission is a run of the folder's name", [each["name"] for each in runs] == ["my_dam", "my_dam"], runs)
+    found = {variant: row for (variant, _), row in rows(service, runs[-1]).items()}
+    check("both variants have a factor of safety above 1", all(each["factor_of_safety"] > 1 for each in found.values()), found)
+    check("and below 1 once their layers liquefy", all(0 < each["factor_of_safety_liquefied"] < 1 for each in found.values()), found)
+    check("the liquefied dam flows past its toe", found["liquefied"]["runout"] > 0, found)
+    check("the other one does not", found["undrained_peak"]["runout"] < 0, found)
+    scene = json.loads((here / "my_dam/scene.json").read_text())
+    section = (here / "my_dam/section.svg").read_text()
+    for region in scene["section"]["regions"]:
+        check(f"the picture has {region['name']}", f'data-region="{region["name"]}"' in section)
+    report = (here / "my_dam/report.html").read_text()
+    check("the report says what is assumed", "assumed: drained strength" in report.replace("&#39;", "'"))
+
+
+def check_earthquake(service, here):
+    weak, strong = service.call("/v1/runs")["runs"]
+    runouts = [row["runout_beyond_toe"] for (_, time), row in sorted(rows(service, strong).items()) if time < 7]
+    check("the first transfer is too early, the others are on a plateau", len(runouts) == 4 and runouts[0] == 0 and
+          min(runouts[1:]) > 0.75 * max(runouts), runouts)
+    check("a third of the shaking does not fail the dam", all(row["runout_beyond_toe"] == 0 for row in rows(service, weak).values()))
+    check("the report is of the strong earthquake", "scaled to 0.1" not in (report := (here / "quake/report.html").read_text()) and
+          "shaken by motion.csv" in report)
+
+
+def check_static_liquefaction(service, here):
+    found = rows(service, service.call("/v1/runs")["runs"][0])
+    check("loose tailings flow", all(row["runout_beyond_toe"] > 20 for (variant, _), row in found.items() if variant == "loose"), found)
+    check("dense ones stay", all(row["runout_beyond_toe"] == 0 for (variant, _), row in found.items() if variant == "dense"), found)
+
+
+def check_nine_times_in_ten(service, here):
+    found = service.call(f"/v1/runs/{service.call('/v1/runs')['runs'][0]['id']}/uncertainty")
+    check("all samples ended with a result", found["samples"]["done"] == found["samples"]["planned"] == 36, found["samples"])
+
+
+checks = {"own_dam": check_own_dam, "earthquake": check_earthquake, "static_liquefaction": check_static_liquefaction,
+          "nine_times_in_ten": check_nine_times_in_ten}
+
+
+def main(page):
+    missing = [name for name in needed.get(page, ()) if not shutil.which(name, path=f"{os.environ['PATH']}:/usr/sbin:/sbin")]
+    if missing:
+        print("skipped:", ", ".join(missing), "not installed")
+        return 77
+    blocks = blocks_of(page)
+    check("the page has commands", any(kind == "sh" for kind, _ in blocks), page)
+    with tempfile.TemporaryDirectory(prefix="breach-") as folder:
+        here = pathlib.Path(folder)
+        here.chmod(0o755)  # Slurm walks into it as any user
+        looks_like_the_source_tree(here)
+        service = Service(here / "var/quickstart")
+        try:
+            check_shown(blocks, outputs_of(page, blocks, here, service.url))
+            checks.get(page, lambda *_: None)(service, here)
+        finally:
+            service.stop()
+            if (here / "lab").exists():
+                subprocess.run([root / "deploy/slurm/stop-one-machine", here / "lab"], capture_output=True)
+    return 0
+
+
+sys.exit(main(sys.argv[1]))
