@@ -316,8 +316,7 @@ Json slimes_of(const Context& all, bool in_elements) {
         for (const Region& each : all.regions)
             if (each.part.name == "slimes")
                 add(sum, each.part.polygon, all.outline, slimes.density, all.outline.left);
-        material["law"]["c_kPa"] =
-            rounded(all.values["slimes_ratio"] * sum.stress_area / sum.area);
+        material["law"]["c_kPa"] = rounded(all.values["slimes_ratio"] * sum.stress_area / sum.area);
         material["law"]["phi_deg"] = 0;
         return material;
     }
@@ -511,8 +510,8 @@ Json runout_of(const Context& all) {
     // The FEM's sides sway: room for them.
     const double left = nanometres(all.outline.left) - (all.with_fem ? 0.25 * h : 0.0);
     const double columns = std::ceil((values["runout_extent"] - left) / h);
-    const double lowest = std::min(depth > 0.0 ? base_of(values) : 0.0,
-                                   terrain.at(left + columns * h));
+    const double lowest =
+        std::min(depth > 0.0 ? base_of(values) : 0.0, terrain.at(left + columns * h));
     const double below = lowest < 0.0 ? std::ceil((h - lowest) / h) : 0.0;
     const double above = std::ceil(1.15 * H / h);
     const double right = left + columns * h, floor = -below * h;

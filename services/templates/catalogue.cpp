@@ -64,7 +64,8 @@ Options foundation_options() {
 /// Of the dams.
 Options site() {
     return {
-        ratio("valley_slope", 0, 0.2, 0, "rise of the ground upstream of the toe, metres per metre"),
+        ratio("valley_slope", 0, 0.2, 0,
+              "rise of the ground upstream of the toe, metres per metre"),
         ratio("ground_slope", 0, 0.2, 0,
               "fall of the ground downstream of the toe, metres per metre"),
         length("piezometer_depth", 0, 200, 0,

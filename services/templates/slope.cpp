@@ -18,9 +18,8 @@ Outline slope(const Values& values) {
     outline.crest = {crest, H};
     outline.crest_from = left + 0.02 * (crest - left);
     outline.left = left;
-    outline.phreatic =
-        phreatic_line({{left, H - depth}, {0.0, 0.0}}, left, values["foundation_extent"],
-                      outline.ground, Terrain(values));
+    outline.phreatic = phreatic_line({{left, H - depth}, {0.0, 0.0}}, left,
+                                     values["foundation_extent"], outline.ground, Terrain(values));
     return outline;
 }
 

@@ -84,10 +84,10 @@ void check_ground(const Values& values, const std::vector<Dyke>& dykes) {
     refusal.unless(dykes[0].heel_level < 0.5 * dykes[0].top, "valley_slope",
                    "the ground rises to the upper half of the starter dam", "make it flatter");
     for (std::size_t k = 1; k < dykes.size(); ++k)
-        refusal.unless(
-            terrain.at(dykes[k].heel) < dykes[k].base - values["cell_size"], "valley_slope",
-            "raise " + std::to_string(k) + " would stand on the ground, not on tailings",
-            "make it flatter, or make fewer raises");
+        refusal.unless(terrain.at(dykes[k].heel) < dykes[k].base - values["cell_size"],
+                       "valley_slope",
+                       "raise " + std::to_string(k) + " would stand on the ground, not on tailings",
+                       "make it flatter, or make fewer raises");
     refusal.speak();
 }
 

@@ -16,6 +16,7 @@ core = {
     "core/phases": set(),
     "core/fault": {"core/words"},
     "core/version": set(),
+    "core/command": {"core/fault"},
     "core/criteria": {"core/fault", "core/telemetry", "core/words"},
     "core/mechanics": set(),
     "core/geometry": {"core/mechanics"},
@@ -42,11 +43,11 @@ arrows = {
     "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
     "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
-    "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
+    "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
-    "services/verify": {"services/report", "core/check", "core/exchange", "core/fault", "core/phases", "core/words"},
-    "services/report": {"services/findings", "services/outflow", "core/check", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry"},
+    "services/verify": {"services/report", "core/check", "core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
+    "services/report": {"services/findings", "services/outflow", "core/check", "core/command", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry", "core/version"},
 }
 # room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
 # Folders in one set stand on one floor and do not know each other.
