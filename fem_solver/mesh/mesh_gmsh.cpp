@@ -188,9 +188,10 @@ struct Recipe {
 };
 
 /// Tried in this order until no triangle is left: frontal, Delaunay and adaptive triangles, paired
-/// by blossom or, where all lines have even divisions, paired at twice the size and halved.
-/// (Algorithm 8, made for quads, crashes in Debian's gmsh 4.8.4.)
-constexpr std::array<Recipe, 5> recipes{{{6, 1}, {6, 3}, {5, 1}, {5, 3}, {1, 1}}};
+/// by blossom or, where all lines have even divisions, paired at twice the size and halved. The last
+/// two split what is left of triangles, into more elements than were asked for. (Algorithm 8, made
+/// for quads, crashes in Debian's gmsh 4.8.4.)
+constexpr std::array<Recipe, 7> recipes{{{6, 1}, {6, 3}, {5, 1}, {5, 3}, {1, 1}, {9, 3}, {6, 2}}};
 
 /// One physical surface per region, of all its pieces.
 void write_regions(std::ostringstream& geo, const std::vector<Piece>& pieces) {
