@@ -5,6 +5,7 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { write_json } from "./form_page.mjs";
 import { drawn, FakeApi, some_flagged, study, twelve_curves, twelve_variants, two_variants } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
@@ -297,7 +298,7 @@ test("a task shows its fault, attempts, files with hashes, and log", async () =>
 test("a faulty study is refused with every fault in its place", async () => {
     await page.goto(url);
     await page.click("nav [data-opens=submit]");
-    await page.fill("#study", JSON.stringify({ scene: { materials: { sand: { density: -1800 } } } }, null, 2));
+    await write_json(page, JSON.stringify({ scene: { materials: { sand: { density: -1800 } } } }, null, 2));
     await page.click("#submit");
     await page.waitForSelector("#fault-list li");
     assert.deepEqual(await page.locator("#fault-list code").allTextContents(),
@@ -306,7 +307,7 @@ test("a faulty study is refused with every fault in its place", async () => {
     await screenshot(page, "page_faults");
     await page.click("#fault-list li:nth-child(2) button");
     assert.equal(await page.evaluate(() => getSelection().toString()), "-1800");
-    await page.fill("#study", "{ not json");
+    await write_json(page, "{ not json");
     await page.click("#submit");
     await until("the reason", async () => /not JSON/.test(await text_of("#fault-title")));
     await page.keyboard.press("Escape");
@@ -318,7 +319,7 @@ test("an example is loaded, planned, submitted, and fills in live", async () => 
     await until("the examples", () => page.isVisible("#examples"));
     await page.selectOption("#examples", { index: 1 });
     await until("the example's text", async () => (await page.inputValue("#study")).includes("breachline-study/1"));
-    await page.click("#show-plan");
+    await page.click("#show-plan"); // a whole study leads to the last step
     await until("a plan", async () => /softening/.test(await text_of("#plan")));
     assert.deepEqual(await page.locator("#plan tr:last-child > *").allTextContents(),
                      ["⊘ left out", "gmsh", "regions are blocks", "/section"]);

@@ -143,6 +143,8 @@ export const provenance_path = (sha256) => path_of("artifacts", sha256, "provena
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
 }
+/// What a study will take: {lines, ...}.
+export const cost_of = (text, signal) => get_json("/v1/cost", { ...json_body(text), signal });
 /// of: "scene" or "study"
 export const read_schema = (of) => get_json(path_of("schema", of), { cache: "default" });
 /// Sends a file; {reference, kind, about, name, ...}.
