@@ -51,7 +51,7 @@ export class SubmitDialog {
         this.path.show("section");
         try {
             await this.form.start();
-            this.changed(this.pane.text);
+            this.show_text(this.pane.text);
             if (this.has_examples) return;
             await this.templates.offer();
             const examples = this.examples = await api.list_examples();
@@ -81,15 +81,18 @@ export class SubmitDialog {
 
     /// By whom and whatever.
     changed(text) {
+        this.show_text(text);
+        this.show_mended();
+        this.drawing.changed(text);
+        by_id("study").removeAttribute("aria-invalid");
+    }
+    show_text(text) {
         this.form.show(text);
         this.marked();
         this.question.show(this.form.is_study && text.trim() !== "" ? this.form.value : null);
         by_id("scene-wanted").hidden = !this.wants_scene();
-        set_text(by_id("scene-wanted"), this.wants_scene() ? `The study names its scene: ${this.form.value.scene}. Choose that file as well.` : "");
+        if (this.wants_scene()) set_text(by_id("scene-wanted"), `The study names its scene: ${this.form.value.scene}. Choose that file as well.`);
         if (this.path.step === "check") this.show_cost();
-        this.show_mended();
-        this.drawing.changed(text);
-        by_id("study").removeAttribute("aria-invalid");
     }
 
     /// Of what was refused.
