@@ -82,7 +82,7 @@ test("everything comes from this server, and little of it", async () => {
     const folder = fileURLToPath(new URL("../../services/web/static", import.meta.url));
     const shipped = readdirSync(folder).reduce((sum, name) => sum + statSync(path.join(folder, name)).size, 0);
     console.log(`all files that are served: ${shipped} bytes`);
-    assert.ok(bytes > 20000 && shipped < 500000);
+    assert.ok(bytes > 20000 && shipped < 530000);
     assert.deepEqual(browser.foreign, []);
 });
 
@@ -955,6 +955,22 @@ test("it fits narrow and wide windows, light and dark", async () => {
         assert.ok(overflow <= 0, `${width} px: ${overflow} px wider than the window`);
         await screenshot(page, `page_${theme}_${width}`);
     }
+});
+
+test("words of the page lead to their line in the glossary", async () => {
+    await open_run(api.add_run({ ...two_variants, name: "worded" }, { began: Date.now() - 20000, pace: 1, flagged: some_flagged, entangles: 2.1 }).id);
+    await until("a flag that is a link", async () => (await page.locator("#reasons a.term").count()) > 0);
+    const links = await page.locator("a.term").evaluateAll((all) => all.map((link) => [link.textContent, link.hash, link.title]));
+    for (const word of ["t_T", "overlap", "numerical share", "draws", "entangled", "window", "rest"]) assert.ok(links.some(([text]) => text.includes(word)), `${word} in ${links}`);
+    assert.deepEqual(links.filter(([, , title]) => title === ""), [], "each says its line");
+    await page.click("#reasons a.term");
+    await until("the glossary", () => page.isVisible("#glossary"));
+    await until("its line", async () => (await page.locator("#glossary-terms .chosen").count()) === 1);
+    assert.ok(await page.isHidden("#run"));
+    assert.ok(await page.locator("#glossary-terms > div").count() <= 60);
+    await screenshot(page, "glossary");
+    await page.goBack();
+    await until("the run", () => page.isVisible("#run"));
 });
 
 test("nothing failed inside the page", () => {

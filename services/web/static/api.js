@@ -231,6 +231,8 @@ export async function list_examples() {
 }
 export const read_example = (name) => get_json(path_of("examples", name));
 
+export const read_glossary = () => get_json("static/glossary.json", { cache: "default" });
+
 const longest_wait = 20; // [s] that the server may hold a long-poll open
 
 /// Follows the server's events for ever. tell.events(list) when something happened, tell.lost(seconds_to_retry) when
