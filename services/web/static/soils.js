@@ -29,7 +29,7 @@ export class Soils extends NamedRows {
         const widest = this.soil.properties.law.oneOf.find(({ properties }) => properties.c_kPa);
         const heads = columns.map(({ way, title }) => [title, entry_of(this.soil, { law: { type: widest.properties.type.const } }, way)]);
         this.table = element("table", { class: "soils" },
-            element("thead", {}, element("tr", {}, element("th", {}), element("th", {}), element("th", { scope: "colgroup", colspan: 2 }, "stability"),
+            element("thead", {}, element("tr", {}, element("td", { colspan: 2 }), element("th", { scope: "colgroup", colspan: 2 }, "stability"),
                                          element("th", { scope: "colgroup", colspan: 4 }, "deformation and runout")),
                 element("tr", {}, element("th", { scope: "col" }, "soil"), ...heads.map(([title, each]) => element("th", { scope: "col", title: each.description },
                     title, element("span", { class: "range" }, unit_of(each) || "–"), element("span", { class: "range" }, plausible_of(each)))))), this.lines);
