@@ -61,7 +61,7 @@ export class Question {
         if (this.parked === null) return study;
         const { transfer_times, triggers, variants, scene: { fem, transfer, mpm, ...scene }, ...others } = study;
         this.parked = { transfer_times, triggers, variants, scene: { fem, transfer, mpm } };
-        const left = variants?.map((each) => ({ ...each, overrides: each.overrides?.filter((one) => !/^\/(fem|transfer|mpm)\//.test(one)) }));
+        const left = variants?.map((each) => ({ ...each, ...defined({ overrides: each.overrides?.filter((one) => !/^\/(fem|transfer|mpm)\//.test(one)) }) }));
         return { ...others, scene, ...defined({ variants: left }) };
     }
 

@@ -72,6 +72,7 @@ export class SectionPicture {
         if (parts.after?.length) add("path", { class: "after", d: `${path(parts.after)}Z` });
         if (parts.water) add("path", { class: "water", d: path(parts.water) });
         if (parts.slip.length) add("path", { class: "slip", d: path(parts.slip) });
+        const under = py(Math.max(...gauges.map(({ y }) => y))); // all names
         const taken = []; // how far to the right, by the names of each line
         for (const { name, x, y } of [...gauges].sort((a, b) => a.x - b.x)) {
             const half = (name.length * character) / 2;
@@ -79,7 +80,7 @@ export class SectionPicture {
             const line = free < 0 ? taken.length : free;
             taken[line] = px(x) + half;
             add("path", { class: "gauge", d: wedge(px(x), py(y)) });
-            add("text", { x: px(x), y: py(y) - 13 * (line + 1), "text-anchor": "middle" }, name);
+            add("text", { x: px(x), y: under - 13 * (line + 1), "text-anchor": "middle" }, name);
         }
         if (toe) add("path", { class: "toe", d: wedge(px(toe[0]), py(toe[1])) });
         if (toe && runout) {

@@ -64,7 +64,7 @@ export class Soils extends NamedRows {
             const parts = [...this.parts, name, ...way];
             const cell = new Scalar(this.form, entry, parts, { name: way.at(-1) });
             cell.control.removeAttribute("aria-describedby");
-            cell.control.setAttribute("aria-label", `${title} of ${name}${of ? `, ${of}` : ""}`);
+            cell.control.setAttribute("aria-label", `${title} of ${name}`);
             cell.control.dataset.pointer = pointer_of(parts);
             if (of === "stability" && entry_of(this.soil, soil, ["law", way[1]])) cell.control.placeholder = way[1] === "c_kPa" ? "c" : "φ"; // the law's
             line.cells_of.push({ way, cell });

@@ -249,7 +249,7 @@ export class SubmitDialog {
         const is_place = is_in_text && (one.pointer === "" || one.pointer.startsWith("/"));
         return element("li", { "data-fault": one.pointer + one.cause },
                        is_place ? this.link_to(one.pointer, one.pointer || "/") : element("code", {}, one.pointer), ` ${one.cause} `,
-                       is_place ? element("span", { class: "muted" }, `line ${this.pane.line_of(one.pointer)}`) : null,
+                       is_place ? element("span", { class: "muted line" }, `line ${this.pane.line_of(one.pointer)}`) : null,
                        one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
