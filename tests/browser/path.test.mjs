@@ -44,7 +44,7 @@ test("from nothing to a submitted dam of one's own with a clay layer, in at most
     };
     const type = async (label, text) => {
         clicks += 1;
-        await page.getByLabel(label, { exact: true }).fill(text);
+        await page.getByLabel(label, { exact: true }).filter({ visible: true }).fill(text);
     };
     await click("nav [data-opens=submit]");
     await choose("#template-choice", "upstream_dam");
