@@ -46,7 +46,7 @@ export class Path {
     show(name) {
         this.step = this.pane.dataset.step = name;
         const at = this.at();
-        for (const [each, button] of this.buttons) button.toggleAttribute("aria-current", each === name);
+        for (const button of this.buttons.values()) button.removeAttribute("aria-current");
         this.buttons.get(name).setAttribute("aria-current", "step");
         set_text(by_id("step-title"), `${at + 1}. ${steps[at].title}`);
         set_text(by_id("step-help"), steps[at].help);
@@ -65,9 +65,10 @@ export class Path {
             const own = faults.filter(({ pointer }) => step_of(pointer) === name);
             const badge = button.lastElementChild;
             badge.hidden = own.length === 0;
-            badge.classList.toggle("warn", own.every(({ is_warning }) => is_warning));
+            const is_calm = own.every(({ is_warning }) => is_warning);
+            badge.classList.toggle("warn", is_calm);
             set_text(badge, String(own.length));
-            badge.title = own.every(({ is_warning }) => is_warning) ? "warnings" : "faults and warnings";
+            badge.title = is_calm ? "warnings" : "faults and warnings";
         }
     }
 }

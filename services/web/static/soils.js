@@ -66,7 +66,10 @@ export class Soils extends NamedRows {
             cell.control.removeAttribute("aria-describedby");
             cell.control.setAttribute("aria-label", `${title} of ${name}`);
             cell.control.dataset.pointer = pointer_of(parts);
-            if (of === "stability" && entry_of(this.soil, soil, ["law", way[1]])) cell.control.placeholder = way[1] === "c_kPa" ? "c" : "φ"; // the law's
+            if (of === "stability" && entry_of(this.soil, soil, ["law", way[1]])) {
+                cell.control.placeholder = way[1] === "c_kPa" ? "c" : "φ";
+                cell.control.title = "empty: that of deformation and runout";
+            }
             line.cells_of.push({ way, cell });
             this.form.cells.set(pointer_of(parts), cell);
             line.append(element("td", { "data-title": `${of === "stability" ? "stability, " : ""}${title} [${unit_of(entry) || "–"}]` }, cell.control, cell.note, cell.slot));

@@ -139,13 +139,14 @@ export class SubmitDialog {
         this.path.show(this.wants_scene() ? "section" : "check");
     }
     take_scene(text) {
+        let scene;
         try {
-            const scene = JSON.parse(text);
-            const study = this.wants_scene() ? this.form.value : { format: "breachline-study/1", name: scene.name };
-            this.take_study(print({ ...study, scene }));
+            scene = JSON.parse(text);
         } catch {
-            this.take_text(text); // the form says what is wrong with it
+            return this.take_text(text); // the form says what is wrong with it
         }
+        const study = this.wants_scene() ? this.form.value : { format: "breachline-study/1", name: scene.name };
+        return this.take_study(print({ ...study, scene }));
     }
     /// Of a study file; what the service keeps it finds itself.
     wants_scene() {
