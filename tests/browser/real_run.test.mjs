@@ -140,7 +140,8 @@ test("the plan of a scene is shown before anything runs", async () => {
 test("a job submitted in the page runs to its end, and the page shows it without being asked", async () => {
     await page.click("nav [data-opens=submit]");
     await page.setInputFiles("#study-file", study_file.pathname);
-    await until("the study's text", async () => (await page.inputValue("#study")).includes("browser-column"));
+    await until("the check", async () => (await text_of("#steps [aria-current]")).startsWith("5"));
+    assert.equal(JSON.parse(await page.inputValue("#study")).name, study.name);
     await page.click("#submit");
     await page.waitForSelector("#run:not([hidden])");
     assert.equal(await text_of("#run-title"), study.title);
