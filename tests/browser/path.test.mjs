@@ -52,6 +52,7 @@ test("from nothing to a submitted dam of one's own with a clay layer, in at most
     await type("raises", "3");
     await type("foundation depth", "5");
     await type("clay thickness", "2");
+    assert.ok(await page.isHidden("#check"), "a step shows its own part only");
     await click("#step-next");
     await type("clay strength", "30");
     await until("the clay", async () => (await scene())?.materials?.clay?.law.c_kPa === 30);

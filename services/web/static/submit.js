@@ -18,7 +18,7 @@ export class SubmitDialog {
         this.submitted = submitted;
         this.dialog = by_id("submit-dialog");
         this.pane = new JsonPane((text) => this.changed(text));
-        this.path = new Path((step) => step === "check" && this.show_cost());
+        this.path = new Path((step) => this.entered(step));
         this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer), (pointer) => this.path.show(step_of(pointer)));
         this.drawing = new LiveDrawing((fault, is_in_text) => this.fault_item(fault, is_in_text), (pointer) => this.point_to(pointer),
                                        (faults) => this.mark("drawing", faults));
@@ -61,6 +61,11 @@ export class SubmitDialog {
         } catch (fault) {
             this.refuse(fault);
         }
+    }
+    entered(step) {
+        if (step === "check") this.show_cost();
+        if (step !== "water") return;
+        for (const part of document.querySelectorAll('#form details[data-steps~="water"][data-steps~="question"]:not(.absent)')) part.open = true;
     }
     show_json(is_shown) {
         by_id("json").hidden = !is_shown;
