@@ -66,7 +66,7 @@ const badge = (family, text) => element("span", { class: `state ${family}` }, fa
 function line_of(family, name, code, [first, ...others]) {
     const place = (pointer) => (pointer ? element("code", {}, pointer) : null);
     const anchor = explained[code];
-    return element("li", {}, badge(family, anchor ? term(anchor, name) : name), element("details", {}, element("summary", {}, first.text), place(first.pointer),
+    return element("li", {}, badge(family, anchor ? term(anchor, name) : name), " ", element("details", {}, element("summary", {}, first.text), place(first.pointer),
         ...others.map(({ text, pointer }) => element("p", {}, `${text} `, place(pointer)))));
 }
 

@@ -12,6 +12,14 @@ import { Question } from "./question.js";
 import { SectionImport } from "./section_import.js";
 import { Templates } from "./templates.js";
 
+function format_of(text) {
+    try {
+        return String(JSON.parse(text)?.format);
+    } catch {
+        return "";
+    }
+}
+
 export class SubmitDialog {
     /// submitted(run): the server took it.
     constructor(submitted) {
@@ -131,7 +139,7 @@ export class SubmitDialog {
     /// Studies, their scenes, or sections drawn elsewhere; a study before its scene.
     async take_files(files) {
         const read = await Promise.all(files.map(async (file) => ({ name: file.name, text: await file.text() })));
-        const is_scene = ({ text }) => /"breachline-scene\//.test(text.slice(0, 200));
+        const is_scene = ({ text }) => format_of(text).startsWith("breachline-scene/");
         for (const each of read.sort((one, other) => is_scene(one) - is_scene(other))) {
             if (/\.(dxf|csv)$/i.test(each.name)) await this.sections.begin(each.name, each.text);
             else if (is_scene(each)) this.take_scene(each.text);
@@ -175,6 +183,7 @@ export class SubmitDialog {
         this.asked?.abort();
         this.asked = new AbortController();
         const lines = by_id("cost-lines");
+        if (!lines.firstElementChild) lines.append(element("li", { class: "muted" }, "Estimating…"));
         try {
             const cost = await api.cost_of(this.pane.text, this.asked.signal);
             lines.replaceChildren(...cost.lines.map((line) => element("li", {}, line)));
