@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
 import { canvas_facts, screenshot, until } from "./browser.mjs";
-import { write_json } from "./form_page.mjs";
+import { go_to_step, write_json } from "./form_page.mjs";
 import { live_page, program } from "./service.mjs";
 
 const study_file = new URL("small_study.json", import.meta.url);
@@ -130,6 +130,7 @@ test("the section is drawn while one types, with what is wrong at its place", as
 test("the plan of a scene is shown before anything runs", async () => {
     await page.click("nav [data-opens=submit]");
     await write_json(page, JSON.stringify(study, null, 4));
+    await go_to_step(page, "Check");
     await page.click("#show-plan");
     await until("a plan per phase", async () => (await page.locator("#plan table").count()) >= 3);
     await screenshot(page, "real_plan");
