@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
@@ -247,12 +248,33 @@ const char* type_of(Kind kind) {
     return "";
 }
 
+/// Where a form asks for it: "section" unless it is listed here.
+const char* topic_of(const std::string& name) {
+    static const std::map<std::string, const char*> topics{{"layer_thickness", "soils"},
+                                                           {"residual_ratio", "soils"},
+                                                           {"peak_ratio", "soils"},
+                                                           {"clay_strength", "soils"},
+                                                           {"freeboard", "water"},
+                                                           {"beach_length", "water"},
+                                                           {"beach_slope", "water"},
+                                                           {"pond_length", "water"},
+                                                           {"drain", "water"},
+                                                           {"water_depth", "water"},
+                                                           {"water_height", "water"},
+                                                           {"with_fem", "water"},
+                                                           {"pga", "water"},
+                                                           {"shaking", "water"},
+                                                           {"runout_extent", "question"},
+                                                           {"cell_size", "question"},
+                                                           {"element_size", "question"}};
+    const auto found = topics.find(name);
+    return found == topics.end() ? "section" : found->second;
+}
+
 json as_json(const Option& option) {
-    json described{{"name", option.name},
-                   {"type", type_of(option.kind)},
-                   {"unit", option.unit},
-                   {"default", option.value},
-                   {"help", option.help}};
+    json described{{"name", option.name},          {"topic", topic_of(option.name)},
+                   {"type", type_of(option.kind)}, {"unit", option.unit},
+                   {"default", option.value},      {"help", option.help}};
     if (option.kind == Kind::yes_or_no) {
         described["default"] = option.value > 0.5;
         return described;

@@ -36,7 +36,7 @@ const Template& named(const std::string& name);
 /// "height / 3": how a default that follows comes about; empty: it is a number.
 std::string rule_of(const Option& option);
 
-/// {"templates": [{"name", "title", "options": [{"name", "type", "unit", "default", "rule",
+/// {"templates": [{"name", "title", "options": [{"name", "topic", "type", "unit", "default", "rule",
 /// "follows", "share", "minimum", "maximum", "help"}]}]}; what it says and what each key is: README.md.
 nlohmann::json as_json(const std::vector<Template>& templates);
 

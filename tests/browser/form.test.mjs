@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { open_browser, until } from "./browser.mjs";
 import { FakeApi } from "./fake_api.mjs";
-import { field_of, open_groups } from "./form_page.mjs";
+import { field_of, go_to_step, open_groups, write_json } from "./form_page.mjs";
 
 const study_text = readFileSync(new URL("small_study.json", import.meta.url), "utf8");
 const api = new FakeApi({ pace: 1 });
@@ -27,7 +27,7 @@ after(async () => {
 const text_of = () => page.inputValue("#study");
 const value = async () => JSON.parse(await text_of());
 const field = (pointer) => field_of(page, pointer);
-const load = (text) => page.fill("#study", typeof text === "string" ? text : JSON.stringify(text, null, 4));
+const load = (text) => write_json(page, typeof text === "string" ? text : JSON.stringify(text, null, 4));
 /// What differs between two texts: [lines of the first, lines of the second].
 function difference(one, other) {
     const [a, b] = [one.split("\n"), other.split("\n")];
@@ -44,7 +44,7 @@ test("a field of the form changes its place in the text and nothing else; the te
     await density.fill("1.95e3");
     assert.deepEqual(difference(study_text, await text_of()), [['"density": 1800,'], ['"density": 1950,']]);
     assert.equal(await density.inputValue(), "1.95e3", "what one types stays as typed");
-    await page.fill("#study", (await text_of()).replace("1950", "2001.5"));
+    await write_json(page, (await text_of()).replace("1950", "2001.5"));
     assert.equal(await density.inputValue(), "2001.5");
     await page.click("#form-undo");
     assert.equal(await text_of(), study_text, "one step back for all that was typed in a field");
@@ -164,8 +164,9 @@ test("a polygon is a table of points; a closed ring stays closed; a spreadsheet'
 
 test("faults stand at their field and at their line, live and when refused; the first one is scrolled to", async () => {
     await load(study_text.replace("1800", "-1800").replace('"transfer_times": [0.2, 0.5, 0.8]', '"transfer_times": "soon"'));
-    await until("the drawing's fault at its field", async () => (await page.locator("#form .field-faults p").count()) === 1);
-    assert.match(await page.locator("#form .field-faults p").textContent(), /-1800 kg\/m3 is below 0 a soil weighs/);
+    await until("the drawing's fault in the table and at its field", async () => (await page.locator("#form .field-faults p").count()) === 2);
+    for (const said of await page.locator("#form .field-faults p").allTextContents()) assert.match(said, /-1800 kg\/m3 is below 0 a soil weighs/);
+    assert.deepEqual(await page.locator("#steps .fault-count:visible").allTextContents(), ["1"]);
     const line = study_text.slice(0, study_text.indexOf("1800")).split("\n").length;
     assert.deepEqual(await page.locator("#study-lines mark").allTextContents(), [String(line)]);
     await page.keyboard.press("Control+Enter");
@@ -240,21 +241,27 @@ test("every control of the form has a name, is reached by the keyboard and fits 
         .filter((control) => !(control.getAttribute("aria-label") || control.labels?.length || (control.textContent.trim() && control.tagName !== "SELECT")))
         .map((control) => control.outerHTML.slice(0, 120)));
     assert.deepEqual(nameless, []);
-    await page.locator("#form input").first().focus();
+    const steps = ["Section", "Soils", "Water", "Question", "Check"];
     const reached = new Set();
-    for (let i = 0; i < 60; i += 1) {
-        await page.keyboard.press("Tab");
-        reached.add(await page.evaluate(() => document.activeElement.closest(".field")?.querySelector("label")?.title ?? document.activeElement.tagName));
+    for (const step of steps) {
+        await go_to_step(page, step);
+        for (let i = 0; i < 40; i += 1) {
+            await page.keyboard.press("Tab");
+            reached.add(await page.evaluate(() => document.activeElement.dataset.pointer ?? (document.activeElement.closest(".field")?.querySelector("label")?.title || document.activeElement.tagName)));
+        }
     }
-    for (const place of ["SUMMARY", "/scene/name", "/scene/materials/sand/density", "/scene/materials/sand/law/E_MPa"]) assert.ok(reached.has(place), `${place} in ${[...reached]}`);
-    for (const width of [1400, 1000, 400]) {
+    for (const place of ["SUMMARY", "/scene/name", "/scene/materials/sand/density", "/scene/materials/sand/law/E_MPa", "/title"]) assert.ok(reached.has(place), `${place} in ${[...reached]}`);
+    for (const width of [1400, 1000, 390]) {
         await page.setViewportSize({ width, height: 900 });
-        const wide = await page.evaluate(() => [...document.querySelectorAll("#submit-dialog, #submit-dialog .panes *:not(svg, svg *, option)")]
-            .filter((each) => each.checkVisibility() && !each.matches(".scroll *, #study, #study-lines, .unseen"))
-            .filter((each) => each.getBoundingClientRect().right > Math.min(window.innerWidth, document.getElementById("submit-dialog").getBoundingClientRect().right) + 1)
-            .map((each) => each.outerHTML.slice(0, 100)));
-        assert.deepEqual(wide, [], `${width} px`);
-        await page.screenshot({ path: `${process.env.BREACH_BROWSER_BUILD}/screenshots/form_${width}.png` });
+        for (const step of steps) {
+            await go_to_step(page, step);
+            const wide = await page.evaluate(() => [...document.querySelectorAll("#submit-dialog, #submit-dialog *:not(svg, svg *, option)")]
+                .filter((each) => each.checkVisibility() && !each.matches(".scroll *, #study, #study-lines, .unseen"))
+                .filter((each) => each.getBoundingClientRect().right > Math.min(window.innerWidth, document.getElementById("submit-dialog").getBoundingClientRect().right) + 1)
+                .map((each) => each.outerHTML.slice(0, 100)));
+            assert.deepEqual(wide, [], `${step}, ${width} px`);
+            await page.screenshot({ path: `${process.env.BREACH_BROWSER_BUILD}/screenshots/form_${step.toLowerCase()}_${width}.png` });
+        }
     }
     await page.setViewportSize({ width: 1400, height: 900 });
 });

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { until } from "./browser.mjs";
-import { field_of, open_groups } from "./form_page.mjs";
+import { field_of, go_to_step, open_groups, write_json } from "./form_page.mjs";
 import { live_page } from "./service.mjs";
 
 const study_text = readFileSync(new URL("small_study.json", import.meta.url), "utf8");
@@ -35,7 +35,7 @@ test("what the service finds wrong stands at its fields, in its variants too", a
     wrong.scene.materials.sand.law.nu = 0.5;
     delete wrong.scene.fem.stages[1].duration;
     wrong.scene.mpm.runout.toe = [1000, 0];
-    await page.fill("#study", JSON.stringify(wrong, null, 4));
+    await write_json(page, JSON.stringify(wrong, null, 4));
     await page.click("#submit");
     await page.waitForSelector("#fault-list li");
     const places = await page.locator("#fault-list code").allTextContents();
@@ -52,13 +52,14 @@ test("what the service finds wrong stands at its fields, in its variants too", a
     await screenshot_at("form_faults");
 
     const doubtful = { ...JSON.parse(study_text), variants: [{ name: "fine", overrides: ["/materials/sand/density=1900"] }, { name: "odd", overrides: ["/materials/sand/density=-3"] }] };
-    await page.fill("#study", JSON.stringify(doubtful, null, 4));
+    await write_json(page, JSON.stringify(doubtful, null, 4));
     await page.click("#submit");
     await until("the variant's fault", async () => (await page.locator("#form [data-group=variants] .field-faults p").count()) > 0);
     assert.match(await page.locator("#form .variants-table tbody tr").nth(1).locator(".field-faults").textContent(), /-3/);
 });
 
 test("a scene is made from a template, its options are fields, and a bad one is told at its field", async () => {
+    await go_to_step(page, "Section");
     await page.selectOption("#template-choice", "upstream_dam");
     await until("the dam, drawn", async () => (await page.locator("#drawing-picture path.region").count()) > 4);
     await page.getByLabel("height", { exact: true }).fill("500");
@@ -74,9 +75,9 @@ test("a scene is made from a template, its options are fields, and a bad one is 
 });
 
 test("a shaken dam's motion is told, and another one sent in its place", async () => {
+    await go_to_step(page, "Water");
     await page.getByLabel("with fem", { exact: true }).selectOption({ label: "yes" });
     await until("a motion", async () => /^file:sha256/.test((await value()).scene.fem?.motion?.file ?? ""));
-    await page.click("#options-done");
     const file = await field("/scene/fem/motion/file");
     await until("what it is", async () => /motion.csv: PGA 0.3 g/.test(await row_of(file).locator(".file-state").textContent()));
     const synthetic = (await value()).scene.fem.motion.file;
@@ -90,12 +91,13 @@ test("a shaken dam's motion is told, and another one sent in its place", async (
 });
 
 test("a scene from a template, changed in the form, runs to its result", async () => {
+    await go_to_step(page, "Section");
     await page.selectOption("#template-choice", "heap");
     await until("the heap", async () => (await value()).name === "heap");
     await page.getByLabel("height", { exact: true }).fill("10");
+    await go_to_step(page, "Question");
     await page.getByLabel("cell size", { exact: true }).fill("0.8");
     await until("its cells", async () => (await value()).scene.mpm.cell_size === 0.8);
-    await page.click("#options-done");
     const title = await field("/title");
     await title.fill("A heap of mine");
     await open_groups(page, ["variants"]);
@@ -122,9 +124,9 @@ test("a section drawn elsewhere becomes the scene's; what is wrong with the file
     if (!routes.paths["/v1/import"]) return context.skip("this service reads no drawings");
     await page.goto(live.service.url);
     await page.click("nav [data-opens=submit]");
-    await page.fill("#study", study_text);
+    await write_json(page, study_text);
     const csv = (y) => `region,x,y\nsand,0,0\nsand,40,0\nsand,20,${y}\nsand,0,${y}\n`;
-    const send = (text) => page.setInputFiles("#section-file", { name: "slope.csv", mimeType: "text/csv", buffer: Buffer.from(text) });
+    const send = (text) => page.setInputFiles("#study-file", { name: "slope.csv", mimeType: "text/csv", buffer: Buffer.from(text) });
     await send(csv(10));
     await until("the slope in the scene", async () => (await value()).scene.section.regions[0].polygon.length === 5);
     assert.equal((await value()).scene.materials.sand.density, 1800, "the soils are those that stood there");

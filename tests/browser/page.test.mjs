@@ -5,6 +5,7 @@ import path from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { write_json } from "./form_page.mjs";
 import { drawn, FakeApi, some_flagged, study, twelve_curves, twelve_variants, two_variants } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
@@ -81,7 +82,7 @@ test("everything comes from this server, and little of it", async () => {
     const folder = fileURLToPath(new URL("../../services/web/static", import.meta.url));
     const shipped = readdirSync(folder).reduce((sum, name) => sum + statSync(path.join(folder, name)).size, 0);
     console.log(`all files that are served: ${shipped} bytes`);
-    assert.ok(bytes > 20000 && shipped < 500000);
+    assert.ok(bytes > 20000 && shipped < 530000);
     assert.deepEqual(browser.foreign, []);
 });
 
@@ -297,7 +298,7 @@ test("a task shows its fault, attempts, files with hashes, and log", async () =>
 test("a faulty study is refused with every fault in its place", async () => {
     await page.goto(url);
     await page.click("nav [data-opens=submit]");
-    await page.fill("#study", JSON.stringify({ scene: { materials: { sand: { density: -1800 } } } }, null, 2));
+    await write_json(page, JSON.stringify({ scene: { materials: { sand: { density: -1800 } } } }, null, 2));
     await page.click("#submit");
     await page.waitForSelector("#fault-list li");
     assert.deepEqual(await page.locator("#fault-list code").allTextContents(),
@@ -306,7 +307,7 @@ test("a faulty study is refused with every fault in its place", async () => {
     await screenshot(page, "page_faults");
     await page.click("#fault-list li:nth-child(2) button");
     assert.equal(await page.evaluate(() => getSelection().toString()), "-1800");
-    await page.fill("#study", "{ not json");
+    await write_json(page, "{ not json");
     await page.click("#submit");
     await until("the reason", async () => /not JSON/.test(await text_of("#fault-title")));
     await page.keyboard.press("Escape");
@@ -318,7 +319,7 @@ test("an example is loaded, planned, submitted, and fills in live", async () => 
     await until("the examples", () => page.isVisible("#examples"));
     await page.selectOption("#examples", { index: 1 });
     await until("the example's text", async () => (await page.inputValue("#study")).includes("breachline-study/1"));
-    await page.click("#show-plan");
+    await page.click("#show-plan"); // a whole study leads to the last step
     await until("a plan", async () => /softening/.test(await text_of("#plan")));
     assert.deepEqual(await page.locator("#plan tr:last-child > *").allTextContents(),
                      ["⊘ left out", "gmsh", "regions are blocks", "/section"]);
@@ -954,6 +955,22 @@ test("it fits narrow and wide windows, light and dark", async () => {
         assert.ok(overflow <= 0, `${width} px: ${overflow} px wider than the window`);
         await screenshot(page, `page_${theme}_${width}`);
     }
+});
+
+test("words of the page lead to their line in the glossary", async () => {
+    await open_run(api.add_run({ ...two_variants, name: "worded" }, { began: Date.now() - 20000, pace: 1, flagged: some_flagged, entangles: 2.1 }).id);
+    await until("a flag that is a link", async () => (await page.locator("#reasons a.term").count()) > 0);
+    const links = await page.locator("a.term").evaluateAll((all) => all.map((link) => [link.textContent, link.hash, link.title]));
+    for (const word of ["t_T", "overlap", "numerical share", "draws", "entangled", "window", "rest"]) assert.ok(links.some(([text]) => text.includes(word)), `${word} in ${links}`);
+    assert.deepEqual(links.filter(([, , title]) => title === ""), [], "each says its line");
+    await page.click("#reasons a.term");
+    await until("the glossary", () => page.isVisible("#glossary"));
+    await until("its line", async () => (await page.locator("#glossary-terms .chosen").count()) === 1);
+    assert.ok(await page.isHidden("#run"));
+    assert.ok(await page.locator("#glossary-terms > div").count() <= 60);
+    await screenshot(page, "glossary");
+    await page.goBack();
+    await until("the run", () => page.isVisible("#run"));
 });
 
 test("nothing failed inside the page", () => {

@@ -6,6 +6,7 @@ import { readFileSync } from "node:fs";
 import path from "node:path";
 import { test } from "node:test";
 import { canvas_facts, screenshot, until } from "./browser.mjs";
+import { go_to_step, write_json } from "./form_page.mjs";
 import { live_page, program } from "./service.mjs";
 
 const study_file = new URL("small_study.json", import.meta.url);
@@ -78,7 +79,7 @@ test("a study with faults is refused with the places at fault", async () => {
     broken.scene.materials.sand.density = -1800;
     broken.scene.materials.sand.law.nu = 0.5;
     broken.scene.mpm.cel_size = 2;
-    await page.fill("#study", JSON.stringify(broken, null, 4));
+    await write_json(page, JSON.stringify(broken, null, 4));
     await page.click("#submit");
     await page.waitForSelector("#fault-list li");
     const pointers = await page.locator("#fault-list code").allTextContents();
@@ -93,7 +94,7 @@ test("a study with faults is refused with the places at fault", async () => {
 
 test("the section is drawn while one types, with what is wrong at its place", async () => {
     const region = () => page.locator("#drawing-picture path.region").count();
-    const type = (document) => page.fill("#study", typeof document === "string" ? document : JSON.stringify(document, null, 4));
+    const type = (document) => write_json(page, typeof document === "string" ? document : JSON.stringify(document, null, 4));
     await page.click("nav [data-opens=submit]");
     await type("");
     await until("what was typed before is gone", () => page.isHidden("#drawing"));
@@ -128,7 +129,8 @@ test("the section is drawn while one types, with what is wrong at its place", as
 
 test("the plan of a scene is shown before anything runs", async () => {
     await page.click("nav [data-opens=submit]");
-    await page.fill("#study", JSON.stringify(study, null, 4));
+    await write_json(page, JSON.stringify(study, null, 4));
+    await go_to_step(page, "Check");
     await page.click("#show-plan");
     await until("a plan per phase", async () => (await page.locator("#plan table").count()) >= 3);
     await screenshot(page, "real_plan");
@@ -139,7 +141,8 @@ test("the plan of a scene is shown before anything runs", async () => {
 test("a job submitted in the page runs to its end, and the page shows it without being asked", async () => {
     await page.click("nav [data-opens=submit]");
     await page.setInputFiles("#study-file", study_file.pathname);
-    await until("the study's text", async () => (await page.inputValue("#study")).includes("browser-column"));
+    await until("the check", async () => (await text_of("#steps [aria-current]")).startsWith("5"));
+    assert.equal(JSON.parse(await page.inputValue("#study")).name, study.name);
     await page.click("#submit");
     await page.waitForSelector("#run:not([hidden])");
     assert.equal(await text_of("#run-title"), study.title);
@@ -299,7 +302,7 @@ test("variants are curves of their own, and a trigger's threshold and firing are
         triggers: [{ kind: "criterion", name: "strained", when: "epsilon_q_avg > 0.05", snapshot_interval_s: 0.02 }],
         variants: [{ name: "weak", overrides: friction(0.3) }, { name: "strong", overrides: friction(0.6) }] });
     await page.click("nav [data-opens=submit]");
-    await page.fill("#study", JSON.stringify(several));
+    await write_json(page, JSON.stringify(several));
     await page.click("#submit");
     await until("its title", async () => (await text_of("#run-title")) === several.title);
     await until("the end of the run", async () => /succeeded|questionable/.test(await text_of("#run-state")), 120000);
@@ -334,7 +337,7 @@ test("a scene without a FEM is shown by variant: no transfer time, no triggers, 
     flow.variants = flow.variants.filter(({ name }) => ["s_r_9", "s_r_24"].includes(name));
     const submit = async (sent) => {
         await page.click("nav [data-opens=submit]");
-        await page.fill("#study", JSON.stringify(sent));
+        await write_json(page, JSON.stringify(sent));
         await page.click("#submit");
         await until("its title", async () => (await text_of("#run-title")) === sent.title);
         await until("the end of the run", async () => /succeeded|questionable/.test(await text_of("#run-state")), 120000);

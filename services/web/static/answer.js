@@ -86,7 +86,7 @@ export class Answer {
         const runout = this.runout();
         const after_name = ["after", this.rows.length > 1 && this.row ? point_name(this.row) : ""].filter(Boolean).join(", ");
         const picture = { outlines, after_name, toe, gauges, water: water_of(this.scene), runout, slip: slip_surface(stability, this.scene.lem?.floor), slip_name: `slip surface, FS ${number(stability?.factor_of_safety, 3)}`,
-                          after: this.profile?.map(({ x, surface }) => [x, surface]) };
+                          after: this.profile && [...this.profile.map(({ x, surface }) => [x, surface]), ...this.profile.map(({ x, ground }) => [x, ground]).reverse()] };
         this.picture.show({ ...picture, says: `The section before${this.profile ? " and after" : ""}. ` +
             this.figures().map(({ name, value }) => `${name}: ${value}.`).join(" ") });
     }
@@ -116,7 +116,7 @@ export class Answer {
         if (runout) {
             const from = (mean ?? row).runout_error_from;
             found.push({ name: "Runout", value: runout.text, title: from,
-                         note: quantiles ? "median over the samples" : [row.lower_bound ? "still moving" : "", runout.low === null ? "numerical error not quantified" : from].filter(Boolean).join("; ") });
+                         note: quantiles ? "median over the samples" : [runout.reach < 0 ? "99 % of the soil stays behind the toe" : "", row.lower_bound ? "still moving" : "", runout.low === null ? "numerical error not quantified" : from].filter(Boolean).join("; ") });
         }
         if (Number.isFinite(row?.depth_beyond_toe)) found.push({ name: "Depth beyond the toe", value: `${number(row.depth_beyond_toe, 2)} m`, note: "deepest, at the end" });
         for (const [name, gauge] of Object.entries(this.task?.result?.gauges ?? {})) found.push(arrival_of(name, gauge));

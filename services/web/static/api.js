@@ -143,6 +143,8 @@ export const provenance_path = (sha256) => path_of("artifacts", sha256, "provena
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
 }
+/// What a study will take: {lines, ...}.
+export const cost_of = (text, signal) => get_json("/v1/cost", { ...json_body(text), signal });
 /// of: "scene" or "study"
 export const read_schema = (of) => get_json(path_of("schema", of), { cache: "default" });
 /// Sends a file; {reference, kind, about, name, ...}.
@@ -228,6 +230,8 @@ export async function list_examples() {
     }
 }
 export const read_example = (name) => get_json(path_of("examples", name));
+
+export const read_glossary = () => get_json("static/glossary.json", { cache: "default" });
 
 const longest_wait = 20; // [s] that the server may hold a long-poll open
 

@@ -7,6 +7,7 @@ import { Database } from "./database.js";
 import { Differences } from "./differences.js";
 import { by_id, set_text } from "./dom.js";
 import { is_active, variants_of } from "./format.js";
+import { show_glossary } from "./glossary.js";
 import { Motions } from "./motions.js";
 import { Particles } from "./particles.js";
 import { Plot } from "./plot.js";
@@ -53,6 +54,7 @@ const head = new RunHead(() => look_soon(), (study) => submission.edit(study));
 by_id("run-search").addEventListener("input", () => look_soon());
 
 const open_table = () => location.hash.match(/^#\/database(?:\/([^/]+))?(?:\/([^/]+))?$/);
+const open_word = () => location.hash.match(/^#\/glossary(?:\/([a-z0-9_-]+))?$/);
 const pair_in = (view) => location.hash.match(new RegExp(`^#/${view}/([^/]+)(?:/([^/]+))?$`))?.slice(1).filter(Boolean).map(decodeURIComponent);
 const open_id = () => decodeURIComponent(location.hash.match(/^#\/runs\/(.+)$/)?.[1] ?? "");
 
@@ -131,9 +133,11 @@ async function arrives(shown, ...parts) {
 async function show_open_run(listed) {
     const id = open_id();
     const tables = open_table() !== null;
+    const word = open_word();
     const [pictures, numbers] = ["compare", "differences"].map(pair_in);
     const pair = pictures ?? numbers;
-    by_id("welcome").hidden = tables || Boolean(pair) || id !== "";
+    by_id("welcome").hidden = tables || Boolean(pair ?? word) || id !== "";
+    by_id("glossary").hidden = !word;
     by_id("compare").hidden = !pictures;
     by_id("differences").hidden = !numbers;
     by_id("database").hidden = !tables;
@@ -146,6 +150,7 @@ async function show_open_run(listed) {
     if (tables || id === "") {
         by_id("run").hidden = true;
         if (pair) await show_pair(pair, pictures ? [compare, "compare"] : [differences, "differences"]);
+        else if (word) document.title = "Glossary – Breachline";
         else if (!tables) document.title = "Breachline";
         return;
     }
@@ -228,6 +233,12 @@ set_theme(themes.includes(stored) ? stored : "auto");
 
 // ---- begin
 
+function open_words() {
+    const word = open_word();
+    by_id("glossary").hidden = !word;
+    if (word) show_glossary(word[1]);
+}
+
 function open_database() {
     const table = open_table();
     if (table) database.show(table[1] ?? "runs", decodeURIComponent(table[2] ?? ""));
@@ -236,6 +247,7 @@ function open_database() {
 window.addEventListener("hashchange", () => {
     look_soon(0);
     open_database();
+    open_words();
     by_id("main").focus({ preventScroll: true });
 });
 api.follow_events({
@@ -247,3 +259,4 @@ api.follow_events({
 });
 look_soon(0);
 open_database();
+open_words();

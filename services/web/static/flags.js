@@ -1,5 +1,6 @@
 // What the flags of a result mean to a person: may its number be believed, is it a bound, or is nothing known of it.
 import { element } from "./dom.js";
+import { term } from "./glossary.js";
 import { number } from "./format.js";
 
 const is_doubt = (flag) => flag.severity === "questionable";
@@ -57,18 +58,21 @@ export function picture_verdict({ phase, state, ended, end_time }, row) {
     return "Whether the soil came to rest is not known.";
 }
 
-const badge = (family, text) => element("span", { class: `state ${family}` }, `${family === "calm" ? "" : "⚠ "}${text}`);
+/// Flags that the glossary explains.
+const explained = { entangled: "entangled", numerical_share: "numerical-share", overlap: "overlap", still_moving: "lower-bound", volume_ratio: "volume-ratio" };
+const badge = (family, text) => element("span", { class: `state ${family}` }, family === "calm" ? "" : "⚠ ", text);
 
 /// A kind in one line; all of its text, and what else there is of it, when it is opened. texts: [{text, pointer}]
-function line_of(family, name, [first, ...others]) {
+function line_of(family, name, code, [first, ...others]) {
     const place = (pointer) => (pointer ? element("code", {}, pointer) : null);
-    return element("li", {}, element("details", {}, element("summary", {}, badge(family, name), ` ${first.text}`), place(first.pointer),
+    const anchor = explained[code];
+    return element("li", {}, badge(family, anchor ? term(anchor, name) : name), " ", element("details", {}, element("summary", {}, first.text), place(first.pointer),
         ...others.map(({ text, pointer }) => element("p", {}, `${text} `, place(pointer)))));
 }
 
 /// Flags as a list, a line for each kind, questionable ones first.
 export const flag_items = (flags) => kinds_of(flags).map((kind) =>
-    line_of(is_doubt(kind) ? "warn" : "calm", counted(kind.code, kind.count), kind.flags.map(({ message, pointer }) => ({ text: message, pointer }))));
+    line_of(is_doubt(kind) ? "warn" : "calm", counted(kind.code, kind.count), kind.code, kind.flags.map(({ message, pointer }) => ({ text: message, pointer }))));
 
 /// How a verdict and its reasons look: `usable` of the findings.
 export const verdict_look = (usable) => ({ no: "bad", questionable: "warn", in_part: "warn", with_remarks: "calm", yes: "good" })[usable] ?? "off";
@@ -80,7 +84,7 @@ export function reason_items({ reasons }, flags) {
         const [{ usable, code }] = some;
         const count = Math.max(...some.map((each) => each.count)); // the same results may carry several
         return { key: `${usable} ${code} ${some.map(({ text }) => text).join()}`,
-                 make: () => line_of(verdict_look(usable), counted(code, count), some.map(({ text, pointer }) => ({ text: code in flags ? without_name(text, code) : text, pointer }))) };
+                 make: () => line_of(verdict_look(usable), counted(code, count), code, some.map(({ text, pointer }) => ({ text: code in flags ? without_name(text, code) : text, pointer }))) };
     });
 }
 

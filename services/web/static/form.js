@@ -7,7 +7,9 @@ import { Choice, Group, Members } from "./form_groups.js";
 import { Points } from "./form_points.js";
 import { NamedRows, Rows } from "./form_rows.js";
 import { insert_item, parts_of, pointer_of, remove_value, rename_member, set_value, swap_items } from "./json_text.js";
+import { steps_of, title_of } from "./path.js";
 import { read_schemas, shape_of } from "./schema.js";
+import { Soils } from "./soils.js";
 import { VariantsTable } from "./variants_table.js";
 
 const makers = { scalar: Scalar, tuple: Tuple, numbers: List, words: List, points: Points, rows: Rows, map: NamedRows, group: Group, choice: Choice, text: Text };
@@ -23,9 +25,9 @@ function place_of(pointer, cause) {
 }
 
 /// At a part of the form.
-export function say_fault(part, { cause, remedy }) {
+export function say_fault(part, { cause, remedy, is_warning }) {
     part.slot?.append(element("p", {}, element("strong", {}, cause), remedy ? ` ${remedy}` : ""));
-    if (!part.control?.matches("input, select")) return;
+    if (is_warning || !part.control?.matches("input, select")) return;
     part.control.setAttribute("aria-invalid", "true");
     part.control.dataset.fault = "";
 }
@@ -39,13 +41,13 @@ export function forget_faults(root) {
 
 export class Form {
     /// edit(change, kind): has the text changed by change(text); edits of one kind in a row are one step back. looked_at(pointer): where
-    /// the reader is.
-    constructor(edit, looked_at) {
-        Object.assign(this, { edit_text: edit, element: by_id("form"), faults: [], is_own: false });
+    /// the reader is. enter(pointer): the step of a place is looked at.
+    constructor(edit, looked_at, enter) {
+        Object.assign(this, { edit_text: edit, enter, element: by_id("form"), faults: [], is_own: false, cells: new Map() });
         this.names = { materials: element("datalist", { id: "names-of-materials" }), regions: element("datalist", { id: "names-of-regions" }) };
         this.element.after(...Object.values(this.names));
         this.element.addEventListener("focusin", (event) => {
-            const title = event.target.closest(".field")?.querySelector("label")?.title;
+            const title = event.target.dataset.pointer ?? event.target.closest(".field")?.querySelector("label")?.title;
             if (title) looked_at(title);
         });
     }
@@ -58,8 +60,13 @@ export class Form {
         if (parts.length === 1 && parts[0] === "variants") return new VariantsTable(this, entry, parts, options);
         if (is_file(entry)) return new FileField(this, entry, parts, options);
         if (parts.length === 1 && parts[0] === "scene") return new Group(this, entry, parts, { ...options, is_open: true });
+        if (this.place(parts) === "/scene/materials") return new Soils(this, entry, parts, options);
         return new makers[shape_of(entry)](this, entry, parts, options);
     }
+    /// In the whole study.
+    place(parts) { return pointer_of(this.is_study ? parts : ["scene", ...parts]); }
+    steps_of(parts) { return parts.length > 3 ? null : steps_of(this.place(parts)).join(" "); }
+    title_of(parts) { return title_of(this.place(parts)); }
 
     // ---- edits
 
@@ -103,7 +110,7 @@ export class Form {
         try {
             value = JSON.parse(text);
         } catch {
-            return this.wait(text.trim() === "" ? "Choose a template, an example or a file, or begin with what stands here." : "The text is not JSON at the moment; the form waits until it is.", text);
+            return this.wait(text.trim() === "" ? "Nothing yet: begin in step 1." : "The text is not JSON at the moment; the form waits until it is.", text);
         }
         if (value === null || typeof value !== "object" || Array.isArray(value)) return this.wait("A study is an object: { ... }.", text);
         this.value = value;
@@ -117,6 +124,7 @@ export class Form {
     }
     begin(is_study) {
         this.is_study = is_study;
+        this.cells.clear();
         this.root = new Members(this, is_study ? this.schemas.study : this.schemas.scene, []);
         this.root.make(this.value);
         this.element.replaceChildren(this.root.element);
@@ -127,7 +135,7 @@ export class Form {
         this.root = null;
         this.value = undefined;
         this.faults = [];
-        this.element.replaceChildren(element("button", { type: "button", onclick: () => this.edit(() => "{\n    \"format\": \"breachline-study/1\",\n    \"name\": \"my-dam\",\n" +
+        this.element.replaceChildren(element("button", { type: "button", "data-steps": "section", onclick: () => this.edit(() => "{\n    \"format\": \"breachline-study/1\",\n    \"name\": \"my-dam\",\n" +
             "    \"scene\": {\n        \"format\": \"breachline-scene/1\",\n        \"name\": \"my-dam\",\n        \"materials\": {},\n        \"section\": { \"regions\": [] }\n    }\n}") }, "Begin an empty study"));
     }
     say(why) {
@@ -170,12 +178,15 @@ export class Form {
         const counts = new Map(this.counted);
         for (const [part] of counts) counts.set(part, 0);
         const said = new Set();
-        for (const { pointer, cause, remedy } of this.faults) {
+        for (const { pointer, cause, remedy, is_warning } of this.faults) {
             if (!this.root || said.has(pointer + cause)) continue;
             said.add(pointer + cause);
-            const way = this.way_to(place_of(pointer, cause));
+            const place = place_of(pointer, cause);
+            const way = this.way_to(place);
             const part = way.at(-1)?.[0];
-            if (part) say_fault(part, { cause, remedy });
+            if (part) say_fault(part, { cause, remedy, is_warning });
+            const cell = this.cells.get(place);
+            if (cell) say_fault(cell, place === pointer ? { cause, remedy, is_warning } : { cause: "missing" });
             for (const [each] of way) if (each.add_faults) counts.set(each, (counts.get(each) ?? 0) + 1);
         }
         for (const [part, count] of counts) part.add_faults(count);
@@ -185,8 +196,12 @@ export class Form {
     /// Opens the way to a place and scrolls there; true when the form has it.
     reveal(pointer, { focus = false } = {}) {
         const fault = this.faults.find((each) => each.pointer === pointer);
-        const way = this.way_to(fault ? place_of(pointer, fault.cause) : pointer);
+        const place = fault ? place_of(pointer, fault.cause) : pointer;
+        const way = this.way_to(place);
         if (way.length === 0) return false;
+        this.enter(this.place(parts_of(place)));
+        const cell = this.cells.get(place);
+        if (cell?.control.isConnected) way.splice(0, way.length, [cell, ""]);
         way.forEach(([part], i) => part.open?.(way[i + 1]?.[1]));
         this.root.open_for(way[0][1]);
         const [part] = way.at(-1);

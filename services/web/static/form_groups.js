@@ -10,7 +10,6 @@ const always = new Set(["title", "transfer_times", "variants", "lem", "fem", "tr
 export class Members {
     constructor(form, entry, parts) {
         Object.assign(this, { form, entry, parts, inside: new Map(), element: element("div", { class: "members" }) });
-        this.more = element("details", { class: "more-members" }, element("summary"), element("div", { class: "members" }));
         this.unknown = element("div", { class: "unknown" });
     }
 
@@ -19,28 +18,37 @@ export class Members {
         const late = [];
         for (const [name, each] of Object.entries(this.entry.properties)) {
             if (shape_of(each) === "constant") continue;
-            const part = this.form.make(each, [...this.parts, name], { name, required: required.has(name) });
+            const parts = [...this.parts, name];
+            const part = this.form.make(each, parts, { name, required: required.has(name) });
+            const steps = this.form.steps_of?.(parts);
+            if (steps) part.element.dataset.steps = steps;
             this.inside.set(name, part);
             const is_shown = required.has(name) || value?.[name] !== undefined || this.form.shows_all || (this.parts.length < 2 && always.has(name));
             if (is_shown) this.element.append(part.element);
             else late.push(part);
         }
-        if (late.length < 3) this.element.append(...late.map((part) => part.element));
-        else {
-            this.more.lastElementChild.append(...late.map((part) => part.element));
-            const names = late.map((part) => label_of(part.name, part.entry));
-            set_text(this.more.firstElementChild, `${late.length} more: ${names.slice(0, 5).join(", ")}${names.length > 5 ? ", …" : ""}`);
-            this.element.append(this.more);
-        }
+        for (const some of Map.groupBy(late, (part) => part.element.dataset.steps).values()) this.element.append(...(some.length < 3 ? some.map((part) => part.element) : [this.fold_of(some)]));
         this.element.append(this.unknown);
         this.update(value);
+    }
+    /// Of one step.
+    fold_of(parts) {
+        const names = parts.map((part) => label_of(part.name, part.entry));
+        const { steps } = parts[0].element.dataset;
+        return element("details", { class: "more-members", "data-steps": steps },
+            element("summary", {}, `${parts.length} more: ${names.slice(0, 5).join(", ")}${names.length > 5 ? ", …" : ""}`), element("div", { class: "members" }, ...parts.map((part) => part.element)));
+    }
+    /// The fold that an entry lies below; null: none.
+    fold_around(name) {
+        const fold = this.inside.get(name)?.element.closest(".more-members");
+        return fold?.parentElement === this.element ? fold : null;
     }
 
     update(value) {
         for (const [name, part] of this.inside) {
             part.update(value?.[name]);
             // What another text sets is not left below "more".
-            if (value?.[name] !== undefined && !this.form.is_own && this.more.contains(part.element)) this.more.before(part.element);
+            if (value?.[name] !== undefined && !this.form.is_own) this.fold_around(name)?.before(part.element);
         }
         const names = Object.keys(value ?? {}).filter((name) => !(name in this.entry.properties));
         mirror(this.unknown, names, (name) => name, (name) => element("p", {}, element("code", {}, name), " is not known to this form; it stays in the JSON. ",
@@ -48,7 +56,8 @@ export class Members {
     }
     child(name) { return this.inside.get(name) ?? null; }
     open_for(name) {
-        if (this.more.contains(this.inside.get(name)?.element)) this.more.open = true;
+        const fold = this.fold_around(name);
+        if (fold) fold.open = true;
     }
 }
 
@@ -69,7 +78,7 @@ export class Fold {
 export class Group {
     constructor(form, entry, parts, { name, required = false, is_open = false, title = null }) {
         Object.assign(this, { form, entry, parts, name, required });
-        this.fold = new Fold(title ?? label_of(name, entry), { id: new_id(), help: entry.description });
+        this.fold = new Fold(title ?? form.title_of?.(parts) ?? label_of(name, entry), { id: new_id(), help: entry.description });
         this.fold.fill = () => this.fill();
         this.element = this.fold.element;
         this.slot = element("div", { class: "field-faults" });

@@ -60,7 +60,7 @@ class Container {
     constructor(form, entry, parts, { name, required = false }) {
         Object.assign(this, { form, entry, parts, name, required, rows: [] });
         const id = new_id();
-        this.fold = new Fold(label_of(name, entry), { id, help: entry.description });
+        this.fold = new Fold(form.title_of?.(parts) ?? label_of(name, entry), { id, help: entry.description });
         this.element = this.fold.element;
         this.element.dataset.group = name;
         this.control = this.element.firstElementChild;
@@ -72,7 +72,7 @@ class Container {
         set_text(this.fold.tag, count === 0 ? "none" : String(count));
     }
     open() {
-        this.element.open = true;
+        this.fold.element.open = true;
     }
     add_faults(count) {
         Row.prototype.add_faults.call(this, count);

@@ -32,7 +32,7 @@ export class LiveDrawing {
 
     forget() {
         by_id("drawing-picture").replaceChildren();
-        by_id("drawing-warnings").replaceChildren();
+        this.show_warnings([]);
         this.tell("", []);
         by_id("drawing").hidden = true;
     }
@@ -43,19 +43,19 @@ export class LiveDrawing {
         } catch (fault) {
             return this.keep(`This is not JSON yet: ${fault.message}`, []);
         }
-        this.asked = new AbortController();
+        const { signal } = this.asked = new AbortController();
         try {
-            this.show(await api.draw_document(text, by_id("drawing-mesh").checked, this.asked.signal));
+            this.show(await api.draw_document(text, by_id("drawing-mesh").checked, signal));
         } catch (fault) {
-            if (fault.name !== "AbortError") this.keep(fault.message, fault.faults ?? []);
+            if (!signal.aborted) this.keep(fault.message, fault.faults ?? []);
         }
     }
 
     show(text) {
         const faults = this.place(text);
         if (!faults) return;
-        const count = faults.length === 1 ? "1 fault, marked" : `${faults.length} faults, marked`;
-        this.tell(faults.length === 0 ? "" : `${count} in red where it has a place`, faults);
+        const number = faults.filter(({ is_warning }) => !is_warning).length;
+        this.tell(number === 0 ? "" : `${number === 1 ? "1 fault, marked" : `${number} faults, marked`} in red where it has a place`, faults);
     }
 
     /// What is wrong with a file that is not in the text: its picture (SVG, or null), and the faults that were answered.
@@ -79,9 +79,14 @@ export class LiveDrawing {
         const faults = [...drawn.querySelectorAll("[data-cause]")].map(({ dataset }) => (
             { pointer: dataset.pointer, cause: dataset.cause, remedy: dataset.remedy }));
         by_id("drawing-picture").classList.remove("stale");
-        by_id("drawing-warnings").replaceChildren(...[...drawn.querySelectorAll("[data-warning]")].map(({ dataset }) => (
-            this.fault_item({ pointer: dataset.pointer, cause: dataset.warning, remedy: "" }, true))));
-        return faults;
+        const warnings = [...drawn.querySelectorAll("[data-warning]")].map(({ dataset }) => ({ pointer: dataset.pointer, cause: dataset.warning, remedy: "", is_warning: true }));
+        this.show_warnings(warnings);
+        return [...faults, ...warnings];
+    }
+
+    show_warnings(warnings) {
+        by_id("drawing-warnings-title").hidden = warnings.length === 0;
+        by_id("drawing-warnings").replaceChildren(...warnings.map((one) => this.fault_item(one)));
     }
 
     keep(why, faults) {
@@ -94,7 +99,7 @@ export class LiveDrawing {
     tell(note, faults, about = "document") {
         set_text(by_id("drawing-note"), note);
         this.found(about === "document" ? faults : []);
-        by_id("drawing-faults").replaceChildren(...faults.map((one) => this.fault_item(one, about === "document")));
+        by_id("drawing-faults").replaceChildren(...faults.filter(({ is_warning }) => !is_warning).map((one) => this.fault_item(one, about === "document")));
         by_id("drawing").hidden = false;
     }
 }

@@ -6,7 +6,7 @@ import { Plot } from "./plot.js";
 
 const fewest_fems = 5;
 const interval = (found) => (found ? `${number(found.value, 2)} (${number(found.low, 2)} to ${number(found.high, 2)})` : "–");
-const median = ({ unit, fragility }) => (fragility.refused ?? `${number(fragility.median, 3)} ${unit} (${number(fragility.low, 3)} to ${number(fragility.high, 3)})`);
+const median = ({ unit, fragility }) => (fragility.refused ? "–" : `${number(fragility.median, 3)} ${unit} (${number(fragility.low, 3)} to ${number(fragility.high, 3)})`);
 
 export class Motions {
     constructor() {
@@ -25,7 +25,10 @@ export class Motions {
         if (!this.found) return;
         mirror(by_id("motions-said"), this.found.sentences, (said) => said, () => element("li"), set_text);
         mirror(by_id("motions-rows"), this.found.measures, ({ name }) => name, () => element("tr", {}, element("th", { scope: "row" }), ...Array.from({ length: 3 }, () => element("td"))),
-               (row, measure) => [measure.title, interval(measure.with_depth), interval(measure.with_runout), median(measure)].forEach((text, i) => set_text(row.children[i], text)));
+               (row, measure) => {
+                   [measure.title, interval(measure.with_depth), interval(measure.with_runout), median(measure)].forEach((text, i) => set_text(row.children[i], text));
+                   row.lastElementChild.title = measure.fragility.refused ?? "";
+               });
         if (this.choice.options.length === 0) {
             for (const { name, title, unit } of this.found.measures) this.choice.append(element("option", { value: name }, `${title} [${unit}]`));
             if (this.found.best) this.choice.value = this.found.best;

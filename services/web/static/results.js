@@ -316,8 +316,9 @@ function fill_row(row, values) {
     flags.title = is_finished(values) ? flag_note(values) : "";
     row.dataset.trust = is_finished(values) ? trust_of(values) : "";
     set_text(row.children[row.children.length - 2], values.trigger === "at_time" ? "study" : values.trigger ?? "");
-    set_text(row.lastElementChild.firstElementChild, values.mean ? "repeats" : "trace");
-    row.lastElementChild.firstElementChild.setAttribute("aria-label", ["Where the numbers", point_name(values) && `at ${point_name(values)}`,
+    const trace = values.mean ? "repeats" : "trace";
+    set_text(row.lastElementChild.firstElementChild, trace);
+    row.lastElementChild.firstElementChild.setAttribute("aria-label", [`${trace}: where the numbers`, point_name(values) && `at ${point_name(values)}`,
                                                                       "come from"].filter(Boolean).join(" "));
     row.classList.toggle("waiting", is_active(values.state));
 }

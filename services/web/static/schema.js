@@ -74,6 +74,12 @@ export function range_of(entry) {
         .filter(([limit]) => limit !== undefined).map(([limit, sign]) => sign + shown(limit)).join(", ");
 }
 
+/// "1000 to 3200", what is mostly meant; empty where the schema does not say.
+export function plausible_of(entry) {
+    const usual = of_number(entry)["x-plausible"];
+    return usual ? `${shown(usual[0])} to ${shown(usual[1])}` : "";
+}
+
 /// Why a number would be refused or doubted, or "".
 export function doubt_about(entry, value) {
     const limits = of_number(entry);
@@ -83,7 +89,7 @@ export function doubt_about(entry, value) {
         return `outside of ${range_of(entry)}`;
     }
     const usual = limits["x-plausible"];
-    return usual && value !== 0 && (value < usual[0] || value > usual[1]) ? `unusual: mostly ${shown(usual[0])} to ${shown(usual[1])} ${unit_of(entry)}`.trim() : "";
+    return usual && value !== 0 && (value < usual[0] || value > usual[1]) ? `unusual: mostly ${plausible_of(entry)} ${unit_of(entry)}`.trim() : "";
 }
 
 /// "default 0.05 m", or "".

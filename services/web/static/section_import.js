@@ -1,8 +1,6 @@
-// A section that was drawn elsewhere (DXF, CSV) in place of the scene's: the soils are those that stand in the text.
+// A section that was drawn elsewhere (DXF, CSV) in place of the scene's: the soils are those that stand in the text, or one for each layer.
 import * as api from "./api.js";
-import { by_id } from "./dom.js";
 import { number } from "./format.js";
-import { print } from "./json_text.js";
 
 const units = ["m", "mm", "cm", "dm", "km", "in", "ft", "yd", "mi", "us-ft"];
 const properties = {
@@ -24,42 +22,39 @@ function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [
             guessed.length ? `guessed: ${guessed.map(({ pointer, value }) => `${pointer} ${JSON.stringify(value)}`).join(", ")}` : "", ...remarks].filter(Boolean).join("; ");
 }
 
-export class SectionImport {
-    /// panel: an OptionsPanel; pane: the text; drawing: the LiveDrawing, which shows what is wrong with the file.
-    constructor(panel, pane, drawing) {
-        Object.assign(this, { panel, pane, drawing });
-        by_id("section-file").addEventListener("change", (event) => this.take(event.target));
-    }
+const stand_in = { density: 1900, law: { type: "mohr_coulomb", E_MPa: 20, nu: 0.3, c_kPa: 1, phi_deg: 30 } };
+const is_whole = ({ density, law, strength }) => density > 0 && (law?.type !== "mohr_coulomb" || (law.E_MPa > 0 && law.nu >= 0 && (strength || (law.c_kPa >= 0 && law.phi_deg >= 0))));
 
-    async take(input) {
-        const file = input.files[0];
-        if (!file) return;
-        const drawing = await file.text();
-        input.value = "";
-        this.begin(file.name, drawing);
+export class SectionImport {
+    /// panel: an OptionsPanel; drawing: the LiveDrawing, which shows what is wrong with the file; wants_soils(): layers became soils without values.
+    constructor(panel, drawing, wants_soils) {
+        Object.assign(this, { panel, drawing, wants_soils });
     }
 
     begin(file, drawing) {
-        const study = this.study_so_far();
-        const asked = ({ map, layers, ...others }) => ({ drawing, file, materials: study.scene?.materials ?? {}, map: pieces(map), layers: pieces(layers), ...others });
+        const study = this.panel.study();
+        const is_again = this.panel.source?.is_import;
+        const soils = () => this.panel.study()?.scene?.materials ?? {};
+        // The search of the stability analysis is placed with the service's help, which needs whole soils: those without values stand in with others.
+        const asked = ({ map, layers, ...others }, own) => ({ drawing, file, map: pieces(map), layers: pieces(layers), ...others,
+            materials: Object.fromEntries(Object.entries(own).map(([name, soil]) => [name, is_whole(soil) ? soil : stand_in])) });
         this.panel.open({
-            title: `Section of ${file}: it takes the place of the scene's, with the soils that stand there.`, properties,
+            title: `Section of ${file}.`, properties, is_import: true, base: is_again ? this.panel.made : { scene: { section: study?.scene?.section } },
             make: async (values, signal) => {
-                const { scene: { format, name, section, ...others }, report } = await api.import_section(asked(values), signal);
-                const { title, materials } = study.scene ?? {};
-                const scene = { format, name, ...(title === undefined ? {} : { title }), materials, section, ...others, ...(materials ? { materials } : {}) };
-                return { text: print({ ...study, scene }), note: note_of(report) };
+                let own = soils();
+                const is_empty = Object.keys(own).length === 0;
+                const found = await api.import_section(asked(values, is_empty ? { "no soil yet": stand_in } : own), signal).catch((fault) => {
+                    const layers = (fault.faults ?? []).map(({ cause }) => cause.match(/^layer (.+) has no material/)?.[1]).filter(Boolean);
+                    if (!is_empty || layers.length === 0) throw fault;
+                    own = Object.fromEntries(layers.map((layer) => [layer, { law: { type: "mohr_coulomb" } }]));
+                    return api.import_section(asked(values, own), signal);
+                });
+                if (is_empty) this.wants_soils();
+                const note = `${note_of(found.report)}${study?.scene?.section && !is_again ? "; it takes the place of the section that stood there" : ""}`;
+                return { study: { format: "breachline-study/1", name: found.scene.name, scene: { ...found.scene, materials: own } }, note };
             },
-            failed: (fault) => this.show_faults(asked(this.panel.options.values), fault),
+            failed: (fault) => this.show_faults(asked(this.panel.options.values, soils()), fault),
         });
-    }
-    study_so_far() {
-        try {
-            const document = JSON.parse(this.pane.text);
-            return document.section ? { format: "breachline-study/1", name: document.name ?? "section", scene: document } : document;
-        } catch {
-            return { format: "breachline-study/1", name: "section" };
-        }
     }
 
     /// The service's picture of the file has every fault at its place.

@@ -26,11 +26,11 @@ export function slip_surface(result, floor) {
     });
 }
 
-/// [{x, surface}] of profile.csv [m].
+/// [{x, ground, surface}] of profile.csv [m].
 export function profile_in(table) {
     const [head, ...lines] = table.trim().split("\n").map((line) => line.split(","));
     const value = (line, name) => Number(line[head.indexOf(`${name}_m`)]);
-    return lines.map((line) => ({ x: value(line, "x"), surface: value(line, "surface") }));
+    return lines.map((line) => ({ x: value(line, "x"), ground: value(line, "ground"), surface: value(line, "surface") }));
 }
 
 const wedge = (x, y) => `M${x},${y}l-5,-9h10Z`;
@@ -44,7 +44,7 @@ export class SectionPicture {
         new ResizeObserver(() => this.draw()).observe(host);
     }
 
-    /// parts: {outlines, after, after_name, slip, slip_name, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
+    /// parts: {outlines, after: the soil's surface and back along the ground, after_name, slip, slip_name, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
     /// null or empty is not drawn.
     show(parts) {
         this.parts = parts;
@@ -69,16 +69,18 @@ export class SectionPicture {
         const drawn = [];
         const add = (tag, attributes, ...text) => drawn.push(svg(tag, attributes, ...text));
         for (const outline of parts.outlines.filter(({ length }) => length)) add("path", { class: "before", d: `${path(outline)}Z` });
-        if (parts.after?.length) add("path", { class: "after", d: `${path(parts.after)}V${bottom}H${px(parts.after[0][0]).toFixed(1)}Z` });
+        if (parts.after?.length) add("path", { class: "after", d: `${path(parts.after)}Z` });
         if (parts.water) add("path", { class: "water", d: path(parts.water) });
         if (parts.slip.length) add("path", { class: "slip", d: path(parts.slip) });
-        let taken = -Infinity; // by the name before, which this one would run into
+        const under = py(Math.max(...gauges.map(({ y }) => y))); // all names
+        const taken = []; // how far to the right, by the names of each line
         for (const { name, x, y } of [...gauges].sort((a, b) => a.x - b.x)) {
             const half = (name.length * character) / 2;
-            const raised = px(x) - half < taken;
-            taken = raised ? -Infinity : px(x) + half;
+            const free = taken.findIndex((end) => end < px(x) - half);
+            const line = free < 0 ? taken.length : free;
+            taken[line] = px(x) + half;
             add("path", { class: "gauge", d: wedge(px(x), py(y)) });
-            add("text", { x: px(x), y: py(y) - (raised ? 26 : 13), "text-anchor": "middle" }, name);
+            add("text", { x: px(x), y: under - 13 * (line + 1), "text-anchor": "middle" }, name);
         }
         if (toe) add("path", { class: "toe", d: wedge(px(toe[0]), py(toe[1])) });
         if (toe && runout) {

@@ -1,5 +1,5 @@
-// The dialog that submits a study: filled in the form or as JSON beside it, chosen as a file, or one of the shipped
-// examples. Every fault that the server finds is shown at its field and its line, and listed.
+// The dialog of a new run: five steps from a section to a submitted study, beside them the drawing and, when asked for, the JSON. Every
+// fault that the server finds is shown at its field and its line, and listed.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
 import { Form } from "./form.js";
@@ -7,8 +7,18 @@ import { JsonPane } from "./json_pane.js";
 import { print } from "./json_text.js";
 import { LiveDrawing } from "./live_drawing.js";
 import { OptionsPanel } from "./options_panel.js";
+import { Path, step_of } from "./path.js";
+import { Question } from "./question.js";
 import { SectionImport } from "./section_import.js";
 import { Templates } from "./templates.js";
+
+function format_of(text) {
+    try {
+        return String(JSON.parse(text)?.format);
+    } catch {
+        return "";
+    }
+}
 
 export class SubmitDialog {
     /// submitted(run): the server took it.
@@ -16,22 +26,25 @@ export class SubmitDialog {
         this.submitted = submitted;
         this.dialog = by_id("submit-dialog");
         this.pane = new JsonPane((text) => this.changed(text));
-        this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer));
-        this.drawing = new LiveDrawing((fault) => this.fault_item(fault), (pointer) => this.point_to(pointer),
+        this.path = new Path((step) => this.entered(step));
+        this.form = new Form((change, kind) => this.pane.edit(change, kind), (pointer) => this.pane.scroll_to(pointer), (pointer) => this.path.show(step_of(pointer)));
+        this.drawing = new LiveDrawing((fault, is_in_text) => this.fault_item(fault, is_in_text), (pointer) => this.point_to(pointer),
                                        (faults) => this.mark("drawing", faults));
         this.options = new OptionsPanel(this.pane, (fault) => this.refuse(fault), () => {
             by_id("template-choice").value = "";
             this.drawing.return_to(this.pane.text);
-        });
+        }, (study) => this.question.shaped(study));
         this.templates = new Templates(this.options);
-        this.sections = new SectionImport(this.options, this.pane, this.drawing);
+        this.question = new Question((change) => this.pane.edit((text) => print(change(JSON.parse(text)))), this.templates);
+        this.sections = new SectionImport(this.options, this.drawing, () => this.path.show("soils"));
         this.dialog.addEventListener("dragover", (event) => event.preventDefault());
         this.dialog.addEventListener("drop", (event) => this.drop(event));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {
             button.addEventListener("click", () => this.open());
         }
         by_id("examples").addEventListener("change", (event) => this.take_example(this.examples.find(({ name }) => name === event.target.value)));
-        by_id("study-file").addEventListener("change", (event) => this.take_file(event.target));
+        by_id("study-file").addEventListener("change", (event) => this.choose_files(event.target));
+        by_id("json-show").addEventListener("click", () => this.show_json(by_id("json").hidden));
         by_id("submit").addEventListener("click", () => this.submit());
         by_id("show-plan").addEventListener("click", () => this.show_plan());
         by_id("submit-close").addEventListener("click", () => this.dialog.close());
@@ -43,9 +56,10 @@ export class SubmitDialog {
     async open() {
         this.dialog.showModal();
         this.clear();
+        this.path.show("section");
         try {
             await this.form.start();
-            this.form.show(this.pane.text);
+            this.show_text(this.pane.text);
             if (this.has_examples) return;
             await this.templates.offer();
             const examples = this.examples = await api.list_examples();
@@ -55,6 +69,15 @@ export class SubmitDialog {
         } catch (fault) {
             this.refuse(fault);
         }
+    }
+    entered(step) {
+        if (step === "check") this.show_cost();
+        if (step !== "water") return;
+        for (const part of document.querySelectorAll('#form details[data-steps~="water"][data-steps~="question"]:not(.absent)')) part.open = true;
+    }
+    show_json(is_shown) {
+        by_id("json").hidden = !is_shown;
+        by_id("json-show").setAttribute("aria-pressed", String(is_shown));
     }
 
     /// A study that was run, to be changed and run again: without the variants that the service made of it.
@@ -71,11 +94,18 @@ export class SubmitDialog {
 
     /// By whom and whatever.
     changed(text) {
-        this.form.show(text);
-        this.pane.mark(this.form.faults);
+        this.show_text(text);
         this.show_mended();
         this.drawing.changed(text);
         by_id("study").removeAttribute("aria-invalid");
+    }
+    show_text(text) {
+        this.form.show(text);
+        this.marked();
+        this.question.show(this.form.is_study && text.trim() !== "" ? this.form.value : null);
+        by_id("scene-wanted").hidden = !this.wants_scene();
+        if (this.wants_scene()) set_text(by_id("scene-wanted"), `The study names its scene: ${this.form.value.scene}. Choose that file as well.`);
+        if (this.path.step === "check") this.show_cost();
     }
 
     /// Of what was refused.
@@ -88,22 +118,53 @@ export class SubmitDialog {
 
     mark(source, faults) {
         this.form.take_faults(source, faults);
+        this.marked();
+    }
+    marked() {
         this.pane.mark(this.form.faults);
+        this.path.count(this.form.faults);
     }
 
-    async take_file(input) {
-        const file = input.files[0];
-        if (file) this.take_text(await file.text());
+    async choose_files(input) {
+        const files = [...input.files];
         input.value = "";
+        await this.take_files(files);
+    }
+    /// A motion is dropped on its field.
+    drop(event) {
+        event.preventDefault();
+        return this.take_files([...event.dataTransfer.files]);
     }
 
-    /// A study, or a section drawn elsewhere; a motion is dropped on its field.
-    async drop(event) {
-        event.preventDefault();
-        const file = event.dataTransfer.files[0];
-        if (!file) return;
-        if (/\.(dxf|csv)$/i.test(file.name)) this.sections.begin(file.name, await file.text());
-        else this.take_text(await file.text());
+    /// Studies, their scenes, or sections drawn elsewhere; a study before its scene.
+    async take_files(files) {
+        const read = await Promise.all(files.map(async (file) => ({ name: file.name, text: await file.text() })));
+        const is_scene = ({ text }) => format_of(text).startsWith("breachline-scene/");
+        for (const each of read.sort((one, other) => is_scene(one) - is_scene(other))) {
+            if (/\.(dxf|csv)$/i.test(each.name)) await this.sections.begin(each.name, each.text);
+            else if (is_scene(each)) this.take_scene(each.text);
+            else this.take_study(each.text);
+        }
+    }
+    /// Whole, it is checked; else its scene is asked for.
+    take_study(text) {
+        this.take_text(text);
+        this.path.show(this.wants_scene() ? "section" : "check");
+    }
+    take_scene(text) {
+        let scene;
+        try {
+            scene = JSON.parse(text);
+        } catch {
+            return this.take_text(text); // the form says what is wrong with it
+        }
+        const study = this.wants_scene() ? this.form.value : { format: "breachline-study/1", name: scene.name };
+        return this.take_study(print({ ...study, scene }));
+    }
+    /// Of a study file; what the service keeps it finds itself.
+    wants_scene() {
+        const scene = this.form.is_study && this.form.value?.scene;
+        return typeof scene === "string" && scene !== "" && !scene.startsWith("scene:");
     }
 
     async take_example(example) {
@@ -111,9 +172,23 @@ export class SubmitDialog {
         by_id("examples").value = ""; // to be chosen again
         try {
             const study = example.study ?? await api.read_example(example.name);
-            this.take_text(print(study));
+            this.take_study(print(study));
         } catch (fault) {
             this.refuse(fault);
+        }
+    }
+
+    /// Of what stands in the text.
+    async show_cost() {
+        this.asked?.abort();
+        this.asked = new AbortController();
+        const lines = by_id("cost-lines");
+        if (!lines.firstElementChild) lines.append(element("li", { class: "muted" }, "Estimating…"));
+        try {
+            const cost = await api.cost_of(this.pane.text, this.asked.signal);
+            lines.replaceChildren(...cost.lines.map((line) => element("li", {}, line)));
+        } catch (fault) {
+            if (fault.name !== "AbortError") lines.replaceChildren(element("li", { class: "muted" }, "Not known before the faults are mended."));
         }
     }
 
@@ -181,10 +256,7 @@ export class SubmitDialog {
         by_id("faults").hidden = false;
         by_id("study").setAttribute("aria-invalid", "true");
         this.mark("submission", faults);
-        if (faults.length) {
-            this.options.close();
-            this.pane.scroll_to(faults[0].pointer);
-        }
+        if (faults.length) this.pane.scroll_to(faults[0].pointer);
         if (!faults.length || !this.form.reveal(faults[0].pointer, { focus: true })) by_id("fault-title").focus();
     }
 
@@ -192,14 +264,14 @@ export class SubmitDialog {
         const is_place = is_in_text && (one.pointer === "" || one.pointer.startsWith("/"));
         return element("li", { "data-fault": one.pointer + one.cause },
                        is_place ? this.link_to(one.pointer, one.pointer || "/") : element("code", {}, one.pointer), ` ${one.cause} `,
-                       is_place ? element("span", { class: "muted" }, `line ${this.pane.line_of(one.pointer)}`) : null,
+                       is_place ? element("span", { class: "muted line" }, `line ${this.pane.line_of(one.pointer)}`) : null,
                        one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
-    /// Selects the text that the pointer names, and opens its field.
+    /// Opens the field of a place and, where the text is shown or there is no field, selects it in the text.
     point_to(pointer) {
-        this.options.close();
-        this.form.reveal(pointer);
-        this.pane.select(pointer);
+        const is_found = this.form.reveal(pointer, { focus: true });
+        if (!is_found) this.show_json(true);
+        if (!by_id("json").hidden) this.pane.select(pointer);
     }
 }

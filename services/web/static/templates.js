@@ -1,10 +1,9 @@
 // A new scene from one of the service's templates.
 import * as api from "./api.js";
 import { by_id, element } from "./dom.js";
-import { print } from "./json_text.js";
 import { default_of } from "./schema.js";
 
-const entry_of = ({ type, unit, default: usual, minimum, maximum, help, rule }) => ({ type, unit, default: usual, minimum, maximum, description: rule ? `${help} (default: ${rule})` : help });
+const entry_of = ({ topic, type, unit, default: usual, minimum, maximum, help, rule }) => ({ topic, type, unit, default: usual, minimum, maximum, description: rule ? `${help} (default: ${rule})` : help });
 
 /// Defaults that are a share of another option.
 function follow(options, values, control_of) {
@@ -36,8 +35,18 @@ export class Templates {
             title: `${template.title}.`,
             properties: { name: named, ...Object.fromEntries(template.options.map((each) => [each.name, entry_of(each)])) },
             follow: (values, control_of) => follow(template.options, values, control_of),
-            make: async (values, signal) => ({ text: print((await api.make_from_template(name, values, signal)).study) }),
+            make: async (values, signal) => ({ study: (await api.make_from_template(name, values, signal)).study }),
         });
         by_id("template-choice").value = name;
+    }
+
+    /// Of the template whose options are shown: shaken by an earthquake or not; null: it has none, or no template is shown.
+    is_shaken() {
+        const { source, options } = this.panel;
+        return source?.properties.with_fem ? options.values.with_fem ?? false : null;
+    }
+    make(is_shaken) {
+        if (this.is_shaken() !== null) this.panel.options.set(["with_fem"], is_shaken);
+        else if (this.panel.source) this.panel.make();
     }
 }

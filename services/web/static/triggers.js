@@ -2,6 +2,7 @@
 // the plateau that they found. Pure, but for the table at the end.
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { number, show_state } from "./format.js";
+import { term } from "./glossary.js";
 
 const value = "([+-]?(?:\\d+\\.?\\d*|\\.\\d+)(?:e[+-]?\\d+)?)";
 const field = "([a-z_]\\w*)";
@@ -86,7 +87,7 @@ export function draw_triggers(triggers) {
            (row, trigger) => {
                const [name, kind, state, condition, what] = row.children;
                set_text(name, trigger.name || trigger.kind);
-               set_text(kind, trigger.kind);
+               if (kind.textContent !== trigger.kind) kind.replaceChildren(trigger.kind === "window" ? term("window", "window") : trigger.kind);
                show_state(state.firstElementChild, trigger.state);
                set_text(condition.firstElementChild, condition_text(trigger));
                set_text(what, outcome(trigger));

@@ -248,7 +248,7 @@ export class Uncertainty {
             { name: "value", csv: this.quantity + (quantity?.unit ? ` [${quantity.unit}]` : ""), title: quantity?.name ?? this.quantity, unit: quantity?.unit, number: true, cell: value },
             ...parameters.map(({ name, kind }) => ({ name: `values ${name}`, title: name, number: kind !== "choice",
                                               cell: kind === "choice" ? null : (record) => number(record[`values ${name}`]) })),
-            { name: "trace", title: "", cell: trace },
+            { name: "trace", title: "origin", cell: trace },
         ], rows.map((row) => ({ sample: row.sample, task: row.task, state: row.state, value: row.results?.[this.quantity] ?? null, look: this.look_of_quantity(row), has_result: has_result(row),
                                 ...Object.fromEntries(Object.entries(row.values).map(([name, each]) => [`values ${name}`, each])) })), false);
     }
