@@ -493,7 +493,7 @@ double outside(const SandPoint& point) {
 double outside(const NorSandPoint&) { return 0.0; }  // it is refused
 
 /// Tests that begin outside the surface.
-std::vector<fault::Flag> doubts_of_starts(const Bench& bench) {
+std::vector<fault::Flag> warnings_of_starts(const Bench& bench) {
     std::string names;
     double largest = 0.0;
     for (const TestPlan& plan : bench.tests) {
@@ -519,9 +519,9 @@ std::vector<fault::Flag> doubts_of_starts(const Bench& bench) {
 
 }  // namespace
 
-std::vector<fault::Flag> doubts_of(const Bench& bench) {
+std::vector<fault::Flag> warnings_of(const Bench& bench) {
     const auto* law = std::get_if<NorSandLaw>(&bench.law);
-    if (!law) return doubts_of_starts(bench);
+    if (!law) return warnings_of_starts(bench);
     std::vector<fault::Flag> flags;
     std::string drained, held, clipped;
     for (const TestPlan& plan : bench.tests) {

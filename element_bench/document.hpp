@@ -86,6 +86,6 @@ Bench bench_of(const scene::Scene& scene);
 Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, double sigma_v);
 
 /// What is possible and doubtful in the tests: flags of the result.
-std::vector<fault::Flag> doubts_of(const Bench& bench);
+std::vector<fault::Flag> warnings_of(const Bench& bench);
 
 }  // namespace breach::element_bench

@@ -115,7 +115,7 @@ class Calibrator {
 
     OfEach<Estimate> estimates(const Readings& of_law) const;
     void add_hardening_errors(const std::vector<Values>& errors, OfEach<Estimate>& out) const;
-    void doubt(NorSandFit& fit, bool settled) const;
+    void warn(NorSandFit& fit, bool settled) const;
 
     const NorSandProblem& problem_;
     std::vector<std::optional<std::size_t>> peak_rows_;
@@ -567,7 +567,7 @@ std::string names_of(const std::vector<TriaxialTest>& tests, const Indices& whic
 }
 
 /// What the tests do not hold.
-void Calibrator::doubt(NorSandFit& fit, bool settled) const {
+void Calibrator::warn(NorSandFit& fit, bool settled) const {
     const std::string pointer = "/norsand_calibration/tests";
     const auto flag = [&](const char* code, Severity severity, const std::string& message) {
         fit.flags.push_back({code, severity, message, pointer});
@@ -667,7 +667,7 @@ NorSandFit Calibrator::run(const std::function<void(int, double)>& seen) {
         }
         fit.tests.push_back(std::move(each));
     }
-    doubt(fit, settled);
+    warn(fit, settled);
     return fit;
 }
 

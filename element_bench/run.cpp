@@ -219,7 +219,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
 
 Outcome run_tests(Session& session) {
     const Bench bench = bench_of(session.scene());
-    for (fault::Flag& each : doubts_of(bench)) session.flag(std::move(each));
+    for (fault::Flag& each : warnings_of(bench)) session.flag(std::move(each));
     Results results;
     double done = 0.0;
     for (const TestPlan& plan : bench.tests) {

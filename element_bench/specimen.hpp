@@ -1,4 +1,4 @@
-// One material point in the laboratory: any law behind one pure door, and the few kinds of boundary
+// One material point in the laboratory: any law behind one pure interface, and the few kinds of boundary
 // that element tests have. No test programme in here.
 #pragma once
 

@@ -100,7 +100,7 @@ void Reader::read_row(const std::string& text, std::size_t line) {
         const double value = number_from(cells[i]);
         if (!std::isfinite(value)) {
             return fault(line, names_[i] + " is '" + cells[i] + "', not a finite number",
-                         "mend or remove this line");
+                         "correct or remove this line");
         }
         column->second.push_back(value);
     }

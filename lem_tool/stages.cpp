@@ -101,7 +101,8 @@ std::vector<fault::Flag> flags_of_stages(const json& stages) {
     words.precision(3);
     if (dry < 1.0) {
         words << "the factor of safety is " << dry
-              << " before any layer has liquefied: the slope fails as it stands, critical_depth is "
+              << " before any layer has liquefied: the slope fails without liquefaction, "
+                 "critical_depth is "
                  "0 and every trigger on it fires at once; check strength and water";
         return {{"fails_unliquefied", fault::Severity::warning, words.str(), "/lem"}};
     }

@@ -31,7 +31,7 @@ void plan_softening(const scene::Scene& scene, const scene::Material& material, 
     const bool nonlocal = scene::nonlocal_length_in_runout(material, *scene.mpm).has_value();
     plan.push_back({"softening of " + name, Use::on, "strength falls with epsilon_q", pointer});
     plan.push_back({"nonlocal softening of " + name, nonlocal ? Use::on : Use::left_out,
-                    nonlocal ? "bands " + text_of(band) + " m wide whatever the cells"
+                    nonlocal ? "bands " + text_of(band) + " m wide, independent of the cell size"
                              : "every point softens by its own strain: bands are a cell wide",
                     "/materials/" + name + "/nonlocal_length"});
     plan.push_back({"softening strains of " + name + " scaled to the band",

@@ -10,7 +10,7 @@
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
-#include "mpm_solver/measure/doubts.hpp"
+#include "mpm_solver/measure/ending_flags.hpp"
 #include "mpm_solver/measure/ends.hpp"
 
 namespace breach::mpm {
@@ -332,9 +332,9 @@ void write_results(Session& session, const Simulation& simulation, double speed)
     write_envelope(session, simulation);
     const Ending ending = ending_of(*session.scene().mpm, simulation);
     conclude(session, simulation, ending, speed);
-    for (fault::Flag& each : doubts_of(ending)) session.flag(std::move(each));
+    for (fault::Flag& each : flags_of_ending(ending)) session.flag(std::move(each));
     for (fault::Flag& each :
-         doubts_of_ends(session.scene(), simulation.view(), depths_of(simulation)))
+         flags_of_ends(session.scene(), simulation.view(), depths_of(simulation)))
         session.flag(std::move(each));
     say(session, ending, simulation.last_row());
 }

@@ -132,7 +132,7 @@ bool LiquefiedZone::holds(const Vec2& place) const {
     return after != level_from_.begin() && place.y() >= std::prev(after)->second;
 }
 
-std::optional<fault::Flag> doubt_of(const std::vector<LiquefiedGap>& gaps, double cell_size) {
+std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double cell_size) {
     if (gaps.empty()) return std::nullopt;
     const auto width = [](const LiquefiedGap& each) { return each.to - each.from; };
     const auto [narrowest, widest] = std::ranges::minmax_element(gaps, {}, width);

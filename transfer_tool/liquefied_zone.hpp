@@ -26,7 +26,7 @@ constexpr double cells_of_a_wall = 2.0;
 
 /// What gaps say against a runout on cells of this size [m]; 0: on none that are known. Of several the narrowest
 /// where it is narrower than a wall can be, else the widest.
-std::optional<fault::Flag> doubt_of(const std::vector<LiquefiedGap>& gaps, double cell_size);
+std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double cell_size);
 
 /// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold, or was once. It stands for the
 /// column between the middles of its elements to the left and to the right; everything above the

@@ -176,8 +176,8 @@ void report(process::Session& session, const Transferred& t) {
     report_options(t, result);
     if (t.liquefaction) {
         const auto& mpm = session.scene().mpm;
-        if (auto doubt = doubt_of(t.liquefaction->gaps, mpm ? mpm->cell_size : 0.0))
-            session.flag(std::move(*doubt));
+        if (auto flag = flag_of(t.liquefaction->gaps, mpm ? mpm->cell_size : 0.0))
+            session.flag(std::move(*flag));
     }
 }
 

@@ -32,8 +32,8 @@ void check_supports(const scene::Scene& scene, Findings& findings);
 bool check_table(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
                  const std::string& pointer, Findings& findings);
 /// Beyond its ends a line goes on level, and stands above ground there: water that nobody drew.
-void doubt_ends(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
-                const std::string& pointer, Findings& findings);
+void warn_about_ends(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
+                     const std::string& pointer, Findings& findings);
 /// /fem/water: what is wet, what wet soil needs, boundaries of pressure, the liquefaction watch.
 void check_water(const scene::Scene& scene, Findings& findings);
 /// /fem/motion: the file and what is in it.

@@ -56,7 +56,7 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& fi
                "give the acceleration, or take it as recorded");
 }
 
-/// One value throughout is no record, whatever its unit. Zeros are a motion: core/motion doubts it.
+/// One value throughout is no record, whatever its unit. Zeros are a motion: core/motion remarks it.
 bool moves(const motion::Series& series, Findings& findings) {
     const auto [low, high] = std::ranges::minmax(series.values);
     if (low != high || low == 0.0) return true;
@@ -77,9 +77,9 @@ double dynamic_duration(const scene::Fem& fem) {
 void check_steps(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         if (fem.stages[i].kind != scene::StageKind::dynamic) continue;
-        auto doubt = motion::doubt_about_step(series, fem.stages[i].time_step,
-                                              "/fem/stages/" + std::to_string(i) + "/time_step");
-        if (doubt) findings.warnings.push_back(std::move(*doubt));
+        auto warning = motion::warning_about_step(
+            series, fem.stages[i].time_step, "/fem/stages/" + std::to_string(i) + "/time_step");
+        if (warning) findings.warnings.push_back(std::move(*warning));
     }
 }
 
@@ -103,7 +103,7 @@ void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Fi
     if (!fem.damping_frequency) return;
     const motion::Band band = motion::band(acceleration);
     const double low = 0.5 * band.low, high = 2.0 * band.high;
-    if (!(high > 0.0)) return;  // no motion at all: core/motion doubts it
+    if (!(high > 0.0)) return;  // no motion at all: core/motion remarks it
     if (*fem.damping_frequency >= low && *fem.damping_frequency <= high) return;
     refuse(findings, "/fem/damping/frequency_Hz",
            "is " + text(*fem.damping_frequency) + " Hz, and the motion has its power from " +
@@ -134,10 +134,10 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
     if (recording->quantity == Quantity::displacement || !moves(recording->series, findings))
         return;
     const Recording shaking = applied(*fem.motion, *recording);
-    motion::Doubts doubts = motion::doubts_about(shaking, file_pointer);
-    for (fault::Fault& each : doubts.faults) findings.faults.push_back(std::move(each));
-    for (fault::Flag& each : doubts.flags) findings.warnings.push_back(std::move(each));
-    if (!doubts.faults.empty()) return;
+    motion::Remarks remarks = motion::remarks_about(shaking, file_pointer);
+    for (fault::Fault& each : remarks.faults) findings.faults.push_back(std::move(each));
+    for (fault::Flag& each : remarks.flags) findings.warnings.push_back(std::move(each));
+    if (!remarks.faults.empty()) return;
     check_steps(fem, shaking.series, findings);
     const motion::Series acceleration = acceleration_of(shaking);
     check_length(fem, acceleration, findings);

@@ -72,7 +72,7 @@ std::string how_it_misses(const scene::Scene& scene, const Side& segment) {
     for (const scene::Region& region : scene.section.regions)
         if (!region.polygon.empty()) least = std::min(least, distance_to_border(region, segment));
     if (in_soil(scene.section, segment.a) || least == 0.0)
-        return "crosses the soil, where no node can be told to lie on it";
+        return "crosses the soil, where it cannot be matched to nodes";
     return "touches no node: it runs " + metres(least) + " away from the section";
 }
 

@@ -304,7 +304,7 @@ void check_tables(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     if (lem.water && !lem.water->line.empty() &&
         check_table(scene, lem.water->line, "/lem/water/line", findings))
-        doubt_ends(scene, lem.water->line, "/lem/water/line", findings);
+        warn_about_ends(scene, lem.water->line, "/lem/water/line", findings);
     for (std::size_t i = 0; i < lem.piezometric_lines.size(); ++i)
         if (!lem.piezometric_lines[i].line.empty())
             check_table(scene, lem.piezometric_lines[i].line,
@@ -312,7 +312,7 @@ void check_tables(const scene::Scene& scene, Findings& findings) {
 }
 
 /// The other phases know nothing of weight that has not consolidated the soil below.
-void doubt_unconsolidated(const scene::Scene& scene, Findings& findings) {
+void warn_about_unconsolidated(const scene::Scene& scene, Findings& findings) {
     if (scene.lem->unconsolidated.empty() || !(scene.mpm || scene.fem)) return;
     for (const scene::Material& each : scene.materials) {
         if (!each.strength) continue;
@@ -351,7 +351,7 @@ void check_stability(const scene::Scene& scene, Findings& findings) {
     check_layers(scene, findings);
     check_order(scene, findings);
     check_tables(scene, findings);
-    doubt_unconsolidated(scene, findings);
+    warn_about_unconsolidated(scene, findings);
     check_loads(scene, findings);
     if (!check_slices(scene, findings)) return;  // no ground to ask for
     if (lem.search) check_search(scene, *lem.search, findings);

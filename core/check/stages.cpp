@@ -33,7 +33,7 @@ void check_memory(const scene::Scene& scene, const std::string& law, Findings& f
 }
 
 /// What changes the body in a dynamic stage comes as a blow unless it is given time.
-void doubt_blows(const scene::Fem& fem, Findings& findings) {
+void warn_about_blows(const scene::Fem& fem, Findings& findings) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const scene::Stage& stage = fem.stages[i];
         const bool changes =
@@ -41,7 +41,7 @@ void doubt_blows(const scene::Fem& fem, Findings& findings) {
         if (stage.kind != scene::StageKind::dynamic || !changes || stage.ramp > 0.0) continue;
         warn(findings, "sudden_change", "/fem/stages/" + std::to_string(i),
              "places or takes away soil or supports at once, which shakes the body as a blow does; "
-             "give the stage a ramp in which it comes to bear");
+             "give the stage a ramp");
     }
 }
 
@@ -210,7 +210,7 @@ void check_stages(const scene::Scene& scene, Findings& findings) {
         check_drained_softening(scene, scene.fem->stages[i], pointer, findings);
     }
     check_changes(scene, findings);
-    doubt_blows(*scene.fem, findings);
+    warn_about_blows(*scene.fem, findings);
     if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
 }
 

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
 #include "core/mechanics/atmosphere.hpp"
 #include "core/scene/ground.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::check {
 
@@ -298,8 +300,8 @@ std::optional<double> mean_of(const View& view, const std::vector<Place>& places
 }
 
 /// Residual strengths that entries of the phases give, against the peak that the region has before.
-void doubt_residuals(const Region& region, const std::string& name,
-                     const std::vector<Place>& places, Findings& findings) {
+void warn_about_residuals(const Region& region, const std::string& name,
+                          const std::vector<Place>& places, Findings& findings) {
     const std::vector<View> peaks = region.peaks();
     if (peaks.empty()) return;
     const auto peak = mean_of(peaks.front(), places);
@@ -314,6 +316,21 @@ void doubt_residuals(const Region& region, const std::string& name,
                  ", averaged over it. Soil that has failed is no stronger than before: lower the "
                  "residual strength, or raise the peak");
     }
+}
+
+/// A cohesion that would be a friction angle, and the other way round.
+void doubt_swapped(const scene::Material& soil, Findings& findings) {
+    const auto doubt = [&](double c_Pa, double phi_rad, const char* entry) {
+        const double c = c_Pa / 1e3, phi = phi_rad * 180.0 / std::numbers::pi;
+        if (c < 20.0 || c > 45.0 || phi < 1.0 || phi > 12.0) return;
+        const std::string angle = words::text_of(phi, 3), cohesion = words::text_of(c, 3);
+        warn(findings, "implausible", at_material(soil, entry),
+             "c_kPa " + cohesion + " and phi_deg " + angle +
+                 " look swapped: write \"c_kPa\": " + angle + ", \"phi_deg\": " + cohesion);
+    };
+    if (const auto own = materials::limit_strength(soil.law))
+        doubt(own->c, std::atan(own->tan_phi), "/law/phi_deg");
+    if (const auto& own = soil.limit_strength) doubt(own->c, own->phi, "/limit_strength/phi_deg");
 }
 
 bool is_whole(const scene::Scene& scene) {
@@ -359,7 +376,7 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
         const std::string& name = scene.section.regions[r].name;
         compare(region.peaks(), name, "peak", places, findings);
         compare(region.residuals(), name, "residual", places, findings);
-        doubt_residuals(region, name, places, findings);
+        warn_about_residuals(region, name, places, findings);
         for (const scene::Soil& soil : scene::soils_of(scene))
             if (soil.region == r && soil.material < scene.materials.size()) {
                 auto& all = places_of[soil.material];
@@ -370,6 +387,7 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
     }
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         const scene::Material& soil = scene.materials[m];
+        if (!places_of[m].empty()) doubt_swapped(soil, findings);
         if (!soil.strength || !soil.strength->residual || places_of[m].empty()) continue;
         const double largest =
             std::ranges::max_element(places_of[m], {}, &Place::sigma_v0)->sigma_v0;

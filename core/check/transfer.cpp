@@ -58,7 +58,7 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
 
 /// Points that fill the section are of one material in each region; what a transfer would decide stays
 /// undecided.
-void doubt_what_a_transfer_decides(const scene::Scene& scene, Findings& findings) {
+void warn_about_what_a_transfer_decides(const scene::Scene& scene, Findings& findings) {
     if (scene.fem || !scene.mpm) return;
     const scene::Transfer& transfer = *scene.transfer;
     if (transfer.liquefied)
@@ -91,8 +91,8 @@ const std::vector<Vec2>* water_table_of(const scene::Scene& scene) {
 
 /// Points carry total stress: friction below the water table acts on the water's pressure, too, and a
 /// slope stands that the stability analysis calls failed. After an FEM what has liquefied is told.
-void doubt_friction_under_water(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
-                                Findings& findings) {
+void warn_about_friction_under_water(const scene::Scene& scene,
+                                     const std::vector<scene::Soil>& soils, Findings& findings) {
     if (scene.fem) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
@@ -131,7 +131,7 @@ double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
 }
 
 /// What lies on the ground in the FEM lies on it no longer in the runout.
-void doubt_loads_that_end(const scene::Scene& scene, Findings& findings) {
+void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem || !scene.mpm) return;
     const scene::Fem& fem = *scene.fem;
     const auto tell = [&](const std::string& pointer, const std::string& what) {
@@ -164,8 +164,8 @@ void doubt_loads_that_end(const scene::Scene& scene, Findings& findings) {
 }
 
 /// Points keep the mass of the soil that they were.
-void doubt_densities(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
-                     Findings& findings) {
+void warn_about_densities(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
+                          Findings& findings) {
     std::vector<std::size_t> told;
     for (const scene::Soil& soil : soils) {
         const scene::Material* own = material_of(scene, scene.section.regions[soil.region]);
@@ -187,9 +187,9 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
     // Every scene has a /transfer by default; whether points are meant, the MPM or a mapping says.
     if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
-    doubt_friction_under_water(scene, soils, findings);
-    doubt_loads_that_end(scene, findings);
-    doubt_densities(scene, soils, findings);
+    warn_about_friction_under_water(scene, soils, findings);
+    warn_about_loads_that_end(scene, findings);
+    warn_about_densities(scene, soils, findings);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soils[r].material];
@@ -207,7 +207,7 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
 void check_transfer(const scene::Scene& scene, Findings& findings) {
     const scene::Transfer& transfer = *scene.transfer;
     check_stress(scene, findings);
-    doubt_what_a_transfer_decides(scene, findings);
+    warn_about_what_a_transfer_decides(scene, findings);
     if (transfer.liquefied && scene.fem && !scene.fem->water)
         refuse(findings, "/transfer/liquefied",
                "asks what has liquefied, and the FEM has no pore water",

@@ -132,8 +132,8 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
     return false;
 }
 
-void doubt_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
-                const std::string& pointer, Findings& findings) {
+void warn_about_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
+                     const std::string& pointer, Findings& findings) {
     if (line.empty()) return;
     const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
@@ -167,7 +167,7 @@ void check_water(const scene::Scene& scene, Findings& findings) {
     }
     std::vector<std::size_t> told;
     check_wet_soil(scene, water, told, findings);
-    doubt_ends(scene, water.line, "/fem/water/line", findings);
+    warn_about_ends(scene, water.line, "/fem/water/line", findings);
     check_lines(scene, told, findings);
     if (scene.fem->liquefaction) check_watch(scene, findings);
 }

@@ -1,4 +1,4 @@
-// What can go wrong at the door, and the exit code that says so. Expected outcomes of the physics
+// Faults of input and files, and their exit codes. Expected outcomes of the physics
 // (not converged, mesh entangled) are return values of the phases, not exceptions.
 #pragma once
 

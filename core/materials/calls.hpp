@@ -1,8 +1,8 @@
 // A call of a law that walks through sub-steps with error control: opened (reversal, elastic part),
 // walked, closed. How is the law's own affair, in its own namespace:
-//     open_call(law, old, d, errand), load(errand, lane, walk), after_unloading(law, lane, walk,
-//     errand), ends(lane, walk, lost, options, errand), store(law, lane, walk, errand),
-//     finish_call(law, old, d, errand), may_be_tried(d, options)
+//     open_call(law, old, d, task), load(task, lane, walk), after_unloading(law, lane, walk,
+//     task), ends(lane, walk, lost, options, task), store(law, lane, walk, task),
+//     finish_call(law, old, d, task), may_be_tried(d, options)
 // and its `Calls` names the types. Here is one point; side_by_side.hpp has several.
 #pragma once
 
@@ -17,26 +17,26 @@ typename Calls::Update call_alone(const typename Calls::Ready& law,
                                   const typename Calls::State& old, const typename Calls::Strain& d,
                                   const typename Calls::Options& options) {
     typename Calls::Update update;
-    typename Calls::Errand errand{};
-    errand.update = &update;
+    typename Calls::Task task{};
+    task.update = &update;
     const auto walk_through = [&] {
         typename Calls::template Walk<double> walk(law, options);
-        load(errand, 0, walk);
+        load(task, 0, walk);
         for (;;) {
             if (walk.begin(true)) {
-                const Next next = after_unloading(law, 0, walk, errand);
+                const Next next = after_unloading(law, 0, walk, task);
                 if (next == Next::leave) return;
                 if (next == Next::again) {
-                    if (ends(0, walk, false, options, errand)) return store(law, 0, walk, errand);
+                    if (ends(0, walk, false, options, task)) return store(law, 0, walk, task);
                     continue;
                 }
             }
             const bool lost = walk.advance(true);
-            if (ends(0, walk, lost, options, errand)) return store(law, 0, walk, errand);
+            if (ends(0, walk, lost, options, task)) return store(law, 0, walk, task);
         }
     };
-    if (open_call(law, old, d, errand)) walk_through();
-    finish_call(law, old, d, errand);
+    if (open_call(law, old, d, task)) walk_through();
+    finish_call(law, old, d, task);
     return update;
 }
 

@@ -29,7 +29,7 @@ struct Job {
 /// One lane's point.
 template <class Calls>
 struct Seat {
-    typename Calls::Errand errand{};
+    typename Calls::Task task{};
     std::size_t point = 0;
     bool busy = false;
 };
@@ -37,8 +37,7 @@ struct Seat {
 /// Closes the point of a seat.
 template <class Calls>
 void leave(const Job<Calls>& job, Seat<Calls>& seat) {
-    finish_call(job.law, job.old[seat.point], Calls::strain(job.d_epsilon[seat.point]),
-                seat.errand);
+    finish_call(job.law, job.old[seat.point], Calls::strain(job.d_epsilon[seat.point]), seat.task);
     seat.busy = false;
 }
 
@@ -50,13 +49,13 @@ void take_next(Job<Calls>& job, Seat<Calls>& seat) {
         seat.point = job.next++;
         const typename Calls::Strain d = Calls::strain(job.d_epsilon[seat.point]);
         const typename Calls::State& old = job.old[seat.point];
-        seat.errand.update = &job.updates[seat.point];
+        seat.task.update = &job.updates[seat.point];
         if (!may_be_tried(d, job.options)) {
             job.updates[seat.point] = {old, decltype(Calls::Update::outcome)::refused, {}};
             continue;
         }
-        seat.busy = open_call(job.law, old, d, seat.errand);
-        if (!seat.busy) finish_call(job.law, old, d, seat.errand);
+        seat.busy = open_call(job.law, old, d, seat.task);
+        if (!seat.busy) finish_call(job.law, old, d, seat.task);
     }
 }
 
@@ -75,12 +74,12 @@ template <int N, class Calls>
     for (Seat<Calls>& seat : seats) take_next(job, seat);
     if (!seats[0].busy) return;
     // Empty seats repeat the first point: their numbers are harmless and never read.
-    for (int i = 0; i < N; ++i) load(seats[seats[i].busy ? i : 0].errand, i, walk);
+    for (int i = 0; i < N; ++i) load(seats[seats[i].busy ? i : 0].task, i, walk);
 
     const auto refill = [&](int i) {
         leave(job, seats[i]);
         take_next(job, seats[i]);
-        if (seats[i].busy) load(seats[i].errand, i, walk);
+        if (seats[i].busy) load(seats[i].task, i, walk);
     };
     for (;;) {
         bool anyone = false;
@@ -90,20 +89,20 @@ template <int N, class Calls>
         if (lanes::any(unloads)) {
             for (int i = 0; i < N; ++i) {
                 if (!lanes::lane(unloads, i)) continue;
-                const Next next = after_unloading(job.law, i, walk, seats[i].errand);
+                const Next next = after_unloading(job.law, i, walk, seats[i].task);
                 moving[i] = next == Next::walk;
                 // One that turns again and again without a way forward ends by its evaluations.
                 const bool spent =
-                    next == Next::again && ends(i, walk, false, job.options, seats[i].errand);
-                if (spent) store(job.law, i, walk, seats[i].errand);
+                    next == Next::again && ends(i, walk, false, job.options, seats[i].task);
+                if (spent) store(job.law, i, walk, seats[i].task);
                 if (spent || next == Next::leave) refill(i);
             }
         }
         const auto lost = walk.advance(mask_of<N>(moving));
         for (int i = 0; i < N; ++i) {
             if (!moving[i]) continue;
-            if (!ends(i, walk, lanes::lane(lost, i), job.options, seats[i].errand)) continue;
-            store(job.law, i, walk, seats[i].errand);
+            if (!ends(i, walk, lanes::lane(lost, i), job.options, seats[i].task)) continue;
+            store(job.law, i, walk, seats[i].task);
             refill(i);
         }
     }

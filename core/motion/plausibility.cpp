@@ -47,8 +47,9 @@ class Finder {
         if (plausible) return;
         const std::string meant = slip(value);
         if (!possible) {
-            doubts.faults.push_back({pointer_, "has " + what + ", which no earthquake has",
-                                     meant.empty() ? "check the file's units and columns" : meant});
+            remarks.faults.push_back(
+                {pointer_, "has " + what + ", which no earthquake has",
+                 meant.empty() ? "check the file's units and columns" : meant});
             return;
         }
         flag("implausible", "the motion has " + what + ", hardly plausible: " +
@@ -57,15 +58,15 @@ class Finder {
 
     /// One flag per code: a second finding becomes its second sentence.
     void flag(const char* code, const std::string& message) {
-        const auto said = std::ranges::find(doubts.flags, code, &fault::Flag::code);
-        if (said != doubts.flags.end()) {
+        const auto said = std::ranges::find(remarks.flags, code, &fault::Flag::code);
+        if (said != remarks.flags.end()) {
             said->message += "; " + message;
         } else {
-            doubts.flags.push_back({code, fault::Severity::warning, message, pointer_});
+            remarks.flags.push_back({code, fault::Severity::warning, message, pointer_});
         }
     }
 
-    Doubts doubts;
+    Remarks remarks;
 
   private:
     std::string pointer_;
@@ -121,7 +122,7 @@ std::string summary_of(const Recording& motion) {
            " in steps of " + text(motion.series.dt, " s");
 }
 
-Doubts doubts_about(const Recording& motion, const std::string& pointer) {
+Remarks remarks_about(const Recording& motion, const std::string& pointer) {
     Finder find(pointer);
     const Series& series = motion.series;
     const Peaks peaks = peaks_of(motion);
@@ -131,7 +132,7 @@ Doubts doubts_about(const Recording& motion, const std::string& pointer) {
                [](double all) { return slip_of_time(all, length); });
     if (peak(series) == 0.0) {
         find.flag("implausible", "the motion is zero throughout: nothing is shaken");
-        return std::move(find.doubts);
+        return std::move(find.remarks);
     }
     if (motion.quantity == Quantity::velocity) {
         find.judge(peaks.velocity, velocity, "a peak velocity of " + text(peaks.velocity, " m/s"),
@@ -145,7 +146,7 @@ Doubts doubts_about(const Recording& motion, const std::string& pointer) {
                                              " of its peak, and 0 beyond: a jolt that nobody "
                                              "recorded; let it begin and end at rest");
         }
-        return std::move(find.doubts);
+        return std::move(find.remarks);
     }
     const double g = peaks.acceleration / standard_gravity;
     find.judge(g, acceleration, "a PGA of " + text(g, " g"), slip_of_acceleration);
@@ -157,11 +158,11 @@ Doubts doubts_about(const Recording& motion, const std::string& pointer) {
                                          text(left.last_displacement, " m") +
                                          ": \"baseline\": \"corrected\" takes both off");
     }
-    return std::move(find.doubts);
+    return std::move(find.remarks);
 }
 
-std::optional<fault::Flag> doubt_about_step(const Series& motion, double time_step,
-                                            const std::string& pointer) {
+std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
+                                              const std::string& pointer) {
     constexpr double fine = 0.01;  // [s] resolves 10 Hz, all that moves a dam
     const double samples = time_step / motion.dt;
     if (time_step <= fine || samples <= 2.0) return std::nullopt;

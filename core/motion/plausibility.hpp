@@ -22,17 +22,17 @@ Peaks peaks_of(const Recording& motion);
 /// "PGA 0.3 g, PGV 0.25 m/s, 28.03 s in steps of 0.01 s".
 std::string summary_of(const Recording& motion);
 
-struct Doubts {
+struct Remarks {
     std::vector<fault::Fault> faults;  ///< no ground has moved so
     std::vector<fault::Flag> flags;    ///< "implausible", "drifting_motion"
 };
 
 /// Of an acceleration or a velocity as it is applied: scaled, its baseline corrected. All findings
 /// point at `pointer`; what is refused is not flagged as well.
-Doubts doubts_about(const Recording& motion, const std::string& pointer);
+Remarks remarks_about(const Recording& motion, const std::string& pointer);
 
 /// "coarse_step": steps of an analysis that pass over samples of the motion.
-std::optional<fault::Flag> doubt_about_step(const Series& motion, double time_step,
-                                            const std::string& pointer);
+std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
+                                              const std::string& pointer);
 
 }  // namespace breach::motion

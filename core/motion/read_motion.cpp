@@ -94,7 +94,7 @@ std::string number_text(double value) {
 
 double needed_number(const std::string& word, const std::string& name, std::size_t line) {
     const auto value = number_from(word);
-    if (!value) reject(name, line, "'" + word + "' is not a finite number", "mend this line");
+    if (!value) reject(name, line, "'" + word + "' is not a finite number", "correct this line");
     return *value;
 }
 
@@ -161,7 +161,7 @@ PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t li
     const double dt = labels[0] == "NPTS" ? numbers[1] : numbers[0];
     if (!(dt > 0.0) || count < 2.0 || count > 1e8 || count != std::floor(count))
         reject(name, line, "NPTS must be a whole number above 1 and DT positive",
-               "mend the header");
+               "correct the header");
     if (!unit.empty())
         reject(name, line, "gives DT in " + unit, "write it in seconds: DT= .0100 SEC");
     return {static_cast<std::size_t>(count), dt};

@@ -1,4 +1,4 @@
-// What being a phase means: one door for all executables. Owns arguments, log, progress, signals
+// What being a phase means: one main function for all executables. Owns arguments, log, progress, signals
 // and exit codes.
 #pragma once
 
@@ -54,7 +54,7 @@ struct Phase {
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes
-/// (docs/design/architecture.md, "What a phase promises"). Returns the exit code. Never throws.
+/// (docs/reference/architecture.md, "What a phase promises"). Returns the exit code. Never throws.
 int run_phase(int argc, char** argv, const Phase& phase);
 
 }  // namespace breach::process

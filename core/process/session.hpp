@@ -77,7 +77,7 @@ class Session {
     /// True after SIGINT or SIGTERM: save a checkpoint and return Outcome::stopped.
     bool stop_requested() const;
 
-    /// The facts of result.json; published by the door when the phase ends well.
+    /// The facts of result.json; written by run_phase when the phase ends well.
     nlohmann::json& result() { return result_; }
 
     /// What goes with the result: in result.json, in the log and wherever the result is shown. The scene's warnings are in from

@@ -1,6 +1,6 @@
 // Firm soil that weaker soil lies on, and where its top lies in the MPM's grid. A cell has one
 // velocity gradient for all that is in it: firm soil does not yield, and holds what slides on it as
-// far as it reaches into the same cells (docs/mpm_convergence.md, "Firm soil beside soil that
+// far as it reaches into the same cells (docs/verification/mpm_convergence.md, "Firm soil beside soil that
 // slides").
 #pragma once
 

@@ -19,7 +19,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::string metres(double value) { return plain_number(value) + " m"; }
 std::string seconds(double value) { return plain_number(value) + " s"; }
 
-struct Doubter {
+struct Warner {
     Reader& reader;
     Scene& scene;
     Box extent;  ///< of all regions
@@ -27,7 +27,7 @@ struct Doubter {
     double height() const { return extent.high.y() - extent.low.y(); }
     double width() const { return extent.high.x() - extent.low.x(); }
     /// One flag per entry: what is said of it already gets a second sentence.
-    void doubt(const std::string& pointer, const std::string& message) {
+    void warn(const std::string& pointer, const std::string& message) {
         const auto said = std::ranges::find(scene.warnings, pointer, &fault::Flag::pointer);
         if (said != scene.warnings.end() && said->code == code) {
             said->message += "; " + message;
@@ -38,7 +38,7 @@ struct Doubter {
 };
 
 /// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long.
-void doubt_section(Doubter& d) {
+void warn_about_section(Warner& d) {
     constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
     const char* pointer = "/section/regions";
     const std::string size = metres(d.height()) + " high and " + metres(d.width()) + " long";
@@ -47,17 +47,17 @@ void doubt_section(Doubter& d) {
         d.reader.add(pointer, "make a section " + size,
                      "give vertices in m; these look like mm: divide by 1000");
     } else if (d.height() > high || d.width() > longest) {
-        d.doubt(pointer,
-                "the section is " + size + ": vertices are in m, these look like cm, mm or feet");
+        d.warn(pointer,
+               "the section is " + size + ": vertices are in m, these look like cm, mm or feet");
     } else if (d.height() < least) {
-        d.doubt(pointer, "the section is " + size + ": vertices are in m, these look like km");
+        d.warn(pointer, "the section is " + size + ": vertices are in m, these look like km");
     }
 }
 
 /// Free water lies level: a line that slopes above the ground loads the face with water that is not
 /// there, which hides what it lifts inside.
-void doubt_slope_of_free_water(Doubter& d, const std::vector<Vec2>& line,
-                               const std::string& pointer) {
+void warn_about_slope_of_free_water(Warner& d, const std::vector<Vec2>& line,
+                                    const std::string& pointer) {
     std::vector<double> places;
     for (const Vec2& point : line) places.push_back(point.x());
     for (const Region& region : d.scene.section.regions)
@@ -74,15 +74,15 @@ void doubt_slope_of_free_water(Doubter& d, const std::vector<Vec2>& line,
         if (above > most && std::isfinite(above)) most = above, where = x;
     }
     if (where == -infinity) return;
-    d.doubt(pointer, "the water stands " + metres(most) +
-                         " above the ground at x = " + metres(where) +
-                         " and slopes there, as no free water does: it presses on the ground "
-                         "there; let the line end on the ground, or run along it");
+    d.warn(pointer, "the water stands " + metres(most) +
+                        " above the ground at x = " + metres(where) +
+                        " and slopes there, as no free water does: it presses on the ground "
+                        "there; let the line end on the ground, or run along it");
 }
 
 /// Water above the highest ground drowns the whole section: a lake's floor may lie so, but free
 /// water lies level.
-void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& pointer) {
+void warn_about_water(Warner& d, const std::vector<Vec2>& line, const std::string& pointer) {
     if (line.empty() || !d.reader.sound(pointer)) return;
     const double left = d.extent.low.x(), right = d.extent.high.x();
     auto [lowest, highest] =
@@ -95,7 +95,7 @@ void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& p
     const double ground = d.extent.high.y();
     const double above = highest - ground;
     if (above <= 1e-6 * d.height()) {
-        doubt_slope_of_free_water(d, line, pointer);
+        warn_about_slope_of_free_water(d, line, pointer);
         return;
     }
     const std::string what =
@@ -107,13 +107,13 @@ void doubt_water(Doubter& d, const std::vector<Vec2>& line, const std::string& p
     } else {
         const std::string drowned =
             lowest > ground ? ": the whole section is drowned" : ": the highest ground is drowned";
-        d.doubt(pointer,
-                "the water " + what + drowned + "; levels are in m and in the section's own datum");
+        d.warn(pointer,
+               "the water " + what + drowned + "; levels are in m and in the section's own datum");
     }
 }
 
 /// The largest distance of two water tables within the section, and at which x [m].
-std::pair<double, double> farthest_apart(const Doubter& d, const std::vector<Vec2>& a,
+std::pair<double, double> farthest_apart(const Warner& d, const std::vector<Vec2>& a,
                                          const std::vector<Vec2>& b) {
     std::pair<double, double> farthest{0.0, d.extent.low.x()};
     const auto compare = [&](double x) {
@@ -128,7 +128,7 @@ std::pair<double, double> farthest_apart(const Doubter& d, const std::vector<Vec
 }
 
 /// One water table, drawn in three places for three phases. Stages of the FEM may move it: any of theirs will do.
-void doubt_tables(Doubter& d) {
+void warn_about_tables(Warner& d) {
     struct Table {
         std::string pointer;
         std::vector<const std::vector<Vec2>*> lines;
@@ -153,9 +153,9 @@ void doubt_tables(Doubter& d) {
             nearest = std::min(nearest, farthest_apart(d, *line, *tables[i].lines[0]));
         const auto [apart, place] = nearest;
         if (apart <= much * d.height()) continue;
-        d.doubt(tables[i].pointer, "this water table lies " + metres(apart) + " from that of " +
-                                       tables[0].pointer + " at x = " + metres(place) +
-                                       ": is one of them out of date?");
+        d.warn(tables[i].pointer, "this water table lies " + metres(apart) + " from that of " +
+                                      tables[0].pointer + " at x = " + metres(place) +
+                                      ": is one of them out of date?");
     }
 }
 
@@ -167,7 +167,7 @@ std::string meant_step(double step, double duration) {
 }
 
 /// T = 4 H / V_s, H the section's height, V_s of its softest soil; 0 without soil.
-double natural_period(const Doubter& d) {
+double natural_period(const Warner& d) {
     double slowest = infinity;
     for (const Region& region : d.scene.section.regions) {
         if (region.material >= d.scene.materials.size()) continue;
@@ -178,7 +178,7 @@ double natural_period(const Doubter& d) {
     return d.height() > 0.0 && std::isfinite(slowest) ? 4.0 * d.height() / slowest : 0.0;
 }
 
-void doubt_steps(Doubter& d) {
+void warn_about_steps(Warner& d) {
     const Fem& fem = *d.scene.fem;
     constexpr double hopeless = 0.5;  // [s]: the motion's shortest periods that matter are 0.1 s
     const double period = natural_period(d);
@@ -197,45 +197,45 @@ void doubt_steps(Doubter& d) {
                 "is " + seconds(stage.time_step) + ", longer than the periods of an earthquake",
                 meant_step(stage.time_step, stage.duration));
         } else if (stage.time_step > 0.25 * period && period > 0.0) {
-            d.doubt(pointer, "four steps of " + seconds(stage.time_step) +
-                                 " are longer than the section's natural period of about " +
-                                 seconds(period));
+            d.warn(pointer, "four steps of " + seconds(stage.time_step) +
+                                " are longer than the section's natural period of about " +
+                                seconds(period));
         }
     }
 }
 
 /// Elements or cells that no machine holds, or that are larger than what they divide.
-void doubt_size(Doubter& d, double size, double area, const std::string& pointer,
-                const char* what) {
+void warn_about_size(Warner& d, double size, double area, const std::string& pointer,
+                     const char* what) {
     constexpr double many = 3e6, most = 3e8;
     const double count = area / (size * size);
     const std::string cause = "make " + plain_number(std::round(count)) + " " + what;
     if (count > most) {
         d.reader.add(pointer, cause, "is " + metres(size) + " meant? sizes are in m");
     } else if (count > many) {
-        d.doubt(pointer, metres(size) + " " + cause + ": sizes are in m");
+        d.warn(pointer, metres(size) + " " + cause + ": sizes are in m");
     } else if (size > std::max(d.height(), d.width())) {
         d.reader.add(pointer, "is " + metres(size) + ", more than the whole section",
                      "sizes are in m: " + metres(1e-3 * size) + " when mm are meant");
     }
 }
 
-void doubt_sizes(Doubter& d) {
+void warn_about_sizes(Warner& d) {
     if (d.scene.fem && !d.scene.fem->mesh.msh_file) {
         for (std::size_t i = 0; i < d.scene.section.regions.size(); ++i) {
             const Region& region = d.scene.section.regions[i];
             if (region.polygon.empty() || region.element_size <= 0.0) continue;
             const std::string own = "/section/regions/" + std::to_string(i) + "/mesh/element_size";
             const bool has_own = d.reader.document().contains(nlohmann::json::json_pointer(own));
-            doubt_size(d, region.element_size, geometry::area(region.polygon),
-                       has_own ? own : "/section/element_size", "elements");
+            warn_about_size(d, region.element_size, geometry::area(region.polygon),
+                            has_own ? own : "/section/element_size", "elements");
         }
     }
     if (!d.scene.mpm) return;
     const Mpm& mpm = *d.scene.mpm;
-    doubt_size(d, mpm.cell_size,
-               (mpm.domain_x[1] - mpm.domain_x[0]) * (mpm.domain_y[1] - mpm.domain_y[0]),
-               "/mpm/cell_size", "cells");
+    warn_about_size(d, mpm.cell_size,
+                    (mpm.domain_x[1] - mpm.domain_x[0]) * (mpm.domain_y[1] - mpm.domain_y[0]),
+                    "/mpm/cell_size", "cells");
     if (mpm.time_step && *mpm.time_step > mpm.duration) {
         d.reader.add("/mpm/time_step",
                      "is " + seconds(*mpm.time_step) + ", longer than the duration of " +
@@ -271,7 +271,7 @@ double foot_above(const Scene& scene, double level) {
 
 /// Runout is counted downstream (+x) from the toe: soil that lies beyond it from the beginning has
 /// run out before anything has moved.
-void doubt_toe(Doubter& d) {
+void warn_about_toe(Warner& d) {
     constexpr double some = 0.02,
                      most = 0.5;  // of the soil that counts; the runout is of 1 % of it
     const Runout& runout = d.scene.mpm->runout;
@@ -293,30 +293,30 @@ void doubt_toe(Doubter& d) {
                      "x points downstream: give the foot of the downstream face, near x = " +
                          plain_number(end) + "; a slope that faces -x has to be drawn mirrored");
     } else if (beyond > some * all) {
-        d.doubt(pointer,
-                share + ": they are part of every runout; x points downstream, and " +
-                    (runout.regions.empty() ? "/mpm/runout/regions should name the soil that moves"
-                                            : "the soil ends at x = " + metres(end)));
+        d.warn(pointer,
+               share + ": they are part of every runout; x points downstream, and " +
+                   (runout.regions.empty() ? "/mpm/runout/regions should name the soil that moves"
+                                           : "the soil ends at x = " + metres(end)));
     } else if (const double foot = foot_above(d.scene, runout.toe.y() + 0.05 * d.height());
                runout.toe.x() - foot > std::max(d.height(), 2.0 * d.scene.mpm->cell_size)) {
-        d.doubt(pointer, "the ground rises only " + metres(runout.toe.x() - foot) +
-                             " before the toe (x = " + metres(runout.toe.x()) +
-                             "), at x = " + metres(foot) +
-                             ": runout is counted from the toe, and is shorter by that");
+        d.warn(pointer, "the ground rises only " + metres(runout.toe.x() - foot) +
+                            " before the toe (x = " + metres(runout.toe.x()) +
+                            "), at x = " + metres(foot) +
+                            ": runout is counted from the toe, and is shorter by that");
     }
 }
 
 /// Where there are zones of friction, what lies between them and beside them is smooth: hardly meant.
-void doubt_floor(Doubter& d) {
+void warn_about_floor(Warner& d) {
     const Mpm& mpm = *d.scene.mpm;
     const char* pointer = "/mpm/floor/friction";
     if (mpm.floor.friction.empty() || !d.reader.sound(pointer)) return;
     double covered = mpm.domain_x[0];
     const auto leave_out = [&](double until) {
         if (until - covered <= mpm.cell_size) return;
-        d.doubt(pointer, "no zone covers x = " + plain_number(covered) + " to " + metres(until) +
-                             ": the floor and the terrain are smooth there; give a zone, of "
-                             "coefficient 0 if that is meant");
+        d.warn(pointer, "no zone covers x = " + plain_number(covered) + " to " + metres(until) +
+                            ": the floor and the terrain are smooth there; give a zone, of "
+                            "coefficient 0 if that is meant");
     };
     for (const FrictionZone& zone : mpm.floor.friction) {
         leave_out(zone.from);
@@ -327,29 +327,29 @@ void doubt_floor(Doubter& d) {
 
 }  // namespace
 
-void doubt_together(Reader& reader, Scene& scene) {
-    Doubter d{reader, scene, geometry::extent(scene.section)};
+void warn_about_together(Reader& reader, Scene& scene) {
+    Warner d{reader, scene, geometry::extent(scene.section)};
     if (reader.sound("/gravity") && reader.document().at("gravity") == 0.0) {
-        d.doubt("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
+        d.warn("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
     }
-    if (scene.fem) doubt_steps(d);
+    if (scene.fem) warn_about_steps(d);
     if (d.height() > 0.0) {  // a region is sound
-        doubt_section(d);
+        warn_about_section(d);
         if (scene.lem && scene.lem->water) {
-            doubt_water(d, scene.lem->water->line, "/lem/water/line");
+            warn_about_water(d, scene.lem->water->line, "/lem/water/line");
         }
         if (scene.fem && scene.fem->water) {
-            doubt_water(d, scene.fem->water->line, "/fem/water/line");
+            warn_about_water(d, scene.fem->water->line, "/fem/water/line");
         }
         if (scene.transfer) {
-            doubt_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");
+            warn_about_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");
         }
-        doubt_tables(d);
-        doubt_sizes(d);
-        if (scene.mpm) doubt_toe(d);
-        if (scene.mpm) doubt_floor(d);
+        warn_about_tables(d);
+        warn_about_sizes(d);
+        if (scene.mpm) warn_about_toe(d);
+        if (scene.mpm) warn_about_floor(d);
     }
-    for (const fault::Flag& doubt : scene.warnings) reader.explain(doubt);
+    for (const fault::Flag& warn : scene.warnings) reader.explain(warn);
 }
 
 }  // namespace breach::scene

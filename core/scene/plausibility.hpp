@@ -10,8 +10,8 @@ namespace breach::scene {
 /// against ground, the phases' water tables with one another, steps against durations and the
 /// section's natural period, element and cell sizes against the section, the toe against the soil
 /// that runs out. What cannot be is added to the reader's faults, what is hardly meant to the
-/// scene's warnings, as "implausible"; faults that a doubt about a neighbouring entry may explain
+/// scene's warnings, as "implausible"; faults that a warn about a neighbouring entry may explain
 /// are told of it.
-void doubt_together(Reader& reader, Scene& scene);
+void warn_about_together(Reader& reader, Scene& scene);
 
 }  // namespace breach::scene

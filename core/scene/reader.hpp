@@ -23,15 +23,15 @@ class Reader {
     void add(std::string pointer, std::string cause, std::string remedy) {
         faults_.push_back({std::move(pointer), std::move(cause), std::move(remedy)});
     }
-    /// Tells every fault at an entry of the same object, or below it, of a doubt that may be its
+    /// Tells every fault at an entry of the same object, or below it, of a warn that may be its
     /// reason. Objects at the root are too wide for that.
-    void explain(const fault::Flag& doubt) {
-        const std::string object = doubt.pointer.substr(0, doubt.pointer.rfind('/'));
+    void explain(const fault::Flag& warn) {
+        const std::string object = warn.pointer.substr(0, warn.pointer.rfind('/'));
         if (object.find('/', 1) == std::string::npos) return;
         for (fault::Fault& each : faults_) {
-            const bool same = each.pointer == doubt.pointer;  // has been told
+            const bool same = each.pointer == warn.pointer;  // has been told
             if (same || each.pointer.rfind(object + "/", 0) != 0) continue;
-            each.remedy += "; " + doubt.pointer + ": " + doubt.message;
+            each.remedy += "; " + warn.pointer + ": " + warn.message;
         }
     }
 

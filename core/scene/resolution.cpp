@@ -83,7 +83,24 @@ std::optional<Across> coarsest_place(const Scene& scene) {
     return coarsest.what.empty() ? std::nullopt : std::optional(coarsest);
 }
 
+/// Finer than anybody waits for: a slip of the unit, as a rule.
+void judge_fine_cells(const Scene& scene, Resolved& resolved) {
+    constexpr double most = 2.5e5;
+    double area = 0.0;
+    for (const Region& region : scene.section.regions) area += geometry::area(region.polygon);
+    const double h = scene.mpm->cell_size, cells = area / (h * h);
+    if (cells <= most) return;
+    resolved.flags.push_back(
+        {"implausible", fault::Severity::warning,
+         text_of(h) + " m fills the section with " + std::to_string(std::lround(cells)) +
+             " cells, and the time to compute grows with the third power of their number across: "
+             "cells of " +
+             rounded_down(std::sqrt(area / (0.1 * most))) + " m have a tenth of that",
+         "/mpm/cell_size"});
+}
+
 void judge_cells(const Scene& scene, Resolved& resolved) {
+    judge_fine_cells(scene, resolved);
     const auto coarsest = coarsest_place(scene);
     if (!coarsest) return;
     const double h = scene.mpm->cell_size;
@@ -142,7 +159,7 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     } else {
         resolved.flags.push_back({"short_nonlocal_length", fault::Severity::warning,
                                   found + " (" + text_of(nonlocal_cells_wanted) +
-                                      " are wanted): bands hang on the lattice; " + wanted,
+                                      " are wanted): bands depend on the lattice; " + wanted,
                                   pointer});
     }
 }

@@ -67,13 +67,13 @@ Reading read_document(json document, const std::string& name, const std::filesys
     for (const std::string& each : overrides) {
         for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
     }
-    std::vector<fault::Flag> doubts;
-    for (Fault& found : complete_and_check(document, scene_schema(), doubts))
+    std::vector<fault::Flag> warnings;
+    for (Fault& found : complete_and_check(document, scene_schema(), warnings))
         faults.push_back(std::move(found));
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
     Scene scene{};
-    scene.warnings = std::move(doubts);
+    scene.warnings = std::move(warnings);
     Reader reader(document, std::move(faults));
     if (reader.sound("/gravity")) scene.gravity = document.at("gravity");
     if (reader.sound("/thickness")) scene.thickness = document.at("thickness");
@@ -83,7 +83,7 @@ Reading read_document(json document, const std::string& name, const std::filesys
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
     read_mpm(reader, scene);
-    doubt_together(reader, scene);
+    warn_about_together(reader, scene);
     Resolved resolved = resolution_of(scene);
     for (Fault& each : resolved.faults) {
         if (!reader.sound(each.pointer)) continue;  // a slip of the unit: said already

@@ -75,7 +75,7 @@ const std::regex& compiled(const std::string& pattern) {
                      .first->second;
 }
 
-/// Walks document and schema together; fills defaults in, collects faults and doubts.
+/// Walks document and schema together; fills defaults in, collects faults and warnings.
 class Walker {
   public:
     explicit Walker(const json& root) : root_(root) {}
@@ -105,7 +105,7 @@ class Walker {
     }
 
     std::vector<Fault> faults;
-    std::vector<Flag> doubts;  ///< numbers that are possible and hardly meant
+    std::vector<Flag> warnings;  ///< numbers that are possible and hardly meant
 
   private:
     const json& resolved(const json& schema) const {
@@ -157,8 +157,9 @@ class Walker {
         limit("maximum", std::greater<>(), "<=");
         limit("exclusiveMaximum", std::greater_equal<>(), "<");
         if (!possible) return;
-        if (auto doubt = doubt_about(number, schema, root_)) {
-            doubts.push_back({"implausible", fault::Severity::warning, std::move(*doubt), pointer});
+        if (auto warn = warning_about(number, schema, root_)) {
+            warnings.push_back(
+                {"implausible", fault::Severity::warning, std::move(*warn), pointer});
         }
     }
 
@@ -309,8 +310,9 @@ json parse_json(std::string_view text, const std::string& file) {
                 {"", "has the key \"" + key + "\" twice in one object", "keep one of them"});
         }
         if (!can_be_pointed_at(key)) {
-            faults.push_back({"", "has the key \"" + key + "\" with / or ~ in it",
-                              "name it without: entries are told by their path, /materials/sand"});
+            faults.push_back(
+                {"", "has the key \"" + key + "\" with / or ~ in it",
+                 "name it without: messages name entries by their path, /materials/sand"});
         }
         return true;
     };
@@ -319,7 +321,7 @@ json parse_json(std::string_view text, const std::string& file) {
         document = json::parse(text, watch);
     } catch (const json::exception& error) {
         throw fault::BadInput(file, {{"", std::string("is not valid JSON: ") + error.what(),
-                                      "mend the text at the place named"}});
+                                      "correct the text at this place"}});
     }
     if (!faults.empty()) throw fault::BadInput(file, faults);
     return document;
@@ -347,16 +349,16 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
 }
 
 std::vector<Fault> complete_and_check(json& document, const json& schema,
-                                      std::vector<Flag>& doubts) {
+                                      std::vector<Flag>& warnings) {
     Walker walker(schema);
     walker.visit(document, schema, "");
-    doubts = std::move(walker.doubts);
+    warnings = std::move(walker.warnings);
     return std::move(walker.faults);
 }
 
 std::vector<Fault> complete_and_check(json& document, const json& schema) {
-    std::vector<Flag> doubts;
-    return complete_and_check(document, schema, doubts);
+    std::vector<Flag> warnings;
+    return complete_and_check(document, schema, warnings);
 }
 
 }  // namespace breach::scene

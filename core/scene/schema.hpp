@@ -27,9 +27,9 @@ nlohmann::json parse_json(std::string_view text, const std::string& file);
 std::vector<fault::Fault> apply_override(nlohmann::json& document, const std::string& assignment);
 
 /// Adds the schema's defaults to `document` in place and returns every fault: pointer, cause,
-/// remedy. `doubts` get the numbers that are possible and not plausible, as flags "implausible".
+/// remedy. `warnings` get the numbers that are possible and not plausible, as flags "implausible".
 std::vector<fault::Fault> complete_and_check(nlohmann::json& document, const nlohmann::json& schema,
-                                             std::vector<fault::Flag>& doubts);
+                                             std::vector<fault::Flag>& warnings);
 std::vector<fault::Fault> complete_and_check(nlohmann::json& document,
                                              const nlohmann::json& schema);
 

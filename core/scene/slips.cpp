@@ -67,7 +67,7 @@ std::string likely_slip(double value, const json& entry, const json& root) {
     return text;
 }
 
-std::optional<std::string> doubt_about(double value, const json& entry, const json& root) {
+std::optional<std::string> warning_about(double value, const json& entry, const json& root) {
     if (!entry.contains(range_key) || value == 0.0) return std::nullopt;
     const json& range = entry.at(range_key);
     if (within(value, range)) return std::nullopt;

@@ -16,8 +16,8 @@ std::string likely_slip(double value, const nlohmann::json& entry, const nlohman
 
 /// Why the value is hardly meant, with the likely slip; nothing when it is plausible or the entry
 /// does not say what is. Zero says "none" and is always plausible where the limits let it pass.
-std::optional<std::string> doubt_about(double value, const nlohmann::json& entry,
-                                       const nlohmann::json& root);
+std::optional<std::string> warning_about(double value, const nlohmann::json& entry,
+                                         const nlohmann::json& root);
 
 /// As people write it: six digits at most, no exponent between 1e-4 and 1e9.
 std::string plain_number(double value);

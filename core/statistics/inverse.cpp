@@ -103,7 +103,7 @@ Side side_of(const Point& point, double target) {
 std::string at_both_ends(const InverseQuestion& question, const Point& low, const Point& high) {
     return question.quantity + " is " + in_unit(question.target, question.unit) + " at " +
            in_unit(low.value) + " and at " + in_unit(high.value) +
-           ": no value between them is told apart";
+           ": values between them give the same result";
 }
 
 /// Why no value can be told; empty: the ends enclose it.

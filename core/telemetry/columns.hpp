@@ -2,6 +2,7 @@
 // their conditions, reports take their labels and GET /v1/telemetry/fields answers.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string_view>
 
@@ -23,6 +24,8 @@ struct Column {
     const char* unit;     ///< "1": a ratio or a count
     const char* meaning;  ///< for people, one line
     Needs needs = Needs::nothing;
+    double least = -std::numeric_limits<double>::infinity();  ///< that it can be
+    double most = std::numeric_limits<double>::infinity();
 };
 
 /// What fem_solver writes, in the order of history.h5, of a scene that has what they need.

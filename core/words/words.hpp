@@ -59,7 +59,7 @@ constexpr std::optional<Enum> find(std::string_view word) {
     return std::nullopt;
 }
 
-/// Of a word that has been checked at the door; another one is our own mistake.
+/// Of a word that the reader has checked; another one is our own mistake.
 template <Worded Enum>
 Enum named(std::string_view word) {
     if (const auto found = find<Enum>(word)) return *found;

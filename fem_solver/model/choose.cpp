@@ -59,9 +59,9 @@ ModelDecisions decide_model(const scene::Scene& scene) {
             part(fem.water, "pore pressure",
                  {"an unknown of every node below the phreatic line", "the scene has no water"},
                  "/fem/water"),
-        .base = part(fem.base, "absorbing base (dashpots)",
-                     {"the base is released when motion begins", "the base is held for ever"},
-                     "/fem/base"),
+        .base =
+            part(fem.base, "absorbing base (dashpots)",
+                 {"the base is released when motion begins", "the base stays fixed"}, "/fem/base"),
         .motion = part(fem.motion, "base motion", {"comes through the absorbing base", no_motion},
                        "/fem/motion"),
         .free_field =

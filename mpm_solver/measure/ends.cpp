@@ -115,7 +115,7 @@ double crest_edge(const std::vector<double>& places, const std::vector<double>& 
     return places[k];
 }
 
-/// Of tailings upstream of the crest: docs/mochikoshi_authors.md. Its 317 m are 10.8 heights.
+/// Of tailings upstream of the crest: docs/verification/mochikoshi_authors.md. Its 317 m are 10.8 heights.
 constexpr double enough_heights = 10.5;
 
 /// Soil that has left lowers the surface.
@@ -161,8 +161,8 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
 
 }  // namespace
 
-std::vector<Flag> doubts_of_ends(const scene::Scene& scene, const FlowView& view,
-                                 const Depths& depths) {
+std::vector<Flag> flags_of_ends(const scene::Scene& scene, const FlowView& view,
+                                const Depths& depths) {
     std::vector<Flag> flags = walls_reached(scene::mpm_of(scene), view, depths);
     if (auto flag = ground_left(scene, view, depths)) flags.push_back(std::move(*flag));
     if (auto flag = upstream_end_reached(scene, view, depths)) flags.push_back(std::move(*flag));

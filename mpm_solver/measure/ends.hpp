@@ -15,7 +15,7 @@ struct Depths {
 };
 
 /// Flags `reached_wall` and `upstream_wall`.
-std::vector<fault::Flag> doubts_of_ends(const scene::Scene& scene, const FlowView& view,
-                                        const Depths& depths);
+std::vector<fault::Flag> flags_of_ends(const scene::Scene& scene, const FlowView& view,
+                                       const Depths& depths);
 
 }  // namespace breach::mpm

@@ -64,7 +64,7 @@ std::string legend_of(const json& answer) {
         return false;
     };
     if (any("on_pareto_front")) legend += "*  nothing else is as cheap and as accurate\n";
-    if (any("below_noise")) legend += "~  the error is not told apart from the noise\n";
+    if (any("below_noise")) legend += "~  the error is within the noise\n";
     if (any("questionable"))
         legend += "?  questionable (`breach results` says why): not recommended\n";
     return legend;
@@ -87,20 +87,20 @@ std::string as_accuracy_table(const json& answer) {
                   {"setting", Align::left},
                   {title_of(answer), Align::right},
                   {"+-", Align::right},
-                  {"draws", Align::right},
+                  {"repeats", Align::right},
                   {"error", Align::right},
                   {"of a run", Align::right},
                   {"CPU [s]", Align::right},
                   {"wall [s]", Align::right},
                   {"memory [MB]", Align::right},
-                  {"draws for " + percent_of(answer.at("asked_error")), Align::right},
+                  {"repeats for " + percent_of(answer.at("asked_error")), Align::right},
                   {"their CPU [s]", Align::right},
                   {"", Align::left}},
                  rows);
     text +=
         "errors relative to " + cell(answer, "reference") +
         "; \"of a run\": with what the reference is off, the other ladders' error at the "
-        "base, and the scatter; \"draws for\": so many are averaged for nine of ten means to be "
+        "base, and the scatter; \"repeats for\": so many are averaged for nine of ten means to be "
         "within that, -: not even 20 are enough\n" +
         legend_of(answer) + "\n";
     for (const json& ladder : answer.at("ladders"))
@@ -121,7 +121,7 @@ std::string as_check_table(const json& answer) {
     }
     std::string quantity = cell(answer, "quantity");
     if (answer.at("unit") != "1") quantity += " [" + cell(answer, "unit") + "]";
-    return as_table({{"draws", Align::left},
+    return as_table({{"repeats", Align::left},
                      {quantity, Align::right},
                      {"error", Align::right},
                      {"within " + percent_of(answer.at("asked_error")), Align::left},

@@ -48,31 +48,31 @@ struct Arguments {
     bool confirmed = false;
     std::vector<std::filesystem::path> files;
     std::string shell;
-    SubmitWish submit;
+    SubmitOptions submit;
     bool watch = false;
     bool dry_run = false;
     std::size_t samples = 0;  ///< in all; 0: it is not asked
     std::string budget;       ///< CPU seconds or "none"; empty: it is not asked
     bool strict = false;
-    ResultsWish results;
-    CheckWish check;
-    UncertaintyWish uncertainty;
+    ResultsOptions results;
+    CheckOptions check;
+    UncertaintyOptions uncertainty;
     std::int64_t priority = 0;
     std::string title;
     std::size_t most_runs = 20;
-    LogWish log;
+    LogOptions log;
     bool follow = false;
-    TelemetryWish telemetry;
-    HydrographWish hydrograph;
+    TelemetryOptions telemetry;
+    HydrographOptions hydrograph;
     std::filesystem::path folder;
     std::filesystem::path document;
-    DrawWish draw;
-    MotionWish motion;
-    VerifyWish verify;
-    NewWish make;
-    ImportWish import;
-    ScenesWish scenes;
-    TransfersWish transfers;
+    DrawOptions draw;
+    MotionOptions motion;
+    VerifyOptions verify;
+    NewOptions make;
+    ImportOptions import;
+    ScenesOptions scenes;
+    TransfersOptions transfers;
     std::string sha256;
 };
 
@@ -89,8 +89,7 @@ std::optional<std::string> read_token(const std::string& file) {
 class CommandLine {
   public:
     CommandLine()
-        : app_("Talks to a Breachline server: submits studies and shows what became of them.",
-               "breach") {
+        : app_("Talks to a Breachline server: submits studies and shows their results.", "breach") {
         app_.set_version_flag("--version", std::string("breach ") + version());
         app_.require_subcommand(1);
         app_.fallthrough();  // --json may stand behind the command
@@ -287,24 +286,27 @@ class CommandLine {
         sub->add_flag("--strict", a_.strict, "exit code 70 when a result is questionable");
     }
 
-    Doubt doubt() const { return a_.strict ? Doubt::fails : Doubt::accepted; }
+    Questionable questionable() const {
+        return a_.strict ? Questionable::fails : Questionable::accepted;
+    }
 
     ExitCode submit_and_watch(Server& server, const Console& console) {
         const std::string run = submit(server, a_.submit, console);
-        return a_.watch ? watch(server, run, doubt(), console) : ExitCode::done;
+        return a_.watch ? watch(server, run, questionable(), console) : ExitCode::done;
     }
 
     /// The table of a run that is there, or of one that is submitted and watched for it.
     ExitCode accuracy(Server& server, const Console& console) {
         if (!a_.id.empty() && a_.check.repeats.empty()) {
-            const ExitCode end = a_.watch ? watch(server, a_.id, doubt(), console) : ExitCode::done;
+            const ExitCode end =
+                a_.watch ? watch(server, a_.id, questionable(), console) : ExitCode::done;
             show_accuracy(server, a_.id, a_.check.asked_error, console);
             return end;
         }
         const std::string run = a_.id.empty() ? submit(server, a_.submit, console)
                                               : check_accuracy(server, a_.id, a_.check, console);
         if (!a_.watch) return ExitCode::done;
-        const ExitCode end = watch(server, run, doubt(), console);
+        const ExitCode end = watch(server, run, questionable(), console);
         show_accuracy(server, run, "", console);
         return end;
     }
@@ -327,7 +329,8 @@ class CommandLine {
 
     ExitCode uncertainty(Server& server, const Console& console) {
         a_.uncertainty.run = a_.id;
-        const ExitCode end = a_.watch ? watch(server, a_.id, doubt(), console) : ExitCode::done;
+        const ExitCode end =
+            a_.watch ? watch(server, a_.id, questionable(), console) : ExitCode::done;
         show_uncertainty(server, a_.uncertainty, console);
         return end;
     }
@@ -340,32 +343,33 @@ class CommandLine {
                             [this](Server& s, const Console& c) { return uncertainty(s, c); });
         take_run(sub);
         sub->add_flag("--watch", a_.watch, "watch the run until it ends, then show");
-        sub->add_flag("--csv", a_.csv, "the samples with their draws and results");
+        sub->add_flag("--csv", a_.csv, "the samples with their values and results");
         sub->add_option("--quantity", a_.uncertainty.quantity,
                         "only of this number of the results: runout_beyond_toe");
         take_strict(sub);
     }
 
     void take_check(CLI::App* sub, CLI::Option* of) {
-        CheckWish& wish = a_.check;
-        sub->add_option("--within", wish.asked_error,
-                        "the error that is asked for instead of the study's: 0.1")
+        CheckOptions& options = a_.check;
+        sub->add_option("--within", options.asked_error,
+                        "required error instead of the study's: 0.1")
             ->check(CLI::Range(0.0, 1.0))
             ->needs(of);
         CLI::Option* check =
-            sub->add_option("--check", wish.repeats,
+            sub->add_option("--check", options.repeats,
                             "run the recommended setting blind, on lattices that the study has not "
                             "used: so many runs (or means, where it recommends means)")
                 ->check(CLI::Range(1, 100))
                 ->needs(of);
-        sub->add_option("--rung", wish.rung, "check this rung instead, LADDER:STEP: cells:2")
+        sub->add_option("--rung", options.rung, "check this rung instead, LADDER:STEP: cells:2")
             ->check([](const std::string& rung) {
                 return rung.rfind(':') == std::string::npos
                            ? rung + " is no ladder with its step, such as cells:2"
                            : "";
             })
             ->needs(check);
-        sub->add_option("--mean-of", wish.mean_of, "so many draws are averaged, not as recommended")
+        sub->add_option("--mean-of", options.mean_of,
+                        "number of repeats per mean, instead of the recommended one")
             ->check(CLI::Range(1, 20))
             ->needs(check);
     }
@@ -373,7 +377,7 @@ class CommandLine {
     void add_sweep_commands() {
         take_study(add("sweep", "submit a study as a sweep; prints its id",
                        "study.json --times 0.5,1,1.5 --watch", [this](Server& s, const Console& c) {
-                           a_.submit.door = "/v1/sweeps";
+                           a_.submit.route = "/v1/sweeps";
                            return submit_and_watch(s, c);
                        }));
         CLI::App* extend_ =
@@ -429,14 +433,14 @@ class CommandLine {
 
         CLI::App* watch_ =
             add("watch", "a run while it runs; ends with it", "latest",
-                [this](Server& s, const Console& c) { return watch(s, a_.id, doubt(), c); });
+                [this](Server& s, const Console& c) { return watch(s, a_.id, questionable(), c); });
         take_run(watch_);
         take_strict(watch_);
         add_orders();
         CLI::App* results_ = add("results", "runout against transfer time", "latest --csv",
                                  [this](Server& s, const Console& c) {
                                      a_.results.run = a_.id;
-                                     a_.results.doubt = doubt();
+                                     a_.results.questionable = questionable();
                                      return results(s, a_.results, c);
                                  });
         take_run(results_);
@@ -445,7 +449,7 @@ class CommandLine {
         results_->add_option("--flag", a_.results.flag,
                              "only rows that carry this flag: still_moving");
         results_->add_flag("--means", a_.results.means,
-                           "only the means over the draws, where the study has draws");
+                           "only the means over the repeats, if the study has repeats");
         take_strict(results_);
     }
 
@@ -457,10 +461,10 @@ class CommandLine {
 
     void add_orders() {
         add_order("cancel", "stop a run's tasks and skip the rest");
-        add_order("pause", "start nothing new of a run; what runs goes on");
-        add_order("resume", "go on with a run that was paused");
+        add_order("pause", "start no more tasks of a run; running tasks finish");
+        add_order("resume", "continue a paused run");
         add_order("retry", "try what failed, was skipped or cancelled once more");
-        add_order("pin", "keep a run whatever the server is told to remove");
+        add_order("pin", "protect a run from removal");
         add_order("unpin", "let a pinned run be removed again");
         CLI::App* rename_ =
             add("rename", "give a run another title", "latest \"Weak beach, second try\"",
@@ -487,46 +491,47 @@ class CommandLine {
         logs_->add_option("-n,--lines", a_.log.lines, "only the last so many lines");
         logs_->add_flag("-f,--follow", a_.follow, "go on until the task ends");
 
-        TelemetryWish& wish = a_.telemetry;
+        TelemetryOptions& options = a_.telemetry;
         CLI::App* telemetry_ =
             add("telemetry", "what a phase measured while it ran",
                 "latest mpm_solver --transfer-time 0.5 --csv",
                 [this](Server& s, const Console& c) { return telemetry(s, a_.telemetry, c); });
-        telemetry_->add_option("RUN", wish.run, "which run")->required();
-        telemetry_->add_option("PHASE", wish.phase, "fem_solver or mpm_solver")->required();
-        telemetry_->add_option("--transfer-time", wish.transfer_time,
+        telemetry_->add_option("RUN", options.run, "which run")->required();
+        telemetry_->add_option("PHASE", options.phase, "fem_solver or mpm_solver")->required();
+        telemetry_->add_option("--transfer-time", options.transfer_time,
                                "which of the sweep's runouts [s]");
-        telemetry_->add_option("--variant", wish.variant, "which of the study's variants");
-        telemetry_->add_option("--fields", wish.fields, "only these, separated by commas");
-        telemetry_->add_option("--from", wish.from, "first line, counted from 0")
+        telemetry_->add_option("--variant", options.variant, "which of the study's variants");
+        telemetry_->add_option("--fields", options.fields, "only these, separated by commas");
+        telemetry_->add_option("--from", options.from, "first line, counted from 0")
             ->check(CLI::NonNegativeNumber);
-        telemetry_->add_option("--stride", wish.stride, "every n-th line")
+        telemetry_->add_option("--stride", options.stride, "every n-th line")
             ->check(CLI::PositiveNumber);
         telemetry_->add_flag("--csv", a_.csv, "comma-separated, for other programs");
         add_hydrograph();
     }
 
     void add_hydrograph() {
-        HydrographWish& wish = a_.hydrograph;
+        HydrographOptions& options = a_.hydrograph;
         CLI::App* sub =
             add("hydrograph", "what passed a section of a runout, for HEC-RAS, FLO-2D or as CSV",
                 "latest --section toe --for hec-ras --breach-width 72 --output toe.csv",
                 [this](Server& s, const Console& c) { return hydrograph(s, a_.hydrograph, c); });
-        sub->add_option("RUN", wish.run, "which run")->required();
-        sub->add_option("--section", wish.section, "its name in the scene's /mpm/sections")
+        sub->add_option("RUN", options.run, "which run")->required();
+        sub->add_option("--section", options.section, "its name in the scene's /mpm/sections")
             ->required();
-        sub->add_option("--for", wish.target, "csv, hec-ras or flo-2d")
+        sub->add_option("--for", options.target, "csv, hec-ras or flo-2d")
             ->check(CLI::IsMember({"csv", "hec-ras", "flo-2d"}))
             ->capture_default_str();
-        sub->add_option("--breach-width", wish.breach_width,
+        sub->add_option("--breach-width", options.breach_width,
                         "72, or 60,72,90 for low, best, high [m] (default: the scene's)");
-        sub->add_option("--interval", wish.interval, "between two flows of an export [s] (1)");
-        sub->add_option("--transfer-time", wish.transfer_time, "which of the sweep's runouts [s]");
-        sub->add_option("--variant", wish.variant, "which of the study's variants");
-        sub->add_option("--cell", wish.cell, "FLO-2D's grid element that takes the inflow (1)");
-        sub->add_option("--concentration", wish.concentration,
+        sub->add_option("--interval", options.interval, "between two flows of an export [s] (1)");
+        sub->add_option("--transfer-time", options.transfer_time,
+                        "which of the sweep's runouts [s]");
+        sub->add_option("--variant", options.variant, "which of the study's variants");
+        sub->add_option("--cell", options.cell, "FLO-2D's grid element that takes the inflow (1)");
+        sub->add_option("--concentration", options.concentration,
                         "FLO-2D: solids by volume, 0 to 1; adds the column for mudflow");
-        sub->add_option("--output", wish.file, "a file instead of the screen");
+        sub->add_option("--output", options.file, "a file instead of the screen");
     }
 
     void add_file_commands() {
@@ -568,20 +573,21 @@ class CommandLine {
     }
 
     void add_verify() {
-        VerifyWish& wish = a_.verify;
+        VerifyOptions& options = a_.verify;
         CLI::App* sub = add(
             "verify", "compare the programs with closed forms, published tables and other programs",
             "--quick --output verification",
             [this](Server&, const Console& c) { return verify(a_.verify, c); });
-        sub->add_flag("--quick", wish.quick, "without the slow cases; else all of them (--full)");
-        sub->add_flag("!--full", wish.quick, "all cases; the default");
-        sub->add_option("--output", wish.output, "folder of the pages")->capture_default_str();
-        sub->add_option("--catalogue", wish.catalogue, "folder of other cases")
+        sub->add_flag("--quick", options.quick,
+                      "without the slow cases; else all of them (--full)");
+        sub->add_flag("!--full", options.quick, "all cases; the default");
+        sub->add_option("--output", options.output, "folder of the pages")->capture_default_str();
+        sub->add_option("--catalogue", options.catalogue, "folder of other cases")
             ->check(CLI::ExistingDirectory);
     }
 
     void add_motion() {
-        MotionWish& wish = a_.motion;
+        MotionOptions& options = a_.motion;
         CLI::App* sub = add(
             "motion",
             "what records are measured by: PGA, PGV, Arias, MASI, spectrum; or what a study of "
@@ -590,69 +596,71 @@ class CommandLine {
             [this](Server& server, const Console& c) { return show_motion(server, a_.motion, c); });
         CLI::Option_group* what = sub->add_option_group("what");
         CLI::Option* file = what->add_option(
-            "FILE", wish.file, "acceleration: PEER, CSV or two columns; or a folder of them");
-        what->add_option("--of", wish.run, "instead: the run of a study of several motions");
+            "FILE", options.file, "acceleration: PEER, CSV or two columns; or a folder of them");
+        what->add_option("--of", options.run, "instead: the run of a study of several motions");
         what->require_option(1);
-        sub->add_option("--scale-to-pga-g", wish.scale_to_pga_g, "peak acceleration [g]")
+        sub->add_option("--scale-to-pga-g", options.scale_to_pga_g, "peak acceleration [g]")
             ->check(CLI::PositiveNumber)
             ->needs(file);
-        sub->add_flag("--corrected", wish.corrected, "correct the baseline first")->needs(file);
+        sub->add_flag("--corrected", options.corrected, "correct the baseline first")->needs(file);
         CLI::Option* scene =
-            sub->add_option("--scene", wish.scene,
+            sub->add_option("--scene", options.scene,
                             "of a folder: print a study that shakes this scene by each record");
         scene->needs(file)->check(CLI::ExistingFile);
-        sub->add_option("--pga-g", wish.pga_g, "with --scene: scaled to each of these, 0.1,0.3")
+        sub->add_option("--pga-g", options.pga_g, "with --scene: scaled to each of these, 0.1,0.3")
             ->delimiter(',')
             ->check(CLI::PositiveNumber)
             ->needs(scene);
     }
 
     void add_import() {
-        ImportWish& wish = a_.import;
+        ImportOptions& options = a_.import;
         CLI::App* import_ =
             add("import", "a section drawn as DXF or CSV becomes a scene",
                 "dam.dxf --materials materials.json --map CORE=clay --unit m --output scene.json",
                 [this](Server&, const Console& c) { return import_drawing(a_.import, c); });
-        import_->add_option("DRAWING", wish.drawing, "DXF (text form), or CSV with region,x,y")
+        import_->add_option("DRAWING", options.drawing, "DXF (text form), or CSV with region,x,y")
             ->required();
-        import_->add_option("--materials", wish.materials, "JSON with a scene's materials")
+        import_->add_option("--materials", options.materials, "JSON with a scene's materials")
             ->required();
-        import_->add_option("--output", wish.output, "the scene (JSON)")->required();
-        import_->add_option("--draw", wish.picture, "the section (SVG), with its faults in red");
+        import_->add_option("--output", options.output, "the scene (JSON)")->required();
+        import_->add_option("--draw", options.picture, "the section (SVG), with its faults in red");
         const auto repeatable = [&](const char* option, std::vector<std::string>& to,
                                     const char* what) {
             import_->add_option(option, to, what)->allow_extra_args(false);
         };
-        repeatable("--map", wish.map,
+        repeatable("--map", options.map,
                    "LAYER=material, or LAYER=phreatic, terrain, ground, none; repeatable");
         repeatable(
-            "--layers", wish.layers,
+            "--layers", options.layers,
             "REGION=5,10,15 cuts it at these depths below the phreatic line [m]; repeatable");
-        import_->add_option("--phreatic", wish.phreatic, "phreatic line (CSV with x,y)");
-        import_->add_option("--terrain", wish.terrain, "terrain of the runout (CSV with x,y)");
-        import_->add_option("--ground", wish.ground, "ground to compare with (CSV with x,y)");
+        import_->add_option("--phreatic", options.phreatic, "phreatic line (CSV with x,y)");
+        import_->add_option("--terrain", options.terrain, "terrain of the runout (CSV with x,y)");
+        import_->add_option("--ground", options.ground, "ground to compare with (CSV with x,y)");
         import_
-            ->add_option("--tolerance", wish.tolerance,
+            ->add_option("--tolerance", options.tolerance,
                          "gaps and overlaps up to this are healed [m]")
             ->capture_default_str();
-        import_->add_option("--unit", wish.unit,
+        import_->add_option("--unit", options.unit,
                             "of the drawing: m, mm, cm, ft, ...; DXF may say it itself");
-        import_->add_option("--flatten", wish.flatten,
+        import_->add_option("--flatten", options.flatten,
                             "arcs become chords that are off by at most this [m]");
-        import_->add_option("--name", wish.name, "of the scene; else the drawing's");
-        import_->add_flag("--yes", wish.confirmed,
+        import_->add_option("--name", options.name, "of the scene; else the drawing's");
+        import_->add_flag("--yes", options.confirmed,
                           "sizes that look like a slip of the unit are meant");
     }
 
     void add_storage_commands() {
-        CLI::App* rm = add(
-            "rm", "remove runs, or files that were sent, from the server's disk", "latest --cancel",
-            [this](Server& s, const Console& c) {
-                const IfItRuns wish = a_.cancel_first ? IfItRuns::cancel_first : IfItRuns::refuse;
-                return remove_all(s, a_.ids, wish, a_.confirmed ? Confirm::given : Confirm::ask, c);
-            });
+        CLI::App* rm = add("rm", "remove runs, or files that were sent, from the server's disk",
+                           "latest --cancel", [this](Server& s, const Console& c) {
+                               const IfItRuns options =
+                                   a_.cancel_first ? IfItRuns::cancel_first : IfItRuns::refuse;
+                               return remove_all(s, a_.ids, options,
+                                                 a_.confirmed ? Confirm::given : Confirm::ask, c);
+                           });
         rm->add_option("RUN|FILE", a_.ids, "runs, or files as file:sha256/...")->required();
-        rm->add_flag("--cancel", a_.cancel_first, "cancel what still goes on, then remove it");
+        rm->add_flag("--cancel", a_.cancel_first,
+                     "cancel runs that have not ended, then remove them");
         rm->add_flag("-y,--yes", a_.confirmed, "do not ask, for scripts");
         add("du", "what holds the server's disk, and what removing each run would free", "--json",
             [](Server& s, const Console& c) { return disk_use(s, c); });

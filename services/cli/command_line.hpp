@@ -1,4 +1,4 @@
-// The words of `breach`, and the door: what is thrown inside becomes a message and an exit code.
+// The command line of `breach`: parses it, runs the command, and turns exceptions into a message and an exit code.
 //
 //      0  done
 //      2  usage

@@ -65,17 +65,17 @@ std::string run_named(Server& server, const std::string& name) {
 
 namespace {
 
-json post_wish(Server& server, const std::string& door, const SubmitWish& wish,
-               const Console& console) {
-    json study = wish.scene.empty() ? read_study(wish.study, wish.overrides)
-                                    : study_around(wish.scene, wish.overrides);
-    if (!wish.transfer_times.empty()) study["transfer_times"] = wish.transfer_times;
-    for (const std::string& each : overruled(study, wish.overrides))
+json post_submission(Server& server, const std::string& route, const SubmitOptions& options,
+                     const Console& console) {
+    json study = options.scene.empty() ? read_study(options.study, options.overrides)
+                                       : study_around(options.scene, options.overrides);
+    if (!options.transfer_times.empty()) study["transfer_times"] = options.transfer_times;
+    for (const std::string& each : overruled(study, options.overrides))
         console.notes << harmless(each) << "\n";
     Headers headers;
-    if (!wish.idempotency_key.empty()) headers["Idempotency-Key"] = wish.idempotency_key;
-    return post_study(server, door, std::move(study), headers,
-                      wish.send_files ? Sending::always : Sending::where_needed, console);
+    if (!options.idempotency_key.empty()) headers["Idempotency-Key"] = options.idempotency_key;
+    return post_study(server, route, std::move(study), headers,
+                      options.send_files ? Sending::always : Sending::where_needed, console);
 }
 
 ExitCode show_order(const json& answer, const Console& console) {
@@ -95,8 +95,8 @@ void show_added(const json& added, const std::string& none, const Console& conso
 
 }  // namespace
 
-ExitCode show_plan(Server& server, const SubmitWish& wish, const Console& console) {
-    const json cost = post_wish(server, "/v1/cost", wish, console);
+ExitCode show_plan(Server& server, const SubmitOptions& options, const Console& console) {
+    const json cost = post_submission(server, "/v1/cost", options, console);
     if (console.style == Style::json) {
         show_json(cost, console);
     } else {
@@ -105,8 +105,8 @@ ExitCode show_plan(Server& server, const SubmitWish& wish, const Console& consol
     return ExitCode::done;
 }
 
-std::string submit(Server& server, const SubmitWish& wish, const Console& console) {
-    const json run = post_wish(server, wish.door, wish, console);
+std::string submit(Server& server, const SubmitOptions& options, const Console& console) {
+    const json run = post_submission(server, options.route, options, console);
     if (console.style == Style::json) {
         show_json(run, console);
     } else {
@@ -192,26 +192,26 @@ ExitCode rename(Server& server, const std::string& run, const std::string& title
         console);
 }
 
-ExitCode code_of_end(const json& run, Doubt doubt, const Console& console) {
+ExitCode code_of_end(const json& run, Questionable questionable, const Console& console) {
     if (end_of(run) == RunEnd::bad) return ExitCode::breakdown;
     if (end_of(run) == RunEnd::short_of_budget) {
         console.notes << cell(run, "message") << "\n";
         return ExitCode::try_again;
     }
     if (!is_doubtful(run)) return ExitCode::done;
-    console.notes << doubt_of(run) << " (`breach results " << cell(run, "id")
+    console.notes << warning_of(run) << " (`breach results " << cell(run, "id")
                   << "` says what to do)\n";
-    return doubt == Doubt::fails ? ExitCode::breakdown : ExitCode::done;
+    return questionable == Questionable::fails ? ExitCode::breakdown : ExitCode::done;
 }
 
-ExitCode results(Server& server, const ResultsWish& wish, const Console& console) {
-    const std::string id = run_named(server, wish.run);
+ExitCode results(Server& server, const ResultsOptions& options, const Console& console) {
+    const std::string id = run_named(server, options.run);
     const bool csv = console.style == Style::csv;
     const std::string path =
         path_of({"runs", id, "results"}) + query_of({{"format", csv ? "csv" : ""},
-                                                     {"table", wish.means ? "means" : ""},
-                                                     {"state", wish.state},
-                                                     {"flag", wish.flag}});
+                                                     {"table", options.means ? "means" : ""},
+                                                     {"state", options.state},
+                                                     {"flag", options.flag}});
     if (csv) {
         console.out << server.get_text(path).body;
     } else if (console.style == Style::json) {
@@ -220,12 +220,13 @@ ExitCode results(Server& server, const ResultsWish& wish, const Console& console
         const json answer = server.get(path);
         const std::string means = as_mean_table(answer);
         console.out << as_verdict(answer) << means;
-        if (!wish.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
-        if (wish.means && means.empty()) console.notes << "the study has no draws\n";
+        if (!options.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
+        if (options.means && means.empty()) console.notes << "the study has no repeats\n";
     }
     const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";
-    return end_of(run) == RunEnd::not_yet ? ExitCode::done : code_of_end(run, wish.doubt, console);
+    return end_of(run) == RunEnd::not_yet ? ExitCode::done
+                                          : code_of_end(run, options.questionable, console);
 }
 
 ExitCode show_accuracy(Server& server, const std::string& run, const std::string& asked_error,
@@ -243,13 +244,14 @@ ExitCode show_accuracy(Server& server, const std::string& run, const std::string
     return ExitCode::done;
 }
 
-ExitCode show_uncertainty(Server& server, const UncertaintyWish& wish, const Console& console) {
-    const std::string path = path_of({"runs", run_named(server, wish.run), "uncertainty"});
+ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
+                          const Console& console) {
+    const std::string path = path_of({"runs", run_named(server, options.run), "uncertainty"});
     if (console.style == Style::csv) {
         console.out << server.get_text(path + "?format=csv").body;
         return ExitCode::done;
     }
-    const json answer = server.get(path + query_of({{"quantity", wish.quantity}}));
+    const json answer = server.get(path + query_of({{"quantity", options.quantity}}));
     if (console.style == Style::json) {
         show_json(answer, console);
     } else {
@@ -258,16 +260,16 @@ ExitCode show_uncertainty(Server& server, const UncertaintyWish& wish, const Con
     return ExitCode::done;
 }
 
-std::string check_accuracy(Server& server, const std::string& run, const CheckWish& wish,
+std::string check_accuracy(Server& server, const std::string& run, const CheckOptions& options,
                            const Console& console) {
-    const std::size_t colon = wish.rung.rfind(':');
+    const std::size_t colon = options.rung.rfind(':');
     const json made = server.post(
         path_of({"runs", run_named(server, run), "accuracy", "check"}) +
-            query_of({{"repeats", wish.repeats},
-                      {"ladder", wish.rung.substr(0, colon)},
-                      {"step", colon == std::string::npos ? "" : wish.rung.substr(colon + 1)},
-                      {"mean_of", wish.mean_of},
-                      {"asked_error", wish.asked_error}}),
+            query_of({{"repeats", options.repeats},
+                      {"ladder", options.rung.substr(0, colon)},
+                      {"step", colon == std::string::npos ? "" : options.rung.substr(colon + 1)},
+                      {"mean_of", options.mean_of},
+                      {"asked_error", options.asked_error}}),
         json::object());
     if (console.style == Style::json) {
         show_json(made, console);
@@ -277,17 +279,17 @@ std::string check_accuracy(Server& server, const std::string& run, const CheckWi
     return made.at("id");
 }
 
-ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console) {
-    const std::string path = path_of({"runs", run_named(server, wish.run), "telemetry"});
+ExitCode telemetry(Server& server, const TelemetryOptions& options, const Console& console) {
+    const std::string path = path_of({"runs", run_named(server, options.run), "telemetry"});
     json lines = json::array();
-    std::int64_t from = wish.from;
+    std::int64_t from = options.from;
     for (;;) {  // the server answers with a part of a long file at a time
-        json answer = server.get(path + query_of({{"phase", wish.phase},
-                                                  {"transfer_time", wish.transfer_time},
-                                                  {"variant", wish.variant},
-                                                  {"fields", wish.fields},
+        json answer = server.get(path + query_of({{"phase", options.phase},
+                                                  {"transfer_time", options.transfer_time},
+                                                  {"variant", options.variant},
+                                                  {"fields", options.fields},
                                                   {"from", std::to_string(from)},
-                                                  {"stride", std::to_string(wish.stride)}}));
+                                                  {"stride", std::to_string(options.stride)}}));
         for (json& line : answer.at("lines")) lines.push_back(std::move(line));
         const std::int64_t next = answer.at("next");
         if (next <= from || answer["lines"].empty()) break;
@@ -307,25 +309,25 @@ ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& con
     return ExitCode::done;
 }
 
-ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& console) {
-    const std::string target = console.style == Style::json ? "json" : wish.target;
+ExitCode hydrograph(Server& server, const HydrographOptions& options, const Console& console) {
+    const std::string target = console.style == Style::json ? "json" : options.target;
     const TextAnswer answer =
-        server.get_text(path_of({"runs", run_named(server, wish.run), "hydrograph"}) +
-                        query_of({{"section", wish.section},
+        server.get_text(path_of({"runs", run_named(server, options.run), "hydrograph"}) +
+                        query_of({{"section", options.section},
                                   {"for", target},
-                                  {"transfer_time", wish.transfer_time},
-                                  {"variant", wish.variant},
-                                  {"breach_width", wish.breach_width},
-                                  {"interval", wish.interval},
-                                  {"cell", wish.cell},
-                                  {"concentration", wish.concentration}}));
+                                  {"transfer_time", options.transfer_time},
+                                  {"variant", options.variant},
+                                  {"breach_width", options.breach_width},
+                                  {"interval", options.interval},
+                                  {"cell", options.cell},
+                                  {"concentration", options.concentration}}));
     // FLO-2D's file has no place for it.
     if (!answer.warning.empty()) console.notes << harmless(answer.warning) << "\n";
-    if (wish.file.empty()) {
+    if (options.file.empty()) {
         console.out << answer.body;
     } else {
-        exchange::publish_text(wish.file, answer.body);
-        console.out << wish.file.string() << "\n";
+        exchange::publish_text(options.file, answer.body);
+        console.out << options.file.string() << "\n";
     }
     return ExitCode::done;
 }

@@ -14,22 +14,22 @@
 
 namespace breach::cli {
 
-struct SubmitWish {
+struct SubmitOptions {
     std::filesystem::path study;
     std::filesystem::path scene = {};  ///< instead of a study: a study is made around it
     std::vector<std::string> overrides;
     std::string idempotency_key;              ///< empty: none
     std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: as it says
-    std::string door = "/v1/runs";            ///< or "/v1/sweeps"
+    std::string route = "/v1/runs";           ///< or "/v1/sweeps"
     bool send_files = false;                  ///< even to a server on this machine
 };
 
 /// Prints the new run's id, and returns it.
-std::string submit(Server& server, const SubmitWish& wish, const Console& console);
+std::string submit(Server& server, const SubmitOptions& options, const Console& console);
 
 /// What the study would cost and, of an uncertainty study, how many tasks it would make: nothing is
 /// submitted. Faults as for submitting.
-fault::ExitCode show_plan(Server& server, const SubmitWish& wish, const Console& console);
+fault::ExitCode show_plan(Server& server, const SubmitOptions& options, const Console& console);
 
 /// So many samples in all for an uncertainty study; prints those that are new to it.
 fault::ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
@@ -55,48 +55,49 @@ fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_
                              const Console& console);
 
 /// What a questionable result counts as in the exit code.
-enum class Doubt { accepted, fails };
+enum class Questionable { accepted, fails };
 
 /// breakdown (70) when the run, which has ended, failed or was cancelled, or when a result of it is
 /// questionable and that counts; try_again (75) when it stopped for its budget. Says on the side why it is not simply fine.
-fault::ExitCode code_of_end(const nlohmann::json& run, Doubt doubt, const Console& console);
+fault::ExitCode code_of_end(const nlohmann::json& run, Questionable questionable,
+                            const Console& console);
 
-struct ResultsWish {
+struct ResultsOptions {
     std::string run;
     std::string state;   ///< only rows in this state; empty: all
     std::string flag;    ///< only rows with a flag of this code; empty: all
     bool means = false;  ///< only the means over the draws
-    Doubt doubt = Doubt::accepted;
+    Questionable questionable = Questionable::accepted;
 };
 
 /// Exit code: code_of_end
-fault::ExitCode results(Server& server, const ResultsWish& wish, const Console& console);
+fault::ExitCode results(Server& server, const ResultsOptions& options, const Console& console);
 
 /// The table of an accuracy study, its ladders and what it recommends; of a blind check its means.
 /// asked_error: instead of the study's; empty: as it says.
 fault::ExitCode show_accuracy(Server& server, const std::string& run,
                               const std::string& asked_error, const Console& console);
 
-struct UncertaintyWish {
+struct UncertaintyOptions {
     std::string run;
     std::string quantity;  ///< only this one's statistics; empty: of all
 };
 /// What the samples of an uncertainty study say, as far as its run has come; as CSV the samples.
-fault::ExitCode show_uncertainty(Server& server, const UncertaintyWish& wish,
+fault::ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
                                  const Console& console);
 
-struct CheckWish {
-    std::string repeats;  ///< means of new draws; empty: no check is wished
+struct CheckOptions {
+    std::string repeats;  ///< means of new draws; empty: no check is requested
     std::string rung;     ///< "cells:2" instead of the recommended; empty: that
     std::string mean_of;  ///< draws in a mean; empty: as recommended
     std::string asked_error;
 };
 
 /// Prints the id of the run that draws a setting of an accuracy study anew, and returns it.
-std::string check_accuracy(Server& server, const std::string& run, const CheckWish& wish,
+std::string check_accuracy(Server& server, const std::string& run, const CheckOptions& options,
                            const Console& console);
 
-struct TelemetryWish {
+struct TelemetryOptions {
     std::string run;
     std::string phase;
     std::string transfer_time;  ///< empty: the phase has none
@@ -106,7 +107,7 @@ struct TelemetryWish {
     std::int64_t stride = 1;
 };
 
-struct HydrographWish {
+struct HydrographOptions {
     std::string run;
     std::string section;
     std::string target = "csv";  ///< json, csv, hec-ras or flo-2d
@@ -120,9 +121,10 @@ struct HydrographWish {
 };
 
 /// What passed a section of a runout, as rows or as another program takes it.
-fault::ExitCode hydrograph(Server& server, const HydrographWish& wish, const Console& console);
+fault::ExitCode hydrograph(Server& server, const HydrographOptions& options,
+                           const Console& console);
 
-fault::ExitCode telemetry(Server& server, const TelemetryWish& wish, const Console& console);
+fault::ExitCode telemetry(Server& server, const TelemetryOptions& options, const Console& console);
 /// document: a scene or a study.
 fault::ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console);
 

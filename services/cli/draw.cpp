@@ -19,9 +19,9 @@ using nlohmann::json;
 namespace {
 
 /// A scene is put into a study, so that overrides are read alike.
-json study_of(const DrawWish& wish, bool is_study) {
-    return is_study ? read_study(wish.document, wish.overrides)
-                    : study_around(wish.document, wish.overrides);
+json study_of(const DrawOptions& options, bool is_study) {
+    return is_study ? read_study(options.document, options.overrides)
+                    : study_around(options.document, options.overrides);
 }
 
 /// The fem_solver that was installed with this program; meshes are kept where caches are.
@@ -37,9 +37,11 @@ report::Mesher mesher_here() {
             caches / "breachline" / "meshes"};
 }
 
-std::optional<report::DrawnMesh> wanted_mesh(const report::Draft& draft, const DrawWish& wish) {
+std::optional<report::DrawnMesh> wanted_mesh(const report::Draft& draft,
+                                             const DrawOptions& options) {
     const auto& fem = draft.scene.fem;
-    if (!draft.faults.empty() || !fem || (!wish.mesh && !fem->mesh.msh_file)) return std::nullopt;
+    if (!draft.faults.empty() || !fem || (!options.mesh && !fem->mesh.msh_file))
+        return std::nullopt;
     return report::mesh_of(draft, mesher_here());
 }
 
@@ -82,18 +84,18 @@ Preview preview_of(Server& server, const json& document, const report::Draft& dr
 
 }  // namespace
 
-ExitCode draw(Server& server, const DrawWish& wish, const Console& console) {
-    const bool is_study = names_a_scene(wish.document);
-    const json study = study_of(wish, is_study);
+ExitCode draw(Server& server, const DrawOptions& options, const Console& console) {
+    const bool is_study = names_a_scene(options.document);
+    const json study = study_of(options, is_study);
     report::BaseScene base = report::base_scene_of(study);
     if (!is_study) base.pointer = "";
-    check::Checked checked = check::checked_document(base.scene, wish.document.string(),
-                                                     wish.document.parent_path(), base.overrides);
+    check::Checked checked = check::checked_document(
+        base.scene, options.document.string(), options.document.parent_path(), base.overrides);
     const report::Draft draft = report::draft_of(std::move(base), std::move(checked));
     std::vector<fault::Fault> faults = draft.faults;
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
-    if (!report::can_be_drawn(draft)) throw fault::BadInput(wish.document.string(), faults);
-    report::Additions additions{.mesh = wanted_mesh(draft, wish)};
+    if (!report::can_be_drawn(draft)) throw fault::BadInput(options.document.string(), faults);
+    report::Additions additions{.mesh = wanted_mesh(draft, options)};
     json cost{{"warnings", warnings_of(draft)}};
     if (faults.empty()) {
         Preview preview = preview_of(server, is_study ? study : draft.base.scene, draft,
@@ -111,11 +113,11 @@ ExitCode draw(Server& server, const DrawWish& wish, const Console& console) {
     for (const json& each : cost.at("warnings"))
         additions.warnings.push_back(
             {each.at("code"), fault::Severity::warning, each.at("message"), each.at("pointer")});
-    if (!wish.picture.empty())
-        exchange::publish_text(wish.picture, report::as_svg(draft, additions));
+    if (!options.picture.empty())
+        exchange::publish_text(options.picture, report::as_svg(draft, additions));
     if (faults.empty()) return ExitCode::done;
-    console.notes << "breach: " << fault::BadInput(wish.document.string(), std::move(faults)).what()
-                  << "\n";
+    console.notes << "breach: "
+                  << fault::BadInput(options.document.string(), std::move(faults)).what() << "\n";
     return ExitCode::bad_input;
 }
 

@@ -6,7 +6,7 @@
 
 namespace breach::cli {
 
-struct DrawWish {
+struct DrawOptions {
     std::filesystem::path document;  ///< a scene, or a study
     std::filesystem::path picture;   ///< to be written; empty: none
     std::vector<std::string> overrides = {};
@@ -15,6 +15,6 @@ struct DrawWish {
 
 /// Draws and prints the cost. A scene with faults is drawn with them; the faults are told on the side
 /// and the exit code is bad_input. Throws BadInput where there is nothing to draw.
-fault::ExitCode draw(Server& server, const DrawWish& wish, const Console& console);
+fault::ExitCode draw(Server& server, const DrawOptions& options, const Console& console);
 
 }  // namespace breach::cli

@@ -74,7 +74,7 @@ class Export {
         keep_json("results.json", answer, "one row per transfer time");
         if (!answer.value("means", json::array()).empty())
             keep_text("means.csv", server_.get_text(results + "?format=csv&table=means").body,
-                      "means over the draws");
+                      "means over the repeats");
         keep_text("results.csv", server_.get_text(results + "?format=csv").body,
                   "one row per transfer time");
         if (study.contains("accuracy"))
@@ -85,7 +85,7 @@ class Export {
             keep_json("uncertainty.json", server_.get(found),
                       "what the samples say of the results");
             keep_text("samples.csv", server_.get_text(found + "?format=csv").body,
-                      "one row per sample: draws and results");
+                      "one row per sample: values and results");
         }
         keep_motions(path_of({"runs", id, "motions"}), tasks);
         for (const json& each : tasks) task(each.at("id"));

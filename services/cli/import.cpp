@@ -39,12 +39,12 @@ std::optional<importing::Sent> sent(const std::filesystem::path& file) {
     return importing::Sent{file.filename().string(), bytes_of(file)};
 }
 
-/// Whether doubts are all that is wrong, and someone at a terminal says that they are none.
+/// Whether to_confirm are all that is wrong, and someone at a terminal says that they are none.
 bool is_confirmed(const importing::Imported& imported, const Console& console) {
-    const auto& doubts = imported.doubts;
-    if (doubts.empty() || doubts.size() < imported.faults.size()) return false;
+    const auto& to_confirm = imported.to_confirm;
+    if (to_confirm.empty() || to_confirm.size() < imported.faults.size()) return false;
     if (isatty(STDIN_FILENO) != 1 || isatty(STDERR_FILENO) != 1) return false;
-    for (const fault::Fault& each : doubts) console.notes << each.cause << "\n";
+    for (const fault::Fault& each : to_confirm) console.notes << each.cause << "\n";
     console.notes << "Is that right? [y/N] " << std::flush;
     std::string answer;
     std::getline(std::cin, answer);
@@ -53,20 +53,20 @@ bool is_confirmed(const importing::Imported& imported, const Console& console) {
 
 }  // namespace
 
-ExitCode import_drawing(const ImportWish& wish, const Console& console) {
-    importing::Wish asked{
-        .drawing = *sent(wish.drawing),
-        .materials = scene::parse_json(bytes_of(wish.materials), wish.materials.string()),
-        .map = wish.map,
-        .layers = wish.layers,
-        .phreatic = sent(wish.phreatic),
-        .terrain = sent(wish.terrain),
-        .ground = sent(wish.ground),
-        .unit = wish.unit,
-        .tolerance = wish.tolerance,
-        .flatten = wish.flatten,
-        .name = wish.name,
-        .confirmed = wish.confirmed};
+ExitCode import_drawing(const ImportOptions& options, const Console& console) {
+    importing::Request asked{
+        .drawing = *sent(options.drawing),
+        .materials = scene::parse_json(bytes_of(options.materials), options.materials.string()),
+        .map = options.map,
+        .layers = options.layers,
+        .phreatic = sent(options.phreatic),
+        .terrain = sent(options.terrain),
+        .ground = sent(options.ground),
+        .unit = options.unit,
+        .tolerance = options.tolerance,
+        .flatten = options.flatten,
+        .name = options.name,
+        .confirmed = options.confirmed};
     importing::Imported imported = importing::import_section(asked);
     if (is_confirmed(imported, console)) {
         asked.confirmed = true;
@@ -75,20 +75,20 @@ ExitCode import_drawing(const ImportWish& wish, const Console& console) {
     const json shown =
         imported.faults.empty()
             ? imported.scene
-            : json{{"title", "What is wrong with " + wish.drawing.filename().string()}};
+            : json{{"title", "What is wrong with " + options.drawing.filename().string()}};
     const report::Draft draft{{shown, {}, ""}, std::move(imported.sketch), imported.faults};
-    if (!wish.picture.empty() && report::can_be_drawn(draft))
-        exchange::publish_text(wish.picture, report::as_svg(draft, {}));
+    if (!options.picture.empty() && report::can_be_drawn(draft))
+        exchange::publish_text(options.picture, report::as_svg(draft, {}));
     if (!imported.faults.empty())
-        throw fault::BadInput(wish.drawing.string(), std::move(imported.faults));
-    exchange::publish_text(wish.output, imported.scene.dump(1) + "\n");
+        throw fault::BadInput(options.drawing.string(), std::move(imported.faults));
+    exchange::publish_text(options.output, imported.scene.dump(1) + "\n");
     if (console.style == Style::json) {
         console.out << imported.report.dump(2) << "\n";
         return ExitCode::done;
     }
     for (const std::string& each : importing::lines_of(imported.report, most_lines))
         console.notes << each << "\n";
-    console.out << wish.output.string() << "\n";
+    console.out << options.output.string() << "\n";
     return ExitCode::done;
 }
 

@@ -12,7 +12,7 @@
 
 namespace breach::cli {
 
-struct ImportWish {
+struct ImportOptions {
     std::filesystem::path drawing, materials, output;
     std::filesystem::path picture = {};  ///< empty: none
     std::filesystem::path phreatic = {}, terrain = {}, ground = {};
@@ -25,6 +25,6 @@ struct ImportWish {
 
 /// At a terminal, asks whether sizes that look like a slip are meant. Writes the scene and tells what was healed, guessed and passed over. With faults only the picture
 /// is written; they are told on the side and the exit code is bad_input.
-fault::ExitCode import_drawing(const ImportWish& wish, const Console& console);
+fault::ExitCode import_drawing(const ImportOptions& options, const Console& console);
 
 }  // namespace breach::cli

@@ -60,19 +60,19 @@ std::string read_log(Server& server, const std::string& task, std::int64_t attem
     return more_of(server, task, attempt, offset);
 }
 
-ExitCode show_log(Server& server, const LogWish& wish, const Console& console) {
-    const std::string path = path_of({"tasks", wish.task});
-    std::int64_t attempt = wish.attempt ? *wish.attempt : newest_attempt(server.get(path));
+ExitCode show_log(Server& server, const LogOptions& options, const Console& console) {
+    const std::string path = path_of({"tasks", options.task});
+    std::int64_t attempt = options.attempt ? *options.attempt : newest_attempt(server.get(path));
     std::int64_t offset = 0;
-    console.out << last_lines(more_of(server, wish.task, attempt, offset), wish.lines)
+    console.out << last_lines(more_of(server, options.task, attempt, offset), options.lines)
                 << std::flush;
-    while (wish.follow == Follow::until_the_end) {
+    while (options.follow == Follow::until_the_end) {
         if (!console.out) throw fault::IoError("nobody reads the output any more");
         // Asked before the rest is read: what was written before the end is then surely shown.
         const json task = server.get(path);
-        console.out << more_of(server, wish.task, attempt, offset) << std::flush;
+        console.out << more_of(server, options.task, attempt, offset) << std::flush;
         const std::int64_t newest = newest_attempt(task);
-        if (!wish.attempt && newest > attempt) {
+        if (!options.attempt && newest > attempt) {
             console.notes << "attempt " << newest << "\n";
             attempt = newest;
             offset = 0;

@@ -11,14 +11,14 @@ namespace breach::cli {
 
 enum class Follow { no, until_the_end };
 
-struct LogWish {
+struct LogOptions {
     std::string task;
     std::optional<std::int64_t> attempt;  ///< else the newest
     std::size_t lines = 0;                ///< the last so many; 0: all
     Follow follow = Follow::no;
 };
 
-fault::ExitCode show_log(Server& server, const LogWish& wish, const Console& console);
+fault::ExitCode show_log(Server& server, const LogOptions& options, const Console& console);
 
 /// The whole log of one attempt as it is now.
 std::string read_log(Server& server, const std::string& task, std::int64_t attempt);

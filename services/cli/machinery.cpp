@@ -76,12 +76,12 @@ ExitCode workers(Server& server, const Console& console) {
     return ExitCode::done;
 }
 
-ExitCode transfers(Server& server, const TransfersWish& wish, const Console& console) {
-    const std::string path = wish.run.empty()
+ExitCode transfers(Server& server, const TransfersOptions& options, const Console& console) {
+    const std::string path = options.run.empty()
                                  ? std::string("/v1/transfers")
-                                 : path_of({"runs", run_named(server, wish.run), "transfers"});
-    const json answer =
-        server.get(path + query_of({{"why", wish.why}, {"limit", std::to_string(wish.most)}}));
+                                 : path_of({"runs", run_named(server, options.run), "transfers"});
+    const json answer = server.get(
+        path + query_of({{"why", options.why}, {"limit", std::to_string(options.most)}}));
     const json& list = answer.at("transfers");
     if (answer.at("next").is_string())
         console.notes << "only the newest " << list.size()

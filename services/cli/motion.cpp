@@ -14,11 +14,12 @@ using nlohmann::json;
 
 namespace {
 
-motion::Series acceleration_in(const std::filesystem::path& file, const MotionWish& wish) {
-    const motion::Recording motion = check::applied_motion(
-        {.file = file,
-         .scale_to_pga_g = wish.scale_to_pga_g,
-         .baseline = wish.corrected ? scene::Baseline::corrected : scene::Baseline::as_recorded});
+motion::Series acceleration_in(const std::filesystem::path& file, const MotionOptions& options) {
+    const motion::Recording motion =
+        check::applied_motion({.file = file,
+                               .scale_to_pga_g = options.scale_to_pga_g,
+                               .baseline = options.corrected ? scene::Baseline::corrected
+                                                             : scene::Baseline::as_recorded});
     if (motion.quantity == motion::Quantity::acceleration) return motion.series;
     throw fault::BadInput(file.string(),
                           {{"", "is no acceleration", "give the acceleration of the record"}});
@@ -49,22 +50,22 @@ struct Measured {
 };
 
 /// The records of a folder, sorted by name. A file that is no record is named and left out.
-std::vector<Measured> records_in(const MotionWish& wish, const Console& console) {
+std::vector<Measured> records_in(const MotionOptions& options, const Console& console) {
     std::vector<std::filesystem::path> files;
-    for (const auto& each : std::filesystem::directory_iterator(wish.file))
+    for (const auto& each : std::filesystem::directory_iterator(options.file))
         if (each.is_regular_file()) files.push_back(each.path());
     std::ranges::sort(files);
     std::vector<Measured> found;
     for (const auto& each : files) {
         try {
             found.push_back(
-                {each, motion::as_json(motion::measures_of(acceleration_in(each, wish)))});
+                {each, motion::as_json(motion::measures_of(acceleration_in(each, options)))});
         } catch (const fault::BadInput& error) {
             console.notes << each.filename().string() << ": left out: " << error.what() << "\n";
         }
     }
     if (found.empty())
-        throw fault::BadInput(wish.file.string(),
+        throw fault::BadInput(options.file.string(),
                               {{"", "holds no record", "give a folder of accelerations"}});
     return found;
 }
@@ -82,7 +83,7 @@ std::string variant_named(const std::filesystem::path& file, std::optional<doubl
 }
 
 /// A study that shakes the scene by each record, at each peak, and transfers in the middle of its window.
-json study_of(const std::vector<Measured>& records, const MotionWish& wish) {
+json study_of(const std::vector<Measured>& records, const MotionOptions& options) {
     json variants = json::array();
     const auto add = [&](const Measured& each, std::optional<double> pga_g) {
         const auto file = std::filesystem::absolute(each.file).lexically_normal().string();
@@ -91,12 +92,12 @@ json study_of(const std::vector<Measured>& records, const MotionWish& wish) {
         variants.push_back({{"name", variant_named(each.file, pga_g)}, {"overrides", overrides}});
     };
     for (const Measured& each : records) {
-        if (wish.pga_g.empty()) add(each, std::nullopt);
-        for (const double pga_g : wish.pga_g) add(each, pga_g);
+        if (options.pga_g.empty()) add(each, std::nullopt);
+        for (const double pga_g : options.pga_g) add(each, pga_g);
     }
     return {{"format", "breachline-study/1"},
             {"name", "motions"},
-            {"scene", std::filesystem::absolute(wish.scene).lexically_normal().string()},
+            {"scene", std::filesystem::absolute(options.scene).lexically_normal().string()},
             {"variants", variants},
             {"triggers",
              {{{"kind", "window"},
@@ -152,26 +153,27 @@ std::string found_as_text(const json& found) {
 
 }  // namespace
 
-fault::ExitCode show_motion(Server& server, const MotionWish& wish, const Console& console) {
+fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console) {
     const auto show = [&](const json& answer, const auto& text) {
         if (console.style == Style::json)
             show_json(answer, console);
         else
             console.out << text();
     };
-    if (!wish.run.empty()) {
-        const json found = server.get(path_of({"runs", run_named(server, wish.run), "motions"}));
+    if (!options.run.empty()) {
+        const json found = server.get(path_of({"runs", run_named(server, options.run), "motions"}));
         show(found, [&] { return found_as_text(found); });
-    } else if (std::filesystem::is_directory(wish.file)) {
-        const auto records = records_in(wish, console);
+    } else if (std::filesystem::is_directory(options.file)) {
+        const auto records = records_in(options, console);
         json all;
         for (const auto& [file, measures] : records) all[file.filename().string()] = measures;
-        if (!wish.scene.empty())
-            show_json(study_of(records, wish), console);
+        if (!options.scene.empty())
+            show_json(study_of(records, options), console);
         else
             show(all, [&] { return as_text(records); });
     } else {
-        const json all = motion::as_json(motion::measures_of(acceleration_in(wish.file, wish)));
+        const json all =
+            motion::as_json(motion::measures_of(acceleration_in(options.file, options)));
         show(all, [&] { return as_text(all); });
     }
     return fault::ExitCode::done;

@@ -8,7 +8,7 @@
 
 namespace breach::cli {
 
-struct MotionWish {
+struct MotionOptions {
     std::filesystem::path file;   ///< or a folder of them
     std::string run;              ///< instead: of a study of motions
     std::filesystem::path scene;  ///< write a study that shakes it by each record
@@ -17,6 +17,6 @@ struct MotionWish {
     bool corrected = false;  ///< the baseline first
 };
 
-fault::ExitCode show_motion(Server& server, const MotionWish& wish, const Console& console);
+fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console);
 
 }  // namespace breach::cli

@@ -39,12 +39,12 @@ json value_of(const std::string& text) {
     return value.is_number() ? value : json(text);
 }
 
-void take_option(CLI::App& word, const Option& option, NewWish& wish) {
+void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
     const std::string flag = flag_of(option.name);
     if (option.kind == Kind::yes_or_no) {
         const auto add = [&](const std::string& name, bool value) {
             CLI::Option* made = word.add_flag_callback(
-                name, [&wish, entry = option.name, value] { wish.options[entry] = value; },
+                name, [&chosen, entry = option.name, value] { chosen.options[entry] = value; },
                 option.help + " (default " + (option.value > 0.5 ? "yes" : "no") + ")");
             if (value == (option.value > 0.5))
                 made->group("");  // it changes nothing: not in the help
@@ -55,8 +55,8 @@ void take_option(CLI::App& word, const Option& option, NewWish& wish) {
     }
     word.add_option_function<std::string>(
             flag,
-            [&wish, name = option.name](const std::string& text) {
-                wish.options[name] = value_of(text);
+            [&chosen, name = option.name](const std::string& text) {
+                chosen.options[name] = value_of(text);
             },
             help_of(option))
         ->type_name(option.unit == "1" ? "N" : option.unit);
@@ -86,14 +86,14 @@ void list_templates(const Console& console) {
 }
 
 /// Where options are written as flags, faults name them so.
-templates::Made made_of(const NewWish& wish, const json& options) {
+templates::Made made_of(const NewOptions& chosen, const json& options) {
     try {
-        return templates::make(wish.made_from, options);
+        return templates::make(chosen.made_from, options);
     } catch (const fault::BadInput& refusal) {
         std::vector<fault::Fault> faults = refusal.faults();
         for (fault::Fault& each : faults)
             if (each.pointer.size() > 1) each.pointer = flag_of(each.pointer.substr(1));
-        throw fault::BadInput("breach new " + wish.made_from, std::move(faults));
+        throw fault::BadInput("breach new " + chosen.made_from, std::move(faults));
     }
 }
 
@@ -108,41 +108,41 @@ void refuse_to_overwrite(const std::map<std::filesystem::path, std::string>& fil
 
 }  // namespace
 
-void take_templates(CLI::App& word, NewWish& wish) {
-    word.add_flag("--list", wish.list, "the templates");
+void take_templates(CLI::App& word, NewOptions& chosen) {
+    word.add_flag("--list", chosen.list, "the templates");
     word.require_subcommand(0, 1);
     for (const templates::Template& each : templates::catalogue()) {
         CLI::App* sub = word.add_subcommand(each.name, each.title);
-        for (const Option& option : each.options) take_option(*sub, option, wish);
+        for (const Option& option : each.options) take_option(*sub, option, chosen);
         sub->add_option_function<std::string>(
-            "--name", [&wish](const std::string& name) { wish.options["name"] = name; },
+            "--name", [&chosen](const std::string& name) { chosen.options["name"] = name; },
             "of scene and study; without it that of the folder");
         sub->add_option(
-            "--output", wish.folder,
+            "--output", chosen.folder,
             "folder for scene.json and study.json; without it one that is named like the template");
-        sub->add_flag("--force", wish.force, "write over the files that are there");
-        sub->callback([&wish, name = each.name] { wish.made_from = name; });
+        sub->add_flag("--force", chosen.force, "write over the files that are there");
+        sub->callback([&chosen, name = each.name] { chosen.made_from = name; });
         sub->footer("Example:\n  breach new " + each.name + " --height 20 --output my_" +
                     each.name);
     }
 }
 
-ExitCode make_new(const NewWish& wish, const Console& console) {
-    if (wish.made_from.empty()) {
+ExitCode make_new(const NewOptions& chosen, const Console& console) {
+    if (chosen.made_from.empty()) {
         list_templates(console);
         return ExitCode::done;
     }
     const std::filesystem::path folder =
-        wish.folder.empty() ? std::filesystem::path(wish.made_from) : wish.folder;
-    json options = wish.options;
+        chosen.folder.empty() ? std::filesystem::path(chosen.made_from) : chosen.folder;
+    json options = chosen.options;
     if (const std::string name = name_for(folder); !options.contains("name") && !name.empty())
         options["name"] = name;
-    const templates::Made made = made_of(wish, options);
+    const templates::Made made = made_of(chosen, options);
     std::map<std::filesystem::path, std::string> files{
         {folder / "scene.json", templates::as_text(made.scene)},
         {folder / "study.json", templates::as_text(made.study)}};
     if (!made.motion.empty()) files[folder / "motion.csv"] = made.motion;
-    if (!wish.force) refuse_to_overwrite(files);
+    if (!chosen.force) refuse_to_overwrite(files);
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
@@ -152,7 +152,7 @@ ExitCode make_new(const NewWish& wish, const Console& console) {
         written.push_back(path.string());
     }
     if (console.style == Style::json) {
-        console.out << json{{"template", wish.made_from},
+        console.out << json{{"template", chosen.made_from},
                             {"options", made.options},
                             {"files", written}}
                            .dump(2)

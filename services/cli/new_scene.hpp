@@ -11,7 +11,7 @@
 
 namespace breach::cli {
 
-struct NewWish {
+struct NewOptions {
     bool list = false;
     bool force = false;                                 ///< writes over what is there
     std::string made_from;                              ///< name of the template
@@ -20,11 +20,11 @@ struct NewWish {
 };
 
 /// Every template as a word below `new`, its options with unit, range and default; what is given goes
-/// into `wish`, which must live as long as the word.
-void take_templates(CLI::App& word, NewWish& wish);
+/// into `chosen`, which must live as long as the word.
+void take_templates(CLI::App& word, NewOptions& chosen);
 
 /// Writes scene.json, study.json and, for a shaken scene, motion.csv; prints what to do next. Throws
 /// BadInput for options that close no section and for files that are there.
-fault::ExitCode make_new(const NewWish& wish, const Console& console);
+fault::ExitCode make_new(const NewOptions& chosen, const Console& console);
 
 }  // namespace breach::cli

@@ -32,12 +32,12 @@ std::string path_of_scene(std::string address) {
 
 }  // namespace
 
-ExitCode list_scenes(Server& server, const ScenesWish& wish, const Console& console) {
+ExitCode list_scenes(Server& server, const ScenesOptions& options, const Console& console) {
     json scenes = json::array();
     std::string cursor;
     do {
         const json page =
-            server.get("/v1/scenes" + query_of({{"search", wish.found}, {"cursor", cursor}}));
+            server.get("/v1/scenes" + query_of({{"search", options.found}, {"cursor", cursor}}));
         for (const json& each : page.at("scenes")) scenes.push_back(each);
         cursor = page.at("next").is_string() ? page["next"].get<std::string>() : "";
     } while (!cursor.empty());
@@ -63,32 +63,33 @@ ExitCode list_scenes(Server& server, const ScenesWish& wish, const Console& cons
     return ExitCode::done;
 }
 
-ExitCode show_scene(Server& server, const ScenesWish& wish, const Console& console) {
-    const json answer = server.get(path_of_scene(wish.address));
+ExitCode show_scene(Server& server, const ScenesOptions& options, const Console& console) {
+    const json answer = server.get(path_of_scene(options.address));
     console.notes << "SHA-256 " << cell(answer, "sha256") << ", " << names_of(answer) << "\n";
     show_json(console.style == Style::json ? answer : answer.at("scene"), console);
     return ExitCode::done;
 }
 
-ExitCode add_scene(Server& server, const ScenesWish& wish, const Console& console) {
-    const json stored = post_scene(
-        server, "/v1/scenes" + query_of({{"name", wish.name}}), read_scene_document(wish.file),
-        wish.send_files ? Sending::always : Sending::where_needed, console);
+ExitCode add_scene(Server& server, const ScenesOptions& options, const Console& console) {
+    const json stored =
+        post_scene(server, "/v1/scenes" + query_of({{"name", options.name}}),
+                   read_scene_document(options.file),
+                   options.send_files ? Sending::always : Sending::where_needed, console);
     if (console.style == Style::json) {
         show_json(stored, console);
         return ExitCode::done;
     }
     for (const json& each : stored.at("names")) {
-        if (each.at("name") != wish.name) continue;
-        console.out << scene::stored_scene << wish.name << "@" << cell(each, "version") << "\n";
+        if (each.at("name") != options.name) continue;
+        console.out << scene::stored_scene << options.name << "@" << cell(each, "version") << "\n";
         return ExitCode::done;
     }
     console.out << cell(stored, "reference") << "\n";
     return ExitCode::done;
 }
 
-ExitCode remove_scene(Server& server, const ScenesWish& wish, const Console& console) {
-    const json answer = server.remove(path_of_scene(wish.address));
+ExitCode remove_scene(Server& server, const ScenesOptions& options, const Console& console) {
+    const json answer = server.remove(path_of_scene(options.address));
     if (console.style == Style::json)
         show_json(answer, console);
     else
@@ -96,7 +97,7 @@ ExitCode remove_scene(Server& server, const ScenesWish& wish, const Console& con
     return ExitCode::done;
 }
 
-void take_scene_words(CLI::App& word, ScenesWish& wish,
+void take_scene_words(CLI::App& word, ScenesOptions& options,
                       const std::function<void(ScenesCommand)>& chosen) {
     word.require_subcommand(0, 1);
     const auto add = [&](const char* name, const char* what, const char* example,
@@ -107,20 +108,20 @@ void take_scene_words(CLI::App& word, ScenesWish& wish,
         return sub;
     };
     add("list", "scenes that the server keeps", "--search dam", list_scenes)
-        ->add_option("--search", wish.found, "only those with this in a name");
+        ->add_option("--search", options.found, "only those with this in a name");
     add("show", "a stored scene, completed", "dam@2 > scene.json", show_scene)
-        ->add_option("SCENE", wish.address, "NAME, NAME@VERSION or SHA-256")
+        ->add_option("SCENE", options.address, "NAME, NAME@VERSION or SHA-256")
         ->required();
     CLI::App* store = add("add", "store a scene; prints how a study refers to it",
                           "scene.json --name dam", add_scene);
-    store->add_option("SCENE", wish.file, "scene file (JSON)")->required();
-    store->add_option("--name", wish.name,
+    store->add_option("SCENE", options.file, "scene file (JSON)")->required();
+    store->add_option("--name", options.name,
                       "that stands for it from now on; another scene becomes its next version");
-    store->add_flag("--send-files", wish.send_files,
+    store->add_flag("--send-files", options.send_files,
                     "send its motions and meshes even to a server on this machine");
     add("rm", "remove a name with all versions, or a content that nothing needs", "dam",
         remove_scene)
-        ->add_option("SCENE", wish.address, "NAME or SHA-256")
+        ->add_option("SCENE", options.address, "NAME or SHA-256")
         ->required();
 }
 

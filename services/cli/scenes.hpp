@@ -10,7 +10,7 @@
 
 namespace breach::cli {
 
-struct ScenesWish {
+struct ScenesOptions {
     std::string address;  ///< NAME, NAME@3, SHA-256, or a reference with "scene:" before it
     std::filesystem::path file;
     std::string name;   ///< by which it is stored; empty: by its content alone
@@ -18,16 +18,16 @@ struct ScenesWish {
     bool send_files = false;
 };
 
-fault::ExitCode list_scenes(Server& server, const ScenesWish& wish, const Console& console);
+fault::ExitCode list_scenes(Server& server, const ScenesOptions& options, const Console& console);
 /// The scene itself, completed, with nothing around it: it may go into a file.
-fault::ExitCode show_scene(Server& server, const ScenesWish& wish, const Console& console);
+fault::ExitCode show_scene(Server& server, const ScenesOptions& options, const Console& console);
 /// Prints how a study refers to it.
-fault::ExitCode add_scene(Server& server, const ScenesWish& wish, const Console& console);
-fault::ExitCode remove_scene(Server& server, const ScenesWish& wish, const Console& console);
+fault::ExitCode add_scene(Server& server, const ScenesOptions& options, const Console& console);
+fault::ExitCode remove_scene(Server& server, const ScenesOptions& options, const Console& console);
 
-using ScenesCommand = fault::ExitCode (*)(Server&, const ScenesWish&, const Console&);
+using ScenesCommand = fault::ExitCode (*)(Server&, const ScenesOptions&, const Console&);
 /// The words below `scenes`; `chosen` gets the command of the one that is given.
-void take_scene_words(CLI::App& word, ScenesWish& wish,
+void take_scene_words(CLI::App& word, ScenesOptions& options,
                       const std::function<void(ScenesCommand)>& chosen);
 
 }  // namespace breach::cli

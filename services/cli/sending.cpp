@@ -121,20 +121,20 @@ void show_warnings(const json& answer, const Console& console) {
                       << cell(each, "message") << "\n";
 }
 
-json post_study(Server& server, const std::string& door, json study, const Headers& headers,
+json post_study(Server& server, const std::string& route, json study, const Headers& headers,
                 Sending sending, const Console& console) {
     json answer =
         post_with_files(server, std::move(study), sending, console,
-                        [&](const json& sent) { return server.post(door, sent, headers); });
+                        [&](const json& sent) { return server.post(route, sent, headers); });
     show_warnings(answer, console);
     return answer;
 }
 
-json post_scene(Server& server, const std::string& door, const json& scene, Sending sending,
+json post_scene(Server& server, const std::string& route, const json& scene, Sending sending,
                 const Console& console) {
     json answer =
         post_with_files(server, {{"scene", scene}}, sending, console,
-                        [&](const json& sent) { return server.post(door, sent.at("scene")); });
+                        [&](const json& sent) { return server.post(route, sent.at("scene")); });
     show_warnings(answer, console);
     return answer;
 }

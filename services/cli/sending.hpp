@@ -25,11 +25,11 @@ bool is_about_a_file(const fault::Fault& fault);
 
 /// Posts the study, and shows the warnings of the answer. The files that it names, in its scene or in overrides, are sent first where the
 /// server cannot have them: it is another machine, or says that it does not find them.
-nlohmann::json post_study(Server& server, const std::string& door, nlohmann::json study,
+nlohmann::json post_study(Server& server, const std::string& route, nlohmann::json study,
                           const Headers& headers, Sending sending, const Console& console);
 
 /// The same for a scene alone.
-nlohmann::json post_scene(Server& server, const std::string& door, const nlohmann::json& scene,
+nlohmann::json post_scene(Server& server, const std::string& route, const nlohmann::json& scene,
                           Sending sending, const Console& console);
 
 }  // namespace breach::cli

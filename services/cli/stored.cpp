@@ -68,7 +68,7 @@ bool wants(const std::vector<Removed>& all) {
 
 }  // namespace
 
-ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns wish,
+ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
                     Confirm confirm, const Console& console) {
     const std::vector<Removed> all = meant(server, names);
     if (confirm == Confirm::ask && isatty(STDIN_FILENO) != 1)
@@ -81,7 +81,7 @@ ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItR
         try {
             answer = server.remove(path);
         } catch (const Refused& refused) {
-            if (refused.type() != "/problems/going-on" || wish == IfItRuns::refuse) throw;
+            if (refused.type() != "/problems/going-on" || options == IfItRuns::refuse) throw;
             server.post(path + "/cancel", json::object());
             wait_for_the_end(server, id);
             answer = server.remove(path);

@@ -13,7 +13,7 @@ namespace breach::cli {
 enum class IfItRuns { refuse, cancel_first };
 /// Says what goes and how much disk that frees, and takes yes or no on a terminal.
 enum class Confirm { ask, given };
-fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns wish,
+fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
                            Confirm confirm, const Console& console);
 fault::ExitCode disk_use(Server& server, const Console& console);
 fault::ExitCode list_files(Server& server, const Console& console);

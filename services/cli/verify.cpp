@@ -34,15 +34,15 @@ std::string machine() {
 
 }  // namespace
 
-fault::ExitCode verify(const VerifyWish& wish, const Console& console) {
+fault::ExitCode verify(const VerifyOptions& options, const Console& console) {
     const auto catalogue =
-        verify::catalogue_in(wish.catalogue.empty() ? shipped_catalogue() : wish.catalogue);
+        verify::catalogue_in(options.catalogue.empty() ? shipped_catalogue() : options.catalogue);
     const verify::Settings settings{.programs = own_folder(),
-                                    .output = wish.output,
-                                    .quick = wish.quick,
+                                    .output = options.output,
+                                    .quick = options.quick,
                                     .slots = std::max(1U, std::thread::hardware_concurrency())};
-    fs::create_directories(wish.output);
-    const verify::About about{verify::versions_of(settings), machine(), wish.quick};
+    fs::create_directories(options.output);
+    const verify::About about{verify::versions_of(settings), machine(), options.quick};
     std::size_t done = 0;
     const auto outcomes =
         verify::compare(catalogue, settings, [&](const verify::Outcome& each, std::size_t of) {
@@ -59,9 +59,10 @@ fault::ExitCode verify(const VerifyWish& wish, const Console& console) {
                           << (said.empty() ? "" : "  failed") << "\n"
                           << said;
         });
-    verify::write_pages(wish.output, catalogue, outcomes, about);
+    verify::write_pages(options.output, catalogue, outcomes, about);
     const verify::Sum sum = verify::sum_of(outcomes);
-    console.out << verify::in_words(sum) << "\n" << (wish.output / "index.html").string() << "\n";
+    console.out << verify::in_words(sum) << "\n"
+                << (options.output / "index.html").string() << "\n";
     return sum.passed == sum.comparisons ? fault::ExitCode::done : fault::ExitCode::breakdown;
 }
 

@@ -7,13 +7,13 @@
 
 namespace breach::cli {
 
-struct VerifyWish {
+struct VerifyOptions {
     std::filesystem::path output = "verification";
     std::filesystem::path catalogue;  ///< empty: the one that is shipped
     bool quick = false;
 };
 
 /// breakdown where a comparison fails.
-fault::ExitCode verify(const VerifyWish& wish, const Console& console);
+fault::ExitCode verify(const VerifyOptions& options, const Console& console);
 
 }  // namespace breach::cli

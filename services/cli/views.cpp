@@ -168,7 +168,7 @@ bool is_doubtful(const json& run) {
     return is_one_of(cell(run.value("verdict", json::object()), "usable"), {"questionable", "no"});
 }
 
-std::string doubt_of(const json& run) {
+std::string warning_of(const json& run) {
     return is_doubtful(run) ? cell(run.at("verdict"), "words") + ": " + cell(run, "message") : "";
 }
 
@@ -181,7 +181,7 @@ std::string as_run_table(const json& runs) {
     for (const json& run : runs) {
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), percent(run),
                         moment(run, "created"),
-                        tasks_of(run) + (is_doubtful(run) ? "  " + doubt_of(run) : "")});
+                        tasks_of(run) + (is_doubtful(run) ? "  " + warning_of(run) : "")});
     }
     return as_table({{"run", Align::left},
                      {"name", Align::left},
@@ -351,7 +351,7 @@ std::string as_mean_table(const json& answer) {
         std::ranges::any_of(means, [](const json& row) { return row.value("variant", "") != ""; });
     std::vector<Column> columns;
     if (variants) columns.push_back({"variant", Align::left});
-    for (const char* each : {"t_T [s]", "state", "draws"}) columns.push_back({each, Align::left});
+    for (const char* each : {"t_T [s]", "state", "repeats"}) columns.push_back({each, Align::left});
     for (const char* each : {"mean runout [m]", "+-", "beyond toe [m]", "+-", "largest [m]", "+-"})
         columns.push_back({each, Align::right});
     columns.push_back({"mean is off by [m]", Align::right});
@@ -370,16 +370,17 @@ std::string as_mean_table(const json& answer) {
         }
         line.push_back(cell(row, "runout_error"));
         std::string note;
-        for (const char* each : {"missing_draws", "questionable_draws"})
-            if (!row.value(each, "").empty())
-                note += (note.empty() ? "" : "; ") +
-                        (each + std::string(": ")).replace(std::string(each).find('_'), 1, " ") +
-                        cell(row, each);
+        for (const char* each : {"missing", "questionable"}) {
+            const std::string key = each + std::string("_draws");
+            if (!row.value(key, "").empty())
+                note += (note.empty() ? "" : "; ") + (each + std::string(" repeats: ")) +
+                        cell(row, key.c_str());
+        }
         line.push_back(note);
         lines.push_back(std::move(line));
     }
     return as_table(columns, lines) +
-           "+-: standard deviation of one draw; off by: nine of ten such means\n";
+           "+-: standard deviation of one repeat; off by: nine of ten such means\n";
 }
 
 std::string as_telemetry_table(const json& lines) {

@@ -17,7 +17,7 @@ RunEnd end_of(const nlohmann::json& run);
 /// Its verdict: its results cannot be relied on.
 bool is_doubtful(const nlohmann::json& run);
 /// "not usable: does not stand as built, ..." of a run; empty where nothing is against it.
-std::string doubt_of(const nlohmann::json& run);
+std::string warning_of(const nlohmann::json& run);
 /// No attempt of it will run any more.
 bool is_final_task(const nlohmann::json& task);
 

@@ -159,7 +159,8 @@ class Onlooker {
 
 }  // namespace
 
-ExitCode watch(Server& server, const std::string& name, Doubt doubt, const Console& console) {
+ExitCode watch(Server& server, const std::string& name, Questionable questionable,
+               const Console& console) {
     Onlooker onlooker(server, run_named(server, name), console);
     auto answered = steady_clock::now();
     bool ever_answered = false;
@@ -182,7 +183,7 @@ ExitCode watch(Server& server, const std::string& name, Doubt doubt, const Conso
                         if (console.screen == Screen::terminal && task.at("state") == "failed")
                             console.out << name_of_task(task) << "  " << fate_of_task(task) << "\n";
                 }
-                return code_of_end(run, doubt, console);
+                return code_of_end(run, questionable, console);
             }
         } catch (const Unreachable&) {
             if (!ever_answered || steady_clock::now() - answered > patience_for_the_server) throw;

@@ -10,6 +10,7 @@ namespace breach::cli {
 
 /// Returns when the run has ended: code_of_end. A server that goes away for less than a minute is
 /// waited for; after that Unreachable is thrown.
-fault::ExitCode watch(Server& server, const std::string& run, Doubt doubt, const Console& console);
+fault::ExitCode watch(Server& server, const std::string& run, Questionable questionable,
+                      const Console& console);
 
 }  // namespace breach::cli

@@ -109,7 +109,7 @@ std::string probability_in_words(const json& stability, const std::string& when)
         return shown(100.0 * failed.at(which).get<double>());
     };
     return "Probability of failure (factor of safety below 1" + when +
-           "), by the same draws as the other results: " + percent("value") + " % (" +
+           "), from the same samples as the other results: " + percent("value") + " % (" +
            percent("low") + " to " + percent("high") + " %), of " +
            counted(stability.at("count"), "sample") + ".";
 }
@@ -141,7 +141,7 @@ std::string moving_caution(const json& samples, bool one_value) {
     return text + ". Let them run longer (/mpm/duration).";
 }
 
-std::string doubt_caution(const json& samples) {
+std::string questionable_caution(const json& samples) {
     if (samples.at("doubtful") == 0) return "";
     return counted(samples.at("doubtful"), "sample") +
            " are questionable for other reasons than motion (see their flags); they are counted.";
@@ -239,7 +239,7 @@ std::vector<std::string> cautions_of(const json& answer) {
     std::vector<std::string> said{failed_caution(samples),
                                   standing_caution(samples),
                                   moving_caution(samples, answer.at("inverse").is_object()),
-                                  doubt_caution(samples),
+                                  questionable_caution(samples),
                                   few_caution(answer),
                                   cut_caution(answer.at("parameters")),
                                   until_caution(answer.at("until")),

@@ -19,18 +19,18 @@ std::string short_text(double depth) {
     return digits;
 }
 
-std::string part_name(const LayerWish& wish, std::size_t part) {
+std::string part_name(const LayerRequest& request, std::size_t part) {
     if (part == 0) return "_above";
-    if (part > wish.depths.size()) return "_below_" + short_text(wish.depths.back());
-    const double from = part == 1 ? 0.0 : wish.depths[part - 2];
-    return "_" + short_text(from) + "_" + short_text(wish.depths[part - 1]);
+    if (part > request.depths.size()) return "_below_" + short_text(request.depths.back());
+    const double from = part == 1 ? 0.0 : request.depths[part - 2];
+    return "_" + short_text(from) + "_" + short_text(request.depths[part - 1]);
 }
 
-std::size_t part_at(const LayerWish& wish, const std::vector<Vec2>& line, const Vec2& place) {
+std::size_t part_at(const LayerRequest& request, const std::vector<Vec2>& line, const Vec2& place) {
     const double depth = geometry::level_at(line, place.x()) - place.y();
     if (depth < 0.0) return 0;
     std::size_t part = 1;
-    while (part <= wish.depths.size() && depth > wish.depths[part - 1]) ++part;
+    while (part <= request.depths.size() && depth > request.depths[part - 1]) ++part;
     return part;
 }
 
@@ -78,12 +78,12 @@ struct Cut {
     Shares shares;
 };
 
-Cut cut(const std::vector<Soil>& soils, std::size_t target, const LayerWish& wish,
+Cut cut(const std::vector<Soil>& soils, std::size_t target, const LayerRequest& request,
         const std::vector<Vec2>& line, double tolerance) {
     std::vector<Chain> chains;
     for (const Soil& each : soils) chains.push_back({each.ring, true});
     std::vector<double> depths{0.0};
-    depths.insert(depths.end(), wish.depths.begin(), wish.depths.end());
+    depths.insert(depths.end(), request.depths.begin(), request.depths.end());
     for (const double depth : depths)
         for (Chain& each : inside_of(soils[target].ring, lowered(line, depth, soils[target].ring)))
             chains.push_back(std::move(each));
@@ -96,9 +96,10 @@ Cut cut(const std::vector<Soil>& soils, std::size_t target, const LayerWish& wis
 }
 
 /// Parts of the target that are nowhere thicker than the tolerance become a part beside them.
-void take_in_thin_parts(Shares& shares, const LayerWish& wish, std::size_t first, double tolerance,
-                        const std::vector<Soil>& soils, std::vector<Change>& changes) {
-    for (std::size_t part = 0; part <= wish.depths.size() + 1; ++part) {
+void take_in_thin_parts(Shares& shares, const LayerRequest& request, std::size_t first,
+                        double tolerance, const std::vector<Soil>& soils,
+                        std::vector<Change>& changes) {
+    for (std::size_t part = 0; part <= request.depths.size() + 1; ++part) {
         const int label = static_cast<int>(first + part);
         double width = 0.0;
         Vec2 at = Vec2::Zero();
@@ -106,16 +107,16 @@ void take_in_thin_parts(Shares& shares, const LayerWish& wish, std::size_t first
             if (shares.owners[f] == label && shares.faces[f].width > width)
                 width = shares.faces[f].width, at = shares.faces[f].inside;
         if (width == 0.0 || width > tolerance) continue;
-        const int other = part <= wish.depths.size() ? label + 1 : label - 1;
+        const int other = part <= request.depths.size() ? label + 1 : label - 1;
         std::ranges::replace(shares.owners, label, other);
         changes.push_back({"sliver", {soils[static_cast<std::size_t>(label)].name}, at, width});
     }
 }
 
-void cut_region(Healed& healed, std::size_t target, const LayerWish& wish,
+void cut_region(Healed& healed, std::size_t target, const LayerRequest& request,
                 const std::vector<Vec2>& line, double tolerance) {
     const Soil whole = healed.soils[target];
-    auto [fit, shares] = cut(healed.soils, target, wish, line, tolerance);
+    auto [fit, shares] = cut(healed.soils, target, request, line, tolerance);
     if (!fit.settled) {
         healed.faults.push_back({"layers",
                                  "the layers of " + whole.name + " at " + text(whole.ring.front()) +
@@ -126,9 +127,9 @@ void cut_region(Healed& healed, std::size_t target, const LayerWish& wish,
     // Labels: the soils as they were, then the parts.
     std::vector<Soil> soils = healed.soils;
     const std::size_t first = soils.size();
-    for (std::size_t part = 0; part <= wish.depths.size() + 1; ++part) {
+    for (std::size_t part = 0; part <= request.depths.size() + 1; ++part) {
         soils.push_back(whole);
-        soils.back().name += part_name(wish, part);
+        soils.back().name += part_name(request, part);
     }
     std::vector<Polygon> rings;
     for (std::size_t s = 0; s < first; ++s)
@@ -138,10 +139,10 @@ void cut_region(Healed& healed, std::size_t target, const LayerWish& wish,
         for (std::size_t s = 0; s < first && owner < 0; ++s)
             if (geometry::contains(rings[s], face.inside)) owner = static_cast<int>(s);
         if (owner == static_cast<int>(target))
-            owner = static_cast<int>(first + part_at(wish, line, face.inside));
+            owner = static_cast<int>(first + part_at(request, line, face.inside));
         shares.owners.push_back(owner);
     }
-    take_in_thin_parts(shares, wish, first, tolerance, soils, healed.changes);
+    take_in_thin_parts(shares, request, first, tolerance, soils, healed.changes);
     give_slivers_away(shares, soils, tolerance, healed.changes);
     std::vector<Soil> result;
     for (std::size_t s = 0; s < soils.size(); ++s) {
@@ -159,17 +160,18 @@ void cut_region(Healed& healed, std::size_t target, const LayerWish& wish,
 
 }  // namespace
 
-std::optional<LayerWish> layer_wish_from(const std::string& entry, std::vector<Fault>& faults) {
+std::optional<LayerRequest> layer_request_from(const std::string& entry,
+                                               std::vector<Fault>& faults) {
     const std::size_t split = entry.rfind('=');
-    LayerWish wish;
+    LayerRequest request;
     bool sound = split != std::string::npos && split > 0;
     std::string_view rest = sound ? std::string_view(entry).substr(split + 1) : std::string_view();
     while (sound) {
         const std::size_t end = rest.find(',');
         const auto depth = number_in(rest.substr(0, end));
-        sound = depth && *depth > (wish.depths.empty() ? 0.0 : wish.depths.back()) &&
-                *depth < 1e4 && wish.depths.size() < 50;
-        if (sound) wish.depths.push_back(*depth);
+        sound = depth && *depth > (request.depths.empty() ? 0.0 : request.depths.back()) &&
+                *depth < 1e4 && request.depths.size() < 50;
+        if (sound) request.depths.push_back(*depth);
         if (end == std::string_view::npos) break;
         rest.remove_prefix(end + 1);
     }
@@ -179,26 +181,26 @@ std::optional<LayerWish> layer_wish_from(const std::string& entry, std::vector<F
                           "write REGION=5,10,15: at most 50 depths above 0"});
         return std::nullopt;
     }
-    wish.region = as_utf8(entry.substr(0, split));
-    return wish;
+    request.region = as_utf8(entry.substr(0, split));
+    return request;
 }
 
-Healed with_layers(std::vector<Soil> soils, const LayerWish& wish, const std::vector<Vec2>& line,
-                   double tolerance) {
+Healed with_layers(std::vector<Soil> soils, const LayerRequest& request,
+                   const std::vector<Vec2>& line, double tolerance) {
     Healed healed{std::move(soils), {}, {}, {}};
     std::set<std::string> meant;
     std::string all;
     for (const Soil& each : healed.soils) {
         all += (all.empty() ? "" : ", ") + each.name;
-        if (lower(each.name) == lower(wish.region) || lower(each.layer) == lower(wish.region))
+        if (lower(each.name) == lower(request.region) || lower(each.layer) == lower(request.region))
             meant.insert(each.name);
     }
     if (meant.empty())
         healed.faults.push_back(
-            {"layers", "there is no region \"" + wish.region + "\"", "the regions are " + all});
+            {"layers", "there is no region \"" + request.region + "\"", "the regions are " + all});
     for (const std::string& name : meant) {
         const auto at = std::ranges::find(healed.soils, name, &Soil::name);
-        cut_region(healed, static_cast<std::size_t>(at - healed.soils.begin()), wish, line,
+        cut_region(healed, static_cast<std::size_t>(at - healed.soils.begin()), request, line,
                    tolerance);
     }
     return healed;

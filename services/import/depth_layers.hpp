@@ -7,18 +7,19 @@
 
 namespace breach::importing {
 
-struct LayerWish {
+struct LayerRequest {
     std::string region;          ///< a region's name, or the layer that several come from
     std::vector<double> depths;  ///< ascending, vertically below the line [m]
 };
 
-/// "tailings=5,10,15"; adds to `faults` what is no such wish.
-std::optional<LayerWish> layer_wish_from(const std::string& entry, std::vector<Fault>& faults);
+/// "tailings=5,10,15"; adds to `faults` what is no such request.
+std::optional<LayerRequest> layer_request_from(const std::string& entry,
+                                               std::vector<Fault>& faults);
 
 /// The line is level beyond its ends. Parts: NAME_above, NAME_0_5, NAME_5_10, ..., NAME_below_15;
 /// where one falls into pieces, NAME_0_5_2 and so on. Neighbours get the vertices of the cuts; parts
 /// thinner than `tolerance` [m] go to the part beside them, and are told in `changes`.
-Healed with_layers(std::vector<Soil> soils, const LayerWish& wish, const std::vector<Vec2>& line,
-                   double tolerance);
+Healed with_layers(std::vector<Soil> soils, const LayerRequest& request,
+                   const std::vector<Vec2>& line, double tolerance);
 
 }  // namespace breach::importing

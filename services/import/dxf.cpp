@@ -42,8 +42,8 @@ struct Corner {
 
 class DxfReader {
   public:
-    DxfReader(std::string_view text, const LayerMap& layers, const DxfWish& wish)
-        : records_(text), layers_(layers), wish_(wish) {}
+    DxfReader(std::string_view text, const LayerMap& layers, const DxfOptions& request)
+        : records_(text), layers_(layers), request_(request) {}
 
     Drawing read() {
         Record record;
@@ -93,8 +93,8 @@ class DxfReader {
         if (settled_) return;
         settled_ = true;
         const auto of_file = unit_of_code(insunits_);
-        if (wish_.unit) {
-            unit_ = *wish_.unit;
+        if (request_.unit) {
+            unit_ = *request_.unit;
             if (of_file && of_file->name != unit_.name)
                 drawing_.remarks.push_back("the drawing says that it is in " + of_file->name +
                                            " ($INSUNITS " + std::to_string(insunits_) +
@@ -373,7 +373,7 @@ class DxfReader {
             const bool last = i + 1 == corners_.size();
             if (corner.bulge == 0.0 || (last && !current_.closed)) continue;
             const Vec2 to = scaled(corners_[(i + 1) % corners_.size()].at);
-            if (!wish_.flatten && !refused) {
+            if (!request_.flatten && !refused) {
                 refused = true;
                 drawing_.faults.push_back(
                     {at_line(corner.line > 0 ? corner.line : current_.origin.line),
@@ -381,7 +381,7 @@ class DxfReader {
                      "say how far its chords may be off (flatten 0.05), or draw straight lines"});
             }
             for (const Vec2& each : points_on_arc(current_.points.back(), to, corner.bulge,
-                                                  wish_.flatten.value_or(flatten_meanwhile)))
+                                                  request_.flatten.value_or(flatten_meanwhile)))
                 current_.points.push_back(each);
         }
         points_ += current_.points.size();
@@ -400,7 +400,7 @@ class DxfReader {
 
     Records records_;
     const LayerMap& layers_;
-    const DxfWish& wish_;
+    const DxfOptions& request_;
     Drawing drawing_;
     std::string section_;
     int insunits_ = 0;
@@ -423,8 +423,8 @@ class DxfReader {
 
 }  // namespace
 
-Drawing read_dxf(std::string_view text, const LayerMap& layers, const DxfWish& wish) {
-    return DxfReader(text, layers, wish).read();
+Drawing read_dxf(std::string_view text, const LayerMap& layers, const DxfOptions& request) {
+    return DxfReader(text, layers, request).read();
 }
 
 }  // namespace breach::importing

@@ -11,13 +11,13 @@
 
 namespace breach::importing {
 
-struct DxfWish {
+struct DxfOptions {
     std::optional<Unit> unit = {};  ///< instead of the file's
     /// Arcs become chords that are off by so much [m]; none: they are refused.
     std::optional<double> flatten = {};
 };
 
 /// Group codes: Autodesk, DXF Reference (2012), ENTITIES section. `text` as form_faults lets it pass.
-Drawing read_dxf(std::string_view text, const LayerMap& layers, const DxfWish& wish);
+Drawing read_dxf(std::string_view text, const LayerMap& layers, const DxfOptions& request);
 
 }  // namespace breach::importing

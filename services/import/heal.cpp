@@ -391,7 +391,7 @@ Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>
         } else if (pieces.size() > 1 && !blamed) {
             result.faults.push_back(
                 {at_line(soil.origin.line),
-                 soil.name + " touches itself: a part of it hangs on a point at " +
+                 soil.name + " touches itself: a part of it is connected only at the point " +
                      text(pieces[1].front()),
                  "draw its parts as outlines of their own, or join them by more than a point"});
         }

@@ -55,30 +55,30 @@ std::string as_name(const std::string& text, const std::string& otherwise) {
     return name.empty() ? otherwise : name;
 }
 
-std::string scene_name(const Wish& wish) {
-    const std::string stem = std::filesystem::path(wish.drawing.name).stem().string();
-    std::string name = lower(as_name(wish.name.empty() ? stem : wish.name, "section"));
+std::string scene_name(const Request& request) {
+    const std::string stem = std::filesystem::path(request.drawing.name).stem().string();
+    std::string name = lower(as_name(request.name.empty() ? stem : request.name, "section"));
     if (name.front() == '_' || name.front() == '-') name.insert(0, "s");
     return name;
 }
 
 class Import {
   public:
-    explicit Import(const Wish& wish)
-        : wish_(wish),
-          materials_(materials_in(wish.materials)),
-          map_(wish.map, names_in(materials_), result_.faults) {}
+    explicit Import(const Request& request)
+        : request_(request),
+          materials_(materials_in(request.materials)),
+          map_(request.map, names_in(materials_), result_.faults) {}
 
     Imported result() {
-        result_.report = {{"unit", wish_.unit},       {"tolerance", wish_.tolerance},
+        result_.report = {{"unit", request_.unit},    {"tolerance", request_.tolerance},
                           {"healed", json::array()},  {"areas", json::array()},
                           {"guessed", json::array()}, {"remarks", json::array()}};
-        if (check_wish() && read_drawing()) {
+        if (check_request() && read_drawing()) {
             sort_out();
             for (auto& [role, sent] :
-                 std::map<Role, const std::optional<Sent>*>{{Role::phreatic, &wish_.phreatic},
-                                                            {Role::terrain, &wish_.terrain},
-                                                            {Role::ground, &wish_.ground}})
+                 std::map<Role, const std::optional<Sent>*>{{Role::phreatic, &request_.phreatic},
+                                                            {Role::terrain, &request_.terrain},
+                                                            {Role::ground, &request_.ground}})
                 if (*sent) read_line(**sent, role);
             if (has_sound_size()) fit();
         }
@@ -98,48 +98,49 @@ class Import {
 
     // ------------------------------------------------------------ reading
 
-    bool check_wish() {
+    bool check_request() {
         bool sound = true;
         if (!materials_.is_object() || materials_.empty()) {
             refuse("materials", "hold no material",
                    "give a JSON file with a scene's \"materials\": {\"NAME\": {...}}");
             sound = false;
         }
-        if (!(wish_.tolerance > 0.0 && wish_.tolerance <= 10.0)) {
-            refuse("tolerance", std::to_string(wish_.tolerance) + " m is no distance to heal over",
+        if (!(request_.tolerance > 0.0 && request_.tolerance <= 10.0)) {
+            refuse("tolerance",
+                   std::to_string(request_.tolerance) + " m is no distance to heal over",
                    "give more than 0 and at most 10 m");
             sound = false;
         }
-        if (wish_.flatten && !(*wish_.flatten > 0.0 && *wish_.flatten <= 10.0)) {
+        if (request_.flatten && !(*request_.flatten > 0.0 && *request_.flatten <= 10.0)) {
             refuse("flatten", "is no distance that chords may be off",
                    "give more than 0 and at most 10 m");
             sound = false;
         }
-        if (!wish_.unit.empty() && !unit_named(wish_.unit)) {
-            refuse("unit", "\"" + as_utf8(wish_.unit) + "\" is no unit",
+        if (!request_.unit.empty() && !unit_named(request_.unit)) {
+            refuse("unit", "\"" + as_utf8(request_.unit) + "\" is no unit",
                    "the units are " + unit_names());
             sound = false;
         }
-        for (const std::string& each : wish_.layers)
-            if (auto wanted = layer_wish_from(each, result_.faults))
+        for (const std::string& each : request_.layers)
+            if (auto wanted = layer_request_from(each, result_.faults))
                 layers_.push_back(std::move(*wanted));
         return sound;
     }
 
     bool read_drawing() {
-        if (auto faults = form_faults(wish_.drawing.bytes); !faults.empty()) {
+        if (auto faults = form_faults(request_.drawing.bytes); !faults.empty()) {
             for (Fault& each : faults) result_.faults.push_back(std::move(each));
             return false;
         }
-        const auto unit = unit_named(wish_.unit);
-        drawing_ = is_dxf(wish_.drawing)
-                       ? read_dxf(wish_.drawing.bytes, map_, {unit, wish_.flatten})
-                       : read_csv(wish_.drawing.bytes, map_, unit.value_or(Unit{"m", 1.0}));
+        const auto unit = unit_named(request_.unit);
+        drawing_ = is_dxf(request_.drawing)
+                       ? read_dxf(request_.drawing.bytes, map_, {unit, request_.flatten})
+                       : read_csv(request_.drawing.bytes, map_, unit.value_or(Unit{"m", 1.0}));
         take(drawing_);
         result_.report["unit"] = drawing_.unit;
-        result_.report["unit_from"] = !wish_.unit.empty()     ? "asked"
-                                      : is_dxf(wish_.drawing) ? "drawing"
-                                                              : "default";
+        result_.report["unit_from"] = !request_.unit.empty()     ? "asked"
+                                      : is_dxf(request_.drawing) ? "drawing"
+                                                                 : "default";
         for (const auto& [layer, found] : drawing_.unknown)
             refuse(at_line(found.origin.line),
                    "layer " + layer + " has no material: " + std::to_string(found.entities) +
@@ -170,7 +171,7 @@ class Import {
         std::map<Role, std::vector<Outline>> lines;
         for (const std::string& layer : order) {
             const Meaning meaning = map_.meaning_of(layer);
-            std::vector<Outline> whole = joined(std::move(by_layer[layer]), wish_.tolerance);
+            std::vector<Outline> whole = joined(std::move(by_layer[layer]), request_.tolerance);
             if (meaning.role == Role::soil) {
                 take_soils(std::move(whole), layer, meaning.material);
             } else {
@@ -178,7 +179,7 @@ class Import {
             }
         }
         for (auto& [role, pieces] : lines)
-            take_line(joined(std::move(pieces), wish_.tolerance), role, "");
+            take_line(joined(std::move(pieces), request_.tolerance), role, "");
         if (soils_.empty())
             refuse("drawing",
                    "there is no closed polyline on a layer with a material; the layers are " +
@@ -260,11 +261,11 @@ class Import {
         std::vector<Fault> none;
         const LayerMap own({layer + "=" + layer}, {}, none);
         Drawing read =
-            read_csv(sent.bytes, own, unit_named(wish_.unit).value_or(Unit{"m", 1.0}), layer);
+            read_csv(sent.bytes, own, unit_named(request_.unit).value_or(Unit{"m", 1.0}), layer);
         for (Fault& each : read.faults) each.pointer = as_utf8(sent.name) + " " + each.pointer;
         const bool sound = read.faults.empty();
         take(read);
-        if (wish_.unit.empty() && drawing_.unit != read.unit)
+        if (request_.unit.empty() && drawing_.unit != read.unit)
             remark(as_utf8(sent.name) + " was read in " + read.unit +
                    ", as nothing says otherwise, the drawing in " + drawing_.unit +
                    "; a unit that is asked for holds for both");
@@ -281,11 +282,11 @@ class Import {
         if (!odd) return true;
         if (!drawing_.knows_unit) return false;
         if (length > longest_section) {
-            refuse("unit", size + ", as if millimetres were taken for metres",
+            refuse("unit", size + ", as if millimetres were read as metres",
                    "say its unit: with mm it is " + metres(1e-3 * length) + ", with ft " +
                        metres(0.3048 * length) + " long");
         } else {
-            refuse("unit", size + ", as if metres were taken for a smaller unit",
+            refuse("unit", size + ", as if metres were read as a smaller unit",
                    "say its unit, m or ft");
         }
         return false;
@@ -295,21 +296,22 @@ class Import {
 
     void fit() {
         drawn_ = soils_;
-        Healed healed = importing::healed(soils_, wish_.tolerance, lines_.terrain);
+        Healed healed = importing::healed(soils_, request_.tolerance, lines_.terrain);
         std::erase_if(healed.faults, [&](const Fault& each) {  // open ones are told already
             return each.cause.ends_with("encloses no area") && is_told(each.pointer);
         });
         tell(healed);
         if (result_.faults.empty()) check_for_air(healed.soils);
         if (!healed.terrain.empty()) lines_.terrain = healed.terrain;
-        for (const LayerWish& each : layers_) {
+        for (const LayerRequest& each : layers_) {
             if (!result_.faults.empty()) return;
             if (lines_.phreatic.empty())
                 return refuse(
                     "layers",
                     "there is no phreatic line below which " + each.region + " has depths",
                     "draw it on a layer PHREATIC, or give it as a file");
-            healed = with_layers(std::move(healed.soils), each, lines_.phreatic, wish_.tolerance);
+            healed =
+                with_layers(std::move(healed.soils), each, lines_.phreatic, request_.tolerance);
             tell(healed);
         }
         if (!result_.faults.empty()) return;
@@ -321,7 +323,7 @@ class Import {
 
     /// A gap that is open to a side is no face of the drawing, and no valley either.
     void check_for_air(const std::vector<Soil>& soils) {
-        const auto air = highest_void(soils, wish_.tolerance);
+        const auto air = highest_void(soils, request_.tolerance);
         if (!air) return;
         const Soil &above = soils[air->above], &below = soils[air->below];
         refuse(at_line(above.origin.line),
@@ -373,36 +375,38 @@ class Import {
         result_.report["other_units"] = all;
     }
 
-    void doubt(const std::string& pointer, const std::string& cause, const std::string& remedy) {
-        if (wish_.confirmed) return remark(cause + ": confirmed");
-        result_.doubts.push_back(
+    void ask_to_confirm(const std::string& pointer, const std::string& cause,
+                        const std::string& remedy) {
+        if (request_.confirmed) return remark(cause + ": confirmed");
+        result_.to_confirm.push_back(
             {pointer, cause,
              remedy + "; or confirm it with --yes (\"confirmed\": true in a request)"});
     }
 
     /// Sizes and shapes that are likelier a slip than a section.
-    void doubt_shape(const std::vector<Soil>& soils, const std::optional<Slope>& slope) {
+    void check_shape(const std::vector<Soil>& soils, const std::optional<Slope>& slope) {
         constexpr double least = 3.0, most = 500.0;  // m
         const geometry::Box box = geometry::extent(outlines_of(soils));
         const Vec2 size = box.high - box.low;
         const double height = slope ? slope->fall() : size.y();
         if (height < least || height > most)
-            doubt("unit",
-                  std::string(slope ? "the slope" : "the section") + " is " + extent(height) +
-                      (height < least ? " high only, read in " : " high, read in ") +
-                      drawing_.unit + "; the section would be " +
-                      result_.report.at("other_units").get<std::string>(),
-                  "say its unit: --unit m, cm, mm or ft");
+            ask_to_confirm(
+                "unit",
+                std::string(slope ? "the slope" : "the section") + " is " + extent(height) +
+                    (height < least ? " high only, read in " : " high, read in ") + drawing_.unit +
+                    "; the section would be " + result_.report.at("other_units").get<std::string>(),
+                "say its unit: --unit m, cm, mm or ft");
         if (size.y() > size.x())
-            doubt("drawing",
-                  "the section is " + extent(size.x()) + " long and " + extent(size.y()) +
-                      " high: x and y look swapped",
-                  "give the distance along the section as x and the level as y");
+            ask_to_confirm("drawing",
+                           "the section is " + extent(size.x()) + " long and " + extent(size.y()) +
+                               " high: x and y look swapped",
+                           "give the distance along the section as x and the level as y");
         if (looks_upside_down(soils))
-            doubt("drawing",
-                  "the section's top is level and its bottom has a slope: depths look taken for "
-                  "levels",
-                  "give levels as y, positive upwards: -depth");
+            ask_to_confirm(
+                "drawing",
+                "the section's top is level and its bottom has a slope: the drawing looks "
+                "as if depths were given as levels",
+                "give levels as y, positive upwards: -depth");
     }
 
     void tell_areas(const std::vector<Soil>& soils) {
@@ -420,7 +424,7 @@ class Import {
     // ------------------------------------------------------------ the scene
 
     check::Checked checked(const json& document) const {
-        return check::checked_document(document, wish_.drawing.name, ".", {});
+        return check::checked_document(document, request_.drawing.name, ".", {});
     }
 
     /// The reader's faults, with the drawing's lines instead of the regions' pointers.
@@ -445,12 +449,12 @@ class Import {
         const auto is_coarse = [](const Fault& each) { return each.pointer == "/mpm/cell_size"; };
         constexpr double finest = 0.125;
         for (double share = 1.0;; share *= 0.5) {
-            Document document = document_of(scene_name(wish_), materials_, soils, lines_, share);
+            Document document = document_of(scene_name(request_), materials_, soils, lines_, share);
             check::Checked read = checked(document.scene);
             const auto coarse = std::ranges::find_if(read.faults, is_coarse);
             if (coarse == read.faults.end()) return {std::move(document), std::move(read)};
             if (share > finest) continue;
-            document = document_of(scene_name(wish_), materials_, soils, lines_);
+            document = document_of(scene_name(request_), materials_, soils, lines_);
             document.scene["mpm"]["allow_coarse_cells"] = true;
             document.remarks.push_back("/mpm/cell_size " + coarse->cause +
                                        ": runouts will be questionable; merge thin layers, or give "
@@ -484,8 +488,8 @@ class Import {
             result_.report["slope"] = {{"crest", as_json(document.slope->crest)},
                                        {"toe", as_json(document.slope->toe)}};
         result_.faults = seen_from_drawing(std::move(read.faults), soils);
-        doubt_shape(soils, document.slope);
-        for (const Fault& each : result_.doubts) result_.faults.push_back(each);
+        check_shape(soils, document.slope);
+        for (const Fault& each : result_.to_confirm) result_.faults.push_back(each);
         result_.scene = std::move(document.scene);
         result_.sketch = std::move(read.scene);
     }
@@ -498,14 +502,14 @@ class Import {
             const std::size_t more = faults.size() - most_faults;
             faults.resize(most_faults);
             refuse("drawing", "has " + std::to_string(more) + " more faults",
-                   "mend these, and import it again");
+                   "correct these, then import it again");
         }
         json draft{{"format", "breachline-scene/1"},
-                   {"name", scene_name(wish_)},
-                   {"title", "What is wrong with " + as_utf8(wish_.drawing.name)},
+                   {"name", scene_name(request_)},
+                   {"title", "What is wrong with " + as_utf8(request_.drawing.name)},
                    {"materials", materials_}};
         const std::string dumped = draft.dump(-1, ' ', false, json::error_handler_t::replace);
-        result_.sketch = check::checked_text(dumped, wish_.drawing.name, ".", {}).scene;
+        result_.sketch = check::checked_text(dumped, request_.drawing.name, ".", {}).scene;
         result_.sketch.section.regions.clear();
         const auto& known = result_.sketch.materials;
         for (const Soil& each : soils_) {
@@ -518,11 +522,11 @@ class Import {
         }
     }
 
-    const Wish& wish_;
+    const Request& request_;
     const json& materials_;
     Imported result_;
     LayerMap map_;
-    std::vector<LayerWish> layers_;
+    std::vector<LayerRequest> layers_;
     Drawing drawing_;
     std::vector<Soil> soils_, drawn_;
     std::set<std::string> names_;
@@ -531,6 +535,6 @@ class Import {
 
 }  // namespace
 
-Imported import_section(const Wish& wish) { return Import(wish).result(); }
+Imported import_section(const Request& request) { return Import(request).result(); }
 
 }  // namespace breach::importing

@@ -20,7 +20,7 @@ struct Sent {
     std::string bytes;
 };
 
-struct Wish {
+struct Request {
     Sent drawing;                       ///< DXF, or CSV with region, x, y
     nlohmann::json materials;           ///< a scene's /materials, or a document that has them
     std::vector<std::string> map = {};  ///< "LAYER=material", "LAYER=phreatic|terrain|ground|none"
@@ -40,13 +40,13 @@ struct Imported {
     /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
     nlohmann::json report;
     /// What looks like a slip and is not confirmed; they are faults as well.
-    std::vector<fault::Fault> doubts;
+    std::vector<fault::Fault> to_confirm;
     std::vector<fault::Fault> faults;  ///< pointers: "line 12", an option's name, or into the scene
     scene::Scene sketch;  ///< to be drawn: the scene, or the outlines as they were sent
 };
 
 /// Never throws for what was sent.
-Imported import_section(const Wish& wish);
+Imported import_section(const Request& request);
 
 /// The report for people, one thing a line; of `healed` the first `most`.
 std::vector<std::string> lines_of(const nlohmann::json& report, std::size_t most);

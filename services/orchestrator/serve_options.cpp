@@ -68,7 +68,7 @@ CLI::App* ServeOptions::add_to(CLI::App& program) {
     serving->add_option("--bin", settings_.dispatch.bin, "folder of the phase executables")
         ->capture_default_str();
     serving->add_option("--web", settings_.web, "folder of the dashboard")->capture_default_str();
-    add_door(*serving);
+    add_access_options(*serving);
     add_dispatch(*serving);
     add_files(*serving);
     add_retention(*serving);
@@ -96,7 +96,7 @@ std::string ServeOptions::explained(const CLI::ConfigError& error, const CLI::Ap
                           : "; did you mean " + meant + "?");
 }
 
-void ServeOptions::add_door(CLI::App& serving) {
+void ServeOptions::add_access_options(CLI::App& serving) {
     serving.add_option("--host", settings_.http.host, "address to bind")->capture_default_str();
     serving.add_option("--port", settings_.http.port, "0: any free one")
         ->check(CLI::Range(0, 65535))

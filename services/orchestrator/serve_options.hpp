@@ -23,7 +23,7 @@ class ServeOptions {
     ServeSettings settings() const;
 
   private:
-    void add_door(CLI::App& serving);
+    void add_access_options(CLI::App& serving);
     void add_dispatch(CLI::App& serving);
     void add_files(CLI::App& serving);
     void add_retention(CLI::App& serving);

@@ -63,7 +63,7 @@ std::string clock_of(double seconds) {
 }  // namespace
 
 std::string warning_of(const Hydrograph& hydrograph) {
-    return slurry_warning + (hydrograph.doubt.empty() ? "" : " " + hydrograph.doubt);
+    return slurry_warning + (hydrograph.warning.empty() ? "" : " " + hydrograph.warning);
 }
 
 std::string as_csv(const Hydrograph& hydrograph, const std::optional<BreachWidth>& width) {
@@ -152,11 +152,11 @@ std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interv
 }
 
 std::string as_flo_2d(const Hydrograph& hydrograph, double width, double interval,
-                      const Flo2dWish& wish, const std::string& file) {
+                      const Flo2dOptions& request, const std::string& file) {
     const Ordinates flows = ordinates_of(hydrograph, width, interval, file);
     const std::string solids =
-        wish.concentration ? " " + number("%-15.4g", *wish.concentration) : "";
-    const std::string cell = std::to_string(wish.cell);
+        request.concentration ? " " + number("%-15.4g", *request.concentration) : "";
+    const std::string cell = std::to_string(request.cell);
     std::string table =
         " 0               " + cell + "\nF               0               " + cell + "\n";
     for (std::size_t k = 0; k < flows.m3_per_s.size(); ++k) {

@@ -41,13 +41,13 @@ std::string peaks_in_words(const Ordinates& flows);
 std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
                        const std::string& file);
 
-struct Flo2dWish {
+struct Flo2dOptions {
     std::int64_t cell = 1;                  ///< number of the grid element that takes the inflow
     std::optional<double> concentration{};  ///< of solids by volume; none: no column [-]
 };
 
 /// Hours and m3/s. Throws BadInput as ordinates_of does.
 std::string as_flo_2d(const Hydrograph& hydrograph, double width, double interval,
-                      const Flo2dWish& wish, const std::string& file);
+                      const Flo2dOptions& request, const std::string& file);
 
 }  // namespace breach::outflow

@@ -20,7 +20,7 @@ struct Hydrograph {
     std::vector<double> volume{};     ///< of soil as it lay, passed so far, net [m2]
     std::vector<double> mass{};       ///< [kg/m]
     std::string
-        doubt{};  ///< why the runout's numbers are not to be relied on; empty: no reason is known
+        warning{};  ///< why the runout's numbers are not to be relied on; empty: no reason is known
 };
 
 /// Calls visit(name, unit, values) for every column beside the time.

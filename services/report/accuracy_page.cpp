@@ -17,14 +17,15 @@ constexpr const char* head =
     "\n"
     "Written by `report accuracy`. CPU seconds are of one run through all its phases.\n"
     "\n"
-    "*Error* is that of the mean over the draws (repeats on moved lattices of points, or of the "
-    "FEM with other steps and residuals), *of a run* is what one run is off: with what the "
-    "reference is off itself, the error of the base on the other ladders, and the scatter. "
-    "*Order*, *limit* and *grid convergence index* are told only where three rungs fall "
+    "*Error* is that of the mean over the repeats (on moved lattices of points, or of the "
+    "FEM with other steps and residuals). *Of a run* is the error of one run: with the error of "
+    "the reference, that of the base on the other ladders, and the scatter. "
+    "*Order*, *limit* and *grid convergence index* are given only where three rungs converge "
     "monotonically and by more than the noise. `*`: on the "
-    "Pareto front; `~`: not told apart from the noise; `?`: a run is questionable, so the setting "
-    "is not recommended. *Draws for* an error: so many are averaged for nine of ten means to be "
-    "within it (Student's interval for the mean of new draws, and the bias); `-`: not even 20 are "
+    "Pareto front; `~`: within the noise; `?`: a run is questionable, so the setting "
+    "is not recommended. *Repeats for* an error: so many are averaged for nine of ten means to be "
+    "within it (Student's interval for the mean of new repeats, and the bias); `-`: not even 20 "
+    "are "
     "enough.\n";
 
 std::string number(const json& value, int digits = 4) {
@@ -94,7 +95,7 @@ std::string table_of(const json& table) {
     if (unit == "1") unit = "-";
     std::string text = "| ladder | setting | " + table.at("quantity").get<std::string>() + " [" +
                        unit +
-                       "] | +- | draws | error | of a run | CPU s | wall s | MB | draws for " +
+                       "] | +- | repeats | error | of a run | CPU s | wall s | MB | repeats for " +
                        percent(table.at("asked_error")) +
                        " | their CPU s | |\n"
                        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";

@@ -55,8 +55,8 @@ class Entry {
 };
 
 Quantity quantity_from(Entry entry) {
-    entry.only(
-        {"what", "file", "at", "where", "right", "relative", "absolute", "because", "scale"});
+    entry.only({"what", "file", "at", "where", "right", "relative", "absolute", "because", "scale",
+                "limit"});
     const json& of = entry.of();
     Quantity made{
         .what = entry.text("what", "name it"),
@@ -66,6 +66,7 @@ Quantity quantity_from(Entry entry) {
         .relative = of.contains("relative"),
         .because = entry.text("because", "say why so much is allowed"),
         .scale = of.value("scale", 1.0)};
+    if (of.contains("limit")) made.limit = entry.number("limit", "give what it converges to");
     if (of.contains("where") && of.at("where").size() == 1) {
         made.place.key = of.at("where").begin().key();
         made.place.value = of.at("where").begin().value();
@@ -77,10 +78,16 @@ Quantity quantity_from(Entry entry) {
     return made;
 }
 
+Level level_from(Entry entry) {
+    entry.only({"size", "set"});
+    return {entry.number("size", "give the length or the time that is refined"),
+            entry.of().value("set", std::vector<std::string>())};
+}
+
 Case case_from(Entry entry, const json& file, const fs::path& folder,
                std::vector<fault::Fault>& faults) {
-    entry.only(
-        {"id", "question", "source", "kind", "scene", "set", "commands", "slow", "quantities"});
+    entry.only({"id", "question", "source", "kind", "scene", "set", "commands", "levels", "slow",
+                "quantities"});
     const json& of = entry.of();
     Case made{.id = entry.text("id", "name it"),
               .question = entry.text("question", "say what is asked"),
@@ -88,6 +95,7 @@ Case case_from(Entry entry, const json& file, const fs::path& folder,
               .kind = entry.text("kind", "closed form, published or program"),
               .scene = {},
               .commands = of.value("commands", std::vector<std::vector<std::string>>()),
+              .levels = {},
               .slow = of.value("slow", false),
               .quantities = {}};
     if (of.contains("scene")) made.scene = folder / of.at("scene").get<std::string>();
@@ -100,8 +108,18 @@ Case case_from(Entry entry, const json& file, const fs::path& folder,
             command.insert(command.end(), {"--set", each});
         made.commands.push_back(std::move(command));
     }
-    for (const auto& [item, pointer] : entry.list("quantities"))
+    for (const auto& [item, pointer] : entry.list("quantities")) {
         made.quantities.push_back(quantity_from({item, pointer, faults}));
+        if (made.quantities.back().limit.has_value() != of.contains("levels"))
+            faults.push_back({pointer + "/limit", "goes with levels of the case",
+                              "give both, or neither: an order of convergence needs both"});
+    }
+    if (!of.contains("levels")) return made;
+    for (const auto& [item, pointer] : entry.list("levels"))
+        made.levels.push_back(level_from({item, pointer, faults}));
+    if (made.levels.size() < 3)
+        entry.blame("levels", "are " + std::to_string(made.levels.size()),
+                    "give three at least: two errors always lie on a line");
     return made;
 }
 
@@ -109,7 +127,7 @@ Topic topic_in(const fs::path& path) {
     std::ifstream stream(path);
     const json file = json::parse(stream, nullptr, false);
     if (!file.is_object())
-        throw fault::BadInput(path.string(), {{"", "is no JSON object", "mend it"}});
+        throw fault::BadInput(path.string(), {{"", "is not a JSON object", "write one"}});
     std::vector<fault::Fault> faults;
     Entry entry(file, "", faults);
     entry.only({"title", "phase", "text", "program", "cases"});

@@ -25,6 +25,14 @@ struct Quantity {
     bool relative;        ///< `allowed` is a share of |right|
     std::string because;  ///< why so much is allowed
     double scale = 1.0;   ///< the programs' number times this is what is compared
+    /// What the number converges to: the order of its error over the case's levels is compared.
+    std::optional<double> limit = {};
+};
+
+/// One of the runs whose errors tell an order of convergence.
+struct Level {
+    double size;  ///< that is refined, in any unit
+    std::vector<std::string> set;
 };
 
 struct Case {
@@ -34,7 +42,8 @@ struct Case {
     std::string kind;                                ///< closed form, published, program
     std::filesystem::path scene;                     ///< empty: an element test or the like
     std::vector<std::vector<std::string>> commands;  ///< {input} and {output} stand for files
-    bool slow = false;                               ///< left out of --quick
+    std::vector<Level> levels;  ///< from coarse to fine; empty: one run as the scene is
+    bool slow = false;          ///< left out of --quick
     std::vector<Quantity> quantities;
 };
 

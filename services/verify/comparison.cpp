@@ -1,11 +1,5 @@
 #include "services/verify/comparison.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
 #include <cmath>
 #include <fstream>
@@ -15,6 +9,7 @@
 #include <sstream>
 #include <thread>
 
+#include "core/command/command.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
 
@@ -37,31 +32,17 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-/// Its exit code and CPU seconds; what it says goes to log.txt.
-std::pair<int, double> run_program(std::vector<std::string> words, const fs::path& folder) {
-    std::vector<char*> arguments;
-    for (std::string& each : words) arguments.push_back(each.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    const std::string log = (folder / "log.txt").string();
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                     O_WRONLY | O_CREAT | O_APPEND, 0644);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-    pid_t child = 0;
-    const int failed =
-        posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    if (failed != 0) return {127, 0.0};
-    int status = 0;
-    rusage spent{};
-    while (wait4(child, &status, 0, &spent) < 0 && errno == EINTR) {
+/// What it says goes to log.txt. One that cannot be started has no exit code.
+command::Result run_program(std::vector<std::string> words, const fs::path& folder) {
+    constexpr auto longest = std::chrono::hours(2);
+    command::Result result;
+    try {
+        result = command::run(std::move(words), "", longest);
+    } catch (const fault::IoError& error) {
+        result.err = error.what();
     }
-    const auto seconds = [](const timeval& time) {
-        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-    };
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128,
-            seconds(spent.ru_utime) + seconds(spent.ru_stime)};
+    std::ofstream(folder / "log.txt", std::ios::app) << result.out << result.err;
+    return result;
 }
 
 std::optional<double> number_in(const json& document, const std::string& pointer) {
@@ -142,27 +123,54 @@ Found found_in(const fs::path& folder, const Quantity& quantity) {
     return found;
 }
 
-Outcome outcome_of(const Case& of, const Settings& settings) {
-    const fs::path folder = settings.output / "cases" / of.id;
-    fs::remove_all(folder);
+/// The slope of log |error| over log size, by least squares.
+Found order_in(const fs::path& folder, const Case& of, const Quantity& quantity) {
+    const auto n = static_cast<double>(of.levels.size());
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (std::size_t k = 0; k < of.levels.size(); ++k) {
+        const Found found = found_in(folder / std::to_string(k), quantity);
+        if (!found.value) return found;
+        const double size = std::log(of.levels[k].size);
+        const double error = std::log(std::abs(*found.value - *quantity.limit));
+        x += size, y += error, xx += size * size, xy += size * error;
+    }
+    return {&quantity, (n * xy - x * y) / (n * xx - x * x), ""};
+}
+
+/// Why it broke, or nothing.
+std::string run_commands(const Case& of, const std::vector<std::string>& set,
+                         const fs::path& folder, const Settings& settings, double& cpu_seconds) {
     fs::create_directories(folder);
-    Outcome outcome{&of};
-    std::string broke;
     for (std::vector<std::string> words : of.commands) {
+        for (const std::string& each : set) words.insert(words.end(), {"--set", each});
         for (std::string& each : words)
             each =
                 replaced(replaced(each, "{input}", of.scene.string()), "{output}", folder.string());
         const std::string program = words.front();
         words.front() = (settings.programs / program).string();
-        const auto [code, seconds] = run_program(std::move(words), folder);
-        outcome.cpu_seconds += seconds;
-        if (code == 0) continue;
-        broke = program + " ended with exit code " + std::to_string(code) + ": " +
-                (folder / "log.txt").string();
-        break;
+        const command::Result ran = run_program(std::move(words), folder);
+        cpu_seconds += ran.cpu_seconds;
+        if (!ran.exit_code) return program + " was stopped: " + (folder / "log.txt").string();
+        if (*ran.exit_code != 0)
+            return program + " ended with exit code " + std::to_string(*ran.exit_code) + ": " +
+                   (folder / "log.txt").string();
     }
+    return "";
+}
+
+Outcome outcome_of(const Case& of, const Settings& settings) {
+    const fs::path folder = settings.output / "cases" / of.id;
+    fs::remove_all(folder);
+    Outcome outcome{&of};
+    std::string broke;
+    if (of.levels.empty()) broke = run_commands(of, {}, folder, settings, outcome.cpu_seconds);
+    for (std::size_t k = 0; k < of.levels.size() && broke.empty(); ++k)
+        broke = run_commands(of, of.levels[k].set, folder / std::to_string(k), settings,
+                             outcome.cpu_seconds);
     for (const Quantity& each : of.quantities)
-        outcome.found.push_back(broke.empty() ? found_in(folder, each) : Found{&each, {}, broke});
+        outcome.found.push_back(!broke.empty() ? Found{&each, {}, broke}
+                                : each.limit   ? order_in(folder, of, each)
+                                               : found_in(folder, each));
     return outcome;
 }
 
@@ -204,13 +212,14 @@ std::string versions_of(const Settings& settings) {
     for (const phases::Phase& each : phases::all) {
         fs::remove_all(folder);
         fs::create_directories(folder);
-        if (run_program({(settings.programs / each.program).string(), "--version"}, folder).first !=
-            0)
+        const command::Result told =
+            run_program({(settings.programs / each.program).string(), "--version"}, folder);
+        if (told.exit_code != 0)
             throw fault::IoError((settings.programs / each.program).string() + ": cannot be run");
-        std::ifstream log(folder / "log.txt");
+        std::istringstream said(told.out);
         std::string version, numerics;
-        std::getline(log, version);
-        std::getline(log, numerics);
+        std::getline(said, version);
+        std::getline(said, numerics);
         versions += (versions.empty() ? "" : ", ") + version + " (" + numerics + ")";
     }
     fs::remove_all(folder);

@@ -9,7 +9,7 @@ root = pathlib.Path(os.environ["BREACH_ROOT"])
 # A path of letters that ends in .md, as prose and code write it. What programs write at run time is no page of ours.
 named = re.compile(r"(?<![\w./-])((?:[\w.-]+/)*[\w-]+\.md)\b")
 link = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
-templates = root / "workflows/verification/pages"  # their links are those of the pages in docs that they become
+templates = root / "workflows/verification/pages"  # their links are those of the pages in docs/verification that they become
 written_at_run_time = {"index.md"}
 code = {".hpp", ".cpp", ".in", ".py", ".mjs", ".js", ".txt", ".json", ".sh"}
 
@@ -29,7 +29,7 @@ def main():
         text = file.read_text(errors="replace")
         here = file.relative_to(root)
         if file.suffix == ".md":
-            folder = root / "docs" if file.parent == templates else file.parent
+            folder = root / "docs/verification" if file.parent == templates else file.parent
             for target in link.findall(text):
                 names += 1
                 if "://" not in target and not (folder / target).exists():

@@ -59,9 +59,9 @@ floors = {
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # room -> what of it others may include: the rest is its own affair
-doors = {"services/import": ["services/import/import"],
+interfaces = {"services/import": ["services/import/import"],
          "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question", "services/report/chart/document", "services/report/chart/page"]}
-# units that are one thing in several files: a door that its own parts include
+# units that are one thing in several files: an interface that its own parts include
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|beds|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
@@ -154,8 +154,8 @@ def main():
                     other = room_of(target)
                     if other != room and other not in arrows[room]:
                         faults.append(f"{name}:{number}: {room} must not include {other}")
-                    if other != room and other in doors and target.rsplit(".", 1)[0] not in doors[other]:
-                        faults.append(f"{name}:{number}: {target} is no door of {other}")
+                    if other != room and other in interfaces and target.rsplit(".", 1)[0] not in interfaces[other]:
+                        faults.append(f"{name}:{number}: {target} is not part of the interface of {other}")
                     if other == room and room in floors:
                         fault = floor_fault(room, name, target)
                         if fault:

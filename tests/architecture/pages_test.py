@@ -8,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 programs = pathlib.Path(os.environ["BREACH_BIN"])
@@ -30,6 +31,15 @@ def main():
     assert told(sound, measurements) == "its results are of more than one machine: another; one", told(sound, measurements)
     for change, words in (({"key": "0"}, "has changed since"), ({"numerics": {"MPM": 1}}, "is of numerics"), ({"commit": "12345678+"}, "in no commit")):
         assert words in told({"measured": sound["measured"] | change}, measurements), change
+
+    with tempfile.TemporaryDirectory() as folder:
+        keys, of_measurement = [], write.inputs_of
+        for text in ("docs/stiff", "docs/verification/stiff", "docs/verification/other"):
+            (pathlib.Path(folder) / "input").write_text(text)
+            write.inputs_of = lambda _: [pathlib.Path(folder) / "input"]
+            keys.append(write.key_of({}))
+        write.inputs_of = of_measurement
+    assert keys[0] == keys[1] != keys[2], "where a page lies is no input, which page it is"
 
     rows = write.Rows([{"variant": "a", "time": 1.0, "x": 2.0}, {"variant": "a", "time": 2.0, "x": None}, {"variant": "b", "time": 1.0, "x": 3.0}])
     assert rows.of(variant="a").all("x") == [2.0] and rows.of(time=1).value("x") == 2.0 and rows.of(variant="c").value("x") is None

@@ -98,7 +98,7 @@ test("many flags of one kind are one, in a row and in the list of a task", async
 
 test("the runout has its band: of the draws, or of the samples", async () => {
     await open_run(api.add_run(drawn, ended()).id);
-    assert.deepEqual((await figures()).Runout, ["16 ± 0.8 m", "scatter of the mean of 3 draws"]);
+    assert.deepEqual((await figures()).Runout, ["16 ± 0.8 m", "scatter of the mean of 3 repeats"]);
     assert.equal(await page.locator("#answer-picture .plot .band").count(), 1);
     await open_run(api.add_run(uncertain_study(study, 64), ended()).id);
     await until("quantiles", async () => /p10 to p90/.test((await figures()).Runout[0]));

@@ -282,7 +282,7 @@ class FakeRun {
             const mean = { transfer_time, variant: "", draws: draws.length, draws_done: done.length, missing_draws: missing.join("; "),
                            questionable_draws: done.filter((row) => row.questionable).map((row) => row.variant).join("; "),
                            state: done.length === draws.length ? "succeeded" : done.length ? "partial" : draws[0].state,
-                           runout_error: done.length ? 0.8 : null, runout_error_from: "scatter of the mean of 3 draws" };
+                           runout_error: done.length ? 0.8 : null, runout_error_from: "scatter of the mean of 3 repeats" };
             for (const key of Object.keys(this.runout({ transfer_time }))) {
                 const values = done.map((row) => row[key]);
                 const average = values.reduce((sum, each) => sum + each, 0) / values.length;

@@ -428,9 +428,9 @@ test("a study with draws shows their mean and band, and each draw behind it", as
     await until("seven means", async () => (await markers()) === 7);
     assert.equal(await page.locator("#runout-plot svg.plot > .marker.series-1").count(), 0, "one curve, not three");
     assert.equal(await page.locator("#runout-plot svg.plot > .error-band").count(), 1);
-    assert.match(await text_of("#runout-plot .legend"), /standard deviation of the draws/);
+    assert.match(await text_of("#runout-plot .legend"), /standard deviation of the repeats/);
     assert.equal(await page.locator("#runout-rows tr").count(), 8);
-    assert.match(await text_of("#runout-progress"), /^21 of 24 runs \(3 draws each\) finished$/);
+    assert.match(await text_of("#runout-progress"), /^21 of 24 runs \(3 repeats each\) finished$/);
     assert.match(await page.getAttribute("#runout-csv", "href"), /table=means$/);
     await page.focus("#runout-plot svg.plot");
     await page.keyboard.press("Home");
@@ -443,7 +443,7 @@ test("a study with draws shows their mean and band, and each draw behind it", as
     assert.equal(await page.textContent('#runout-rows tr[data-key="1//mean"] [data-column="runout"]'), "16 ± 0.5");
     await page.click('#runout-rows tr[data-key="1//mean"] [data-column="runout"]');
     await until("three draws", async () => (await page.locator("#runout-rows tr").count()) === 3);
-    assert.match(await text_of("#runout-note"), /Only the draws of t_T = 1 s/);
+    assert.match(await text_of("#runout-note"), /Only the repeats of t_T = 1 s/);
     assert.ok(await page.isEnabled('#runout-rows tr[data-key="1/d2"] th button'), "its particles can be looked at");
     await screenshot(page, "draws_of_one_mean");
     await page.selectOption("#runout-draws", "means");

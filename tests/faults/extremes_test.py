@@ -83,7 +83,7 @@ class Extremes(unittest.TestCase):
                 try:
                     each.sendall(b"x")
                 except OSError:
-                    pass  # it was shown the door
+                    pass  # the connection was refused
             self.assertEqual(self.service.ask("/healthz", timeout=10)[0], 200)
             time.sleep(0.05)
         for each in slow:

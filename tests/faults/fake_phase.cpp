@@ -103,7 +103,7 @@ void publish(const fs::path& file, const std::string& text) {
 }
 
 /// The misbehaviour wanted, from the scene's title.
-std::map<std::string, double> wishes(const json& scene) {
+std::map<std::string, double> settings(const json& scene) {
     std::map<std::string, double> found;
     std::istringstream words(scene.value("title", ""));
     for (std::string word; words >> word;) {
@@ -114,8 +114,8 @@ std::map<std::string, double> wishes(const json& scene) {
     return found;
 }
 
-double wish(const std::map<std::string, double>& wanted, const std::string& name,
-            double otherwise) {
+double setting(const std::map<std::string, double>& wanted, const std::string& name,
+               double otherwise) {
     const auto found = wanted.find(name);
     return found == wanted.end() ? otherwise : found->second;
 }
@@ -187,9 +187,9 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
             times = json::parse(each.substr(key.size())).get<std::vector<double>>();
     }
     const double end = 3.0;
-    const int steps = static_cast<int>(wish(wanted, "fem_steps", 10));
-    const double entangled = wish(wanted, "entangle_at", 1e9);
-    const double breakdown = wish(wanted, "breakdown_at", 1e9);
+    const int steps = static_cast<int>(setting(wanted, "fem_steps", 10));
+    const double entangled = setting(wanted, "entangle_at", 1e9);
+    const double breakdown = setting(wanted, "breakdown_at", 1e9);
     walk(order, steps, [&](int done) {
         const double from = end * done / steps;
         const double to = end * (done + 1) / steps;
@@ -207,7 +207,7 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
         }
         for (const double time : times) {
             if (time < from || (time >= to && done + 1 < steps)) continue;
-            const bool damaged = std::abs(time - wish(wanted, "damage", -1)) < 1e-9;
+            const bool damaged = std::abs(time - setting(wanted, "damage", -1)) < 1e-9;
             publish(order.output / ("snapshot_" + spelt(time) + ".vtkhdf"),
                     damaged ? "" : spelt(time));
         }
@@ -293,33 +293,33 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
     double time = 0.0;
     double shift = 0.0;
     points >> time >> shift;
-    if (wish(wanted, "try_again", 0) > 0 && !order.resume)
+    if (setting(wanted, "try_again", 0) > 0 && !order.resume)
         end_with_fault(order, 75, "not enough memory");
-    if (wish(wanted, "deaf", 0) > 0) {
+    if (setting(wanted, "deaf", 0) > 0) {
         std::signal(SIGTERM, SIG_IGN);
         leave_a_daemon(order.output / "daemon.pid");
     }
     // Not by --resume: an attempt that was lost before it began has left it nothing to resume from.
-    const bool crash = wish(wanted, "crash", 0) > 0 && steps_done_before(order) == 0;
-    walk(order, static_cast<int>(wish(wanted, "mpm_steps", 5)), [&](int done) {
-        if ((crash && done == 2) || wish(wanted, "always_crash", 0) > 0) raise(SIGKILL);
+    const bool crash = setting(wanted, "crash", 0) > 0 && steps_done_before(order) == 0;
+    walk(order, static_cast<int>(setting(wanted, "mpm_steps", 5)), [&](int done) {
+        if ((crash && done == 2) || setting(wanted, "always_crash", 0) > 0) raise(SIGKILL);
     });
     const json own = changed(scene, order.overrides);
-    if (shift > wish(wanted, "fails_above", 1.0) ||
-        own["mpm"].value("cfl", 0.4) >= wish(wanted, "breaks_from", 1.0))
+    if (shift > setting(wanted, "fails_above", 1.0) ||
+        own["mpm"].value("cfl", 0.4) >= setting(wanted, "breaks_from", 1.0))
         end_with_fault(order, 70, "the points have left the grid");
     const bool moves =
-        time >= wish(wanted, "moving_from", 1e9) || shift > wish(wanted, "moving_above", 1.0);
+        time >= setting(wanted, "moving_from", 1e9) || shift > setting(wanted, "moving_above", 1.0);
     json result{{"phase", "mpm_solver"},     {"runout", 10 + time * time},
                 {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
                 {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
                 {"cpu_seconds", 0.5},        {"at_rest", !moves}};
     add_judgement(result, moves);
-    if (wish(wanted, "by_cell", 0) > 0) add_cell_error(own, shift, result);
-    const bool linear = wish(wanted, "linear", 0) > 0;
-    if (linear || wish(wanted, "ishigami", 0) > 0)
+    if (setting(wanted, "by_cell", 0) > 0) add_cell_error(own, shift, result);
+    const bool linear = setting(wanted, "linear", 0) > 0;
+    if (linear || setting(wanted, "ishigami", 0) > 0)
         result["runout_beyond_toe"] = drawn_result(own, linear, shift);
-    if (wish(wanted, "by_stiffness", 0) > 0) {
+    if (setting(wanted, "by_stiffness", 0) > 0) {
         const json& scale = own.at("mpm").at("stiffness_scale");
         const double s = scale.is_number() ? scale.get<double>() : 1.0;
         result["runout"] = result["runout"].get<double>() + s * s;
@@ -343,7 +343,7 @@ int main(int argc, char** argv) {
     const json scene = json::parse(text_of(order.scene));
     fs::create_directories(order.output);
     std::cerr << order.phase << " begins\n";
-    const auto wanted = wishes(scene);
+    const auto wanted = settings(scene);
     if (order.phase == "fem_solver") fem(order, wanted);
     if (order.phase == "transfer_tool") transfer(order, scene);
     if (order.phase == "mpm_solver") mpm(order, scene, wanted);

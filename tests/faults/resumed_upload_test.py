@@ -13,13 +13,13 @@ import tempfile
 from service import Service, programs, root, until
 
 
-def door(sha256, start):
+def upload_path(sha256, start):
     return f"/v1/files?name=record.csv&sha256={sha256}&from={start}"
 
 
 def break_off(service, content, sha256, start, end):
     """Announces all from `start` on, and sends it only to `end`."""
-    head = (f"POST {door(sha256, start)} HTTP/1.1\r\nHost: 127.0.0.1:{service.port}\r\n"
+    head = (f"POST {upload_path(sha256, start)} HTTP/1.1\r\nHost: 127.0.0.1:{service.port}\r\n"
             f"Content-Type: application/octet-stream\r\nContent-Length: {len(content) - start}\r\n\r\n")
     with service.connect(head.encode() + content[start:end]) as connection:
         connection.shutdown(socket.SHUT_WR)
@@ -34,7 +34,7 @@ def arrived(service, sha256):
 
 
 def send(service, content, sha256, start):
-    status, _, answer = service.ask(door(sha256, start), content[start:], method="POST", **{"Content-Type": "application/octet-stream"})
+    status, _, answer = service.ask(upload_path(sha256, start), content[start:], method="POST", **{"Content-Type": "application/octet-stream"})
     return status, answer
 
 
@@ -65,7 +65,7 @@ def goes_on(folder):
         assert service.ask(f"/v1/files/{sha256}")[2] == content
         assert not list((service.data / "arriving").iterdir())
         assert service.ask("/v1/files?name=a.csv&from=3", b"x", method="POST", **{"Content-Type": "application/octet-stream"})[0] == 400
-        assert service.ask(door("../" + sha256[3:], 0), b"x", method="POST", **{"Content-Type": "application/octet-stream"})[0] == 400
+        assert service.ask(upload_path("../" + sha256[3:], 0), b"x", method="POST", **{"Content-Type": "application/octet-stream"})[0] == 400
         commands_go_on(folder, service)
     checked = subprocess.run([programs / "breachline", "check", "--data", folder / "data"], capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout + checked.stderr

@@ -1,4 +1,4 @@
-"""nginx with TLS in front of the service, configured as docs/reverse_proxy.md says: the page, submissions, large bodies and
+"""nginx with TLS in front of the service, configured as docs/how-to/reverse_proxy.md says: the page, submissions, large bodies and
 events as they happen all pass through; slow clients, too many requests and too many connections do not. An nginx of its
 own, in a folder of its own."""
 import concurrent.futures
@@ -35,7 +35,7 @@ class Proxy:
     def __init__(self, here, service, **changes):
         self.port = free_port()
         self.log = here / "error.log"
-        server, below = re.findall(r"```nginx\n(.*?)```", (root / "docs/reverse_proxy.md").read_text(), re.S)
+        server, below = re.findall(r"```nginx\n(.*?)```", (root / "docs/how-to/reverse_proxy.md").read_text(), re.S)
         server = server[:server.rindex("    }")] + below + "    }\n"
         for old, new in (("listen 443 ssl", f"listen 127.0.0.1:{self.port} ssl"), ("8470", str(service.port)),
                          ("/etc/ssl/dams.example.org.pem", str(here.parent / "cert.pem")),

@@ -1,5 +1,5 @@
 // The bytes of HTTP requests, parsed as the server parses them and answered by all routes of a
-// service that knows one run. Nothing runs: the service has no slots. (The server's own doors, which
+// service that knows one run. Nothing runs: the service has no slots. (The server's own handlers, which
 // need a socket, are held by tests/unit/orchestrator.)
 #include <httplib.h>
 #include <spdlog/spdlog.h>
@@ -15,9 +15,9 @@ using namespace breach::orchestrator;
 namespace {
 
 /// What a client sent, and what it is answered.
-class Wire : public httplib::Stream {
+class ReceivedStream : public httplib::Stream {
   public:
-    explicit Wire(std::string_view sent) : sent_(sent) {}
+    explicit ReceivedStream(std::string_view sent) : sent_(sent) {}
     bool is_readable() const override { return true; }
     bool is_writable() const override { return true; }
     ssize_t read(char* to, std::size_t most) override {
@@ -92,14 +92,15 @@ class Stand : public httplib::Server {
         spdlog::set_level(spdlog::level::off);
         store_.write([](Transaction& transaction) { transaction.add_run(known_run()); });
         add_all_routes(router_, service_, stopping_);
-        const Handler door = [this](const httplib::Request& request, httplib::Response& response) {
+        const Handler handler = [this](const httplib::Request& request,
+                                       httplib::Response& response) {
             router_.answer(request, response, Caller{.name = "", .right = Right::admin});
         };
-        Get(".*", door).Post(".*", door).Put(".*", door).Delete(".*", door);
+        Get(".*", handler).Post(".*", handler).Put(".*", handler).Delete(".*", handler);
     }
 
     std::string answer_to(std::string_view sent) {
-        Wire wire(sent);
+        ReceivedStream wire(sent);
         bool closed = false;
         process_request(wire, true, closed, nullptr);
         return wire.answer();

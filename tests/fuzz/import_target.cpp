@@ -20,14 +20,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size == 0) return 0;
     const unsigned options = data[0];
     const std::string bytes(fuzz::text_of(data + 1, size - 1));
-    importing::Wish wish{.drawing = {(options & 1) != 0 ? "drawing.csv" : "drawing.dxf", bytes},
-                         .materials = {{"a", soil()}, {"b", soil()}}};
-    if ((options & 2) != 0) wish.unit = "m";
-    if ((options & 4) != 0) wish.flatten = 0.1;
-    if ((options & 8) != 0) wish.layers = {"a=1,3"};
-    if ((options & 16) != 0) wish.phreatic = {"water.csv", "x,y\n0,3\n20,1\n"};
-    if ((options & 32) != 0) wish.tolerance = 0.5;
-    const importing::Imported imported = importing::import_section(wish);
+    importing::Request request{
+        .drawing = {(options & 1) != 0 ? "drawing.csv" : "drawing.dxf", bytes},
+        .materials = {{"a", soil()}, {"b", soil()}}};
+    if ((options & 2) != 0) request.unit = "m";
+    if ((options & 4) != 0) request.flatten = 0.1;
+    if ((options & 8) != 0) request.layers = {"a=1,3"};
+    if ((options & 16) != 0) request.phreatic = {"water.csv", "x,y\n0,3\n20,1\n"};
+    if ((options & 32) != 0) request.tolerance = 0.5;
+    const importing::Imported imported = importing::import_section(request);
     fuzz::require(imported.scene.is_null() != imported.faults.empty(), "a scene or faults");
     importing::lines_of(imported.report, 5);
     nlohmann::json shown = nlohmann::json::object();

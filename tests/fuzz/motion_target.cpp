@@ -16,7 +16,7 @@ void measure(const motion::Recording& recording) {
                   "a motion has samples and a time step");
     for (const double value : series.values)
         fuzz::require(std::isfinite(value), "a motion is finite");
-    motion::doubts_about(recording, "/fem/motion/file");
+    motion::remarks_about(recording, "/fem/motion/file");
     if (recording.quantity != motion::Quantity::acceleration) return;
     motion::strong_part(series);
     motion::base_corrected(series);

@@ -1,5 +1,5 @@
 """Every wrong scene, study and motion of the table is caught, with its words, where it should be: nothing that is wrong ends as
-plain "succeeded", and nothing that the files tell is found after a task has started. All doors agree: what a plan refuses or warns
+plain "succeeded", and nothing that the files tell is found after a task has started. All interfaces agree: what a plan refuses or warns
 of is in the cost (`submit --dry-run`) and in the drawing, and the cost refuses what a submission refuses.
 
     misuse_test.py [--table FILE]     prints the table; writes it as Markdown"""
@@ -50,7 +50,7 @@ def pairs(faults):
 
 
 def said_of_scene(case, document, service):
-    """What the service's doors say of a study around the scene: complaints."""
+    """What the service says of a study around the scene: complaints."""
     study = {"format": "breachline-study/1", "name": "wrong", "title": "A wrong scene", "scene": document}
     if "fem" in document:
         study["transfer_times"] = [0.1]

@@ -27,6 +27,8 @@ def studies(bases):
             {"name": "a", "overrides": ["/mpm/cfl=0.3"]},
             {"name": "b", "overrides": ["/fem/motion/file=\"/nowhere/record.csv\""]}]), r"record\.csv"),
         ("a trigger of a field that is not there", study(triggers=[{"kind": "criterion", "name": "t", "when": "pore_joy > 1"}]), r"pore_joy"),
+        ("a trigger that is never true", study(triggers=[{"kind": "criterion", "name": "t", "when": "strained_share > 5"}]),
+         r"strained_share > 5[\s\S]*from 0 to 1"),
         ("a coefficient of variation of 30 for 0.30", study(uncertainty={"samples": 4, "parameters": [
             {"name": "c", "factor_on": ["/materials/slope_soil/law/c_kPa"], "distribution": {"type": "lognormal", "median": 1, "cov": 30}}]}),
          r"cov[\s\S]*%[\s\S]*0\.3"),

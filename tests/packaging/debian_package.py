@@ -113,7 +113,7 @@ class DebianPackage(unittest.TestCase):
                          {str(each.relative_to(source / "services/python/breachline"))
                           for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").glob(pattern)})
         pages = self.root / "usr/share/doc/breachline"
-        for page in ("mpm_solver/README.md", "docs/reference/methods/mpm.md", "docs/notebook.ipynb", "workflows/README.md"):
+        for page in ("README.md", "docs/README.md", "docs/reference/methods/mpm.md", "docs/notebook.ipynb"):
             self.assertTrue((pages / page).is_file(), page)
         motions = self.root / "var/lib/breachline-motions"
         self.assertEqual((motions.is_dir(), stat.S_IMODE(motions.stat().st_mode)), (True, 0o755))

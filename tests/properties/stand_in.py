@@ -1,4 +1,4 @@
-"""A phase that obeys the contract (docs/design/architecture.md) and computes known.py. Run under the phases' names (phase)."""
+"""A phase that obeys the contract (docs/reference/architecture.md) and computes known.py. Run under the phases' names (phase)."""
 import json
 import os
 import sys

@@ -77,6 +77,15 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(breach.BreachlineError, "state holds no numbers"):
             comparison.difference("state")
 
+    def test_a_variant_without_a_common_time_is_compared_by_its_largest_runout(self):
+        one = breach.run(self.export("a", rows((0.5, "succeeded", 10.0, "x"), (1.0, "succeeded", 20.0, "x"), (2.0, "failed", None, "x"),
+                                               (1.0, "succeeded", 5.0, "y"))))
+        other = breach.run(self.export("b", rows((0.7, "succeeded", 23.0, "x"), (0.9, "succeeded", 9.0, "x"), (1.0, "succeeded", 6.0, "y"))))
+        comparison = one.compare(other)
+        self.assertEqual(sorted(comparison.difference("runout")), [1.0, 3.0])
+        self.assertEqual((comparison.only_here, comparison.only_there), ([("x", 0.5), ("x", 2.0)], [("x", 0.9)]))
+        self.assertIn("x 1 and 0.7 s: runout 20 m, 23 m, difference +3 m", repr(comparison))
+
     def test_variants_in_no_row_are_told(self):
         folder = self.export("a", rows((0.5, "succeeded", 12.5, "loose")))
         (folder / "results.json").write_text(json.dumps({"columns": COLUMNS, "rows": rows((0.5, "succeeded", 12.5, "loose")),

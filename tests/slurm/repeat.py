@@ -48,12 +48,12 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="SlurmFaults.*")
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path("slurm_failures"))
-    wish = parser.parse_args()
-    wanted = tests(wish.only)
+    options = parser.parse_args()
+    wanted = tests(options.only)
     count, failed, seconds = collections.Counter(), collections.Counter(), collections.Counter()
     begin = time.monotonic()
-    with concurrent.futures.ThreadPoolExecutor(wish.jobs) as pool:
-        asked = [pool.submit(run, k, wanted[k % len(wanted)], wish.keep.absolute()) for k in range(wish.times)]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        asked = [pool.submit(run, k, wanted[k % len(wanted)], options.keep.absolute()) for k in range(options.times)]
         for each in concurrent.futures.as_completed(asked):
             test, code, folder, lasted = each.result()
             count[test] += 1
@@ -64,7 +64,7 @@ def main():
     for test in wanted:
         print(f"{count[test]:5} runs {failed[test]:3} failed {seconds[test] / max(1, count[test]):6.1f} s  {test}")
     print(f"{sum(count.values())} runs, {sum(failed.values())} failed, {time.monotonic() - begin:.0f} s, "
-          f"{wish.jobs} at a time, load {os.getloadavg()[0]:.1f}")
+          f"{options.jobs} at a time, load {os.getloadavg()[0]:.1f}")
     return 1 if failed else 0
 
 

@@ -241,7 +241,7 @@ TEST_F(SlurmFaults, JobThatTheNextServiceSubmitsAsksForWhatItsTaskWants) {
         return task_labelled(end, "fem");
     };
     ASSERT_TRUE(eventually([&] {
-        return fem(*first).at("message").get<std::string>().starts_with("in doubt for ");
+        return fem(*first).at("message").get<std::string>().starts_with("unknown for ");
     })) << fem(*first);
     first->kill_at_once();
     end("down");

@@ -3,10 +3,10 @@
 
     table.py                    runs the quick cases and prints their rows
     table.py --all              the slow ones and those of ctest's own label `stiff`, too
-    table.py --markdown         --all, as the rows of docs/stiff.md (workflows/verification/write)
+    table.py --markdown         --all, as the rows of docs/verification/stiff.md (workflows/verification/write)
     table.py --only TEXT        cases whose phase or name contains TEXT
 
-Exit 1 when a row fails, or when docs/stiff.md lacks a row."""
+Exit 1 when a row fails, or when docs/verification/stiff.md lacks a row."""
 import argparse
 import sys
 
@@ -39,7 +39,7 @@ def main():
     every = asked.all or asked.markdown
 
     rows, wrong, total = [], [], 0.0
-    page = None if asked.markdown else (root / "docs/stiff.md").read_text()
+    page = None if asked.markdown else (root / "docs/verification/stiff.md").read_text()
 
     def keep(phase, name, extreme, right, outcome, seconds):
         nonlocal total
@@ -50,7 +50,7 @@ def main():
         if not outcome.holds:
             wrong.append(name)
         if page is not None and f"| {name} | {phase} |" not in page:
-            wrong.append(f"{name} (not in docs/stiff.md)")
+            wrong.append(f"{name} (not in docs/verification/stiff.md)")
 
     for each in cases:
         if (each.slow and not every) or asked.only not in f"{each.phase} {each.name}":

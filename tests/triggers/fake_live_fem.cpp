@@ -32,27 +32,27 @@ void publish(const fs::path& file, const std::string& text) {
     fs::rename(temporary, file);
 }
 
-struct Wish {
+struct Options {
     fs::path output;
     std::vector<double> times;
     double interval = 0.0;
 };
 
-Wish wish_from(int argc, char** argv) {
-    Wish wish;
+Options options_from(int argc, char** argv) {
+    Options options;
     for (int i = 1; i + 1 < argc; ++i) {
         const std::string word = argv[i], next = argv[i + 1];
-        if (word == "--output") wish.output = next;
+        if (word == "--output") options.output = next;
         const auto value = [&](const std::string& key) {
             return word == "--set" && next.starts_with(key) ? json::parse(next.substr(key.size()))
                                                             : json();
         };
         if (const json times = value("/fem/snapshot_times="); !times.is_null())
-            wish.times = times.get<std::vector<double>>();
+            options.times = times.get<std::vector<double>>();
         if (const json interval = value("/fem/snapshot_interval="); !interval.is_null())
-            wish.interval = interval;
+            options.interval = interval;
     }
-    return wish;
+    return options;
 }
 
 /// jacobian_least_avg falls below 0.97 after 0.6 s; epsilon_q_max is up from 0.5 to 0.6 s only.
@@ -84,9 +84,9 @@ int main(int argc, char** argv) {
         std::cout << "fem_solver 0\nnumerics 1\n";
         return 0;
     }
-    const Wish wish = wish_from(argc, argv);
+    const Options options = options_from(argc, argv);
     const fs::path sandbox = fs::path(argv[0]).parent_path().parent_path();
-    std::ofstream telemetry(wish.output / "telemetry.jsonl");
+    std::ofstream telemetry(options.output / "telemetry.jsonl");
     const auto pause = [] { std::this_thread::sleep_for(std::chrono::milliseconds(10)); };
     for (int step = 1; step <= steps; ++step) {
         const double t = dt * step;
@@ -98,13 +98,13 @@ int main(int argc, char** argv) {
         telemetry << line.substr(0, line.size() / 2) << std::flush;  // torn
         pause();
         telemetry << line.substr(line.size() / 2) << std::flush;
-        bool due = step == steps || take_request(sandbox, wish.output);
-        for (const double each : wish.times) due = due || std::abs(each - t) < 0.5 * dt;
-        const auto count = [&](double time) { return std::floor(time / wish.interval + 1e-9); };
-        due = due || (wish.interval > 0.0 && count(t) > count(t - dt));
-        if (due) publish(wish.output / ("snapshot_" + spelt(t) + ".vtkhdf"), spelt(t));
+        bool due = step == steps || take_request(sandbox, options.output);
+        for (const double each : options.times) due = due || std::abs(each - t) < 0.5 * dt;
+        const auto count = [&](double time) { return std::floor(time / options.interval + 1e-9); };
+        due = due || (options.interval > 0.0 && count(t) > count(t - dt));
+        if (due) publish(options.output / ("snapshot_" + spelt(t) + ".vtkhdf"), spelt(t));
         pause();
     }
-    publish(wish.output / "result.json", R"({"phase":"fem_solver"})");
+    publish(options.output / "result.json", R"({"phase":"fem_solver"})");
     return 0;
 }

@@ -1,4 +1,4 @@
-"""Bad scenes and damaged files at the door of the real phases: exit 65, every fault named, nothing left behind."""
+"""Bad scenes and damaged files given to the real phases: exit 65, every fault named, nothing left behind."""
 import json
 import pathlib
 import tempfile

@@ -46,7 +46,7 @@ def result_of(chance):
 
 
 def play():
-    """The contract of a phase (docs/design/architecture.md), with a random result."""
+    """The contract of a phase (docs/reference/architecture.md), with a random result."""
     if "--version" in sys.argv:
         return print(f"{phase} 0\nnumerics 1")
     if "--plan" in sys.argv:

@@ -203,15 +203,15 @@ bool is_finite(const State& s) {
 
 }  // namespace
 
-bool open_call(const Ready& law, const State& old, const Strain& d, Errand& errand) {
-    *errand.update = {old, Outcome::done, {}};
-    State& state = errand.update->state;
-    errand.plastic = d;
+bool open_call(const Ready& law, const State& old, const Strain& d, Task& task) {
+    *task.update = {old, Outcome::done, {}};
+    State& state = task.update->state;
+    task.plastic = d;
     // An opened point waits until it is closed again.
     if (old.on_floor && trace(d) < 0.0) return false;
     state.on_floor = false;
     const ElasticPath path(law, old, d, Cap::shrinks);
-    ++errand.update->counts.evaluations;
+    ++task.update->counts.evaluations;
     double F = path.excess(old);
     if (F >= -near_surface) return true;
     if (law.parameters.unloading == Unloading::capped) {
@@ -232,7 +232,7 @@ bool open_call(const Ready& law, const State& old, const Strain& d, Errand& erra
     const double elastic = crossing(path, 0.0, F, 1.0, F_end);
     state = path.at(elastic);
     state.on_floor = false;
-    errand.plastic = (1.0 - elastic) * d;
+    task.plastic = (1.0 - elastic) * d;
     return elastic < 1.0;
 }
 
@@ -254,8 +254,8 @@ double unload(const Ready& law, const Strain& rest, State& state) {
     return 0.0;
 }
 
-void finish_call(const Ready& law, const State& old, const Strain& d, Errand& errand) {
-    Update& update = *errand.update;
+void finish_call(const Ready& law, const State& old, const Strain& d, Task& task) {
+    Update& update = *task.update;
     State& state = update.state;
     if (update.outcome == Outcome::unresolved && norm(d) <= least_followed) {
         state = old;

@@ -25,20 +25,20 @@ Components<double> direction_of(const Strain& d);
 inline constexpr double least_guess = 1e-8;  // strain
 
 /// One call in the making: what a lane of a walk does not carry.
-struct Errand {
+struct Task {
     Update* update;  ///< the state being changed, and what is counted
     Strain plastic;  ///< strain that is left after the elastic part
 };
 
 /// Elastic part. True if there is plastic strain to walk through.
-bool open_call(const Ready& law, const State& old, const Strain& d, Errand& errand);
+bool open_call(const Ready& law, const State& old, const Strain& d, Task& task);
 
 /// Takes a state on the surface that unloads along the strain `rest`: how much of it is elastic. 1:
 /// all of it; 0: nothing, what looked like unloading was neutral. The state is moved.
 double unload(const Ready& law, const Strain& rest, State& state);
 
 /// Closes a call: void ratio, floor, tension, and the old state if it failed.
-void finish_call(const Ready& law, const State& old, const Strain& d, Errand& errand);
+void finish_call(const Ready& law, const State& old, const Strain& d, Task& task);
 
 template <class R>
 [[gnu::always_inline]] inline void set_lane(Components<R>& a, int i,
@@ -62,12 +62,12 @@ inline void set_stress(State& state, const Components<double>& sigma) {
     state.xy = sigma.xy;
 }
 
-/// Puts an opened errand into lane i.
+/// Puts an opened task into lane i.
 template <class R>
-[[gnu::always_inline]] inline void load(const Errand& errand, int i, Walk<R>& walk) {
+[[gnu::always_inline]] inline void load(const Task& task, int i, Walk<R>& walk) {
     using lanes::set_lane;
-    const State& s = errand.update->state;
-    const Strain& d = errand.plastic;
+    const State& s = task.update->state;
+    const Strain& d = task.plastic;
     const double size = std::max(norm(d), 1e-300);
     norsand::set_lane(walk.sigma, i, stress_of(s));
     set_lane(walk.p_i, i, s.p_i);
@@ -84,42 +84,42 @@ template <class R>
     for (R* count : walk.counts()) set_lane(*count, i, 0.0);
 }
 
-/// Writes lane i back into its errand.
+/// Writes lane i back into its task.
 template <class R>
-[[gnu::always_inline]] inline void store(const Ready&, int i, const Walk<R>& walk, Errand& errand) {
+[[gnu::always_inline]] inline void store(const Ready&, int i, const Walk<R>& walk, Task& task) {
     using lanes::lane;
-    State& s = errand.update->state;
+    State& s = task.update->state;
     set_stress(s, norsand::lane(walk.sigma, i));
     s.p_i = lane(walk.p_i, i);
     s.epsilon_q = lane(walk.epsilon_q, i);
-    s.sub_step = std::max(lane(walk.proposed, i) * norm(errand.plastic), least_guess);
+    s.sub_step = std::max(lane(walk.proposed, i) * norm(task.plastic), least_guess);
     s.on_floor = lane(walk.floored, i) > 0.0;
     const auto number = [i](const R& count) { return static_cast<int>(lane(count, i)); };
-    errand.update->counts += {.evaluations = number(walk.evaluations),
-                              .sub_steps = number(walk.sub_steps),
-                              .rejected = number(walk.rejected),
-                              .guarded = number(walk.guarded),
-                              .floored = 0,
-                              .cut_off = 0};
+    task.update->counts += {.evaluations = number(walk.evaluations),
+                            .sub_steps = number(walk.sub_steps),
+                            .rejected = number(walk.rejected),
+                            .guarded = number(walk.guarded),
+                            .floored = 0,
+                            .cut_off = 0};
 }
 
 /// What lane i does after `begin` found that it unloads.
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
-                                                   Errand& errand) {
+                                                   Task& task) {
     const double time = lanes::lane(walk.time, i);
     const double left = 1.0 - time;
-    State at = errand.update->state;
+    State at = task.update->state;
     set_stress(at, norsand::lane(walk.sigma, i));
     at.p_i = lanes::lane(walk.p_i, i);
     at.e = (1.0 + at.e) * std::exp(-time * lanes::lane(walk.volume, i)) - 1.0;
-    const double elastic = unload(law, left * errand.plastic, at);
+    const double elastic = unload(law, left * task.plastic, at);
     if (elastic <= 0.0) return Next::walk;
     norsand::set_lane(walk.sigma, i, stress_of(at));
     lanes::set_lane(walk.p_i, i, at.p_i);
     if (elastic >= 1.0) {
         lanes::set_lane(walk.time, i, 1.0);
-        store(law, i, walk, errand);
+        store(law, i, walk, task);
         return Next::leave;
     }
     const double there = 1.0 - left * (1.0 - elastic);
@@ -131,11 +131,11 @@ template <class R>
 /// Whether lane i has come to its end, after `advance` or to begin again, and how.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
-                                        const Options& options, Errand& errand) {
+                                        const Options& options, Task& task) {
     const bool over = lanes::lane(walk.time, i) >= 1.0 || lanes::lane(walk.floored, i) > 0.0;
     const bool stuck =
         lost || (!over && lanes::lane(walk.evaluations, i) > options.most_evaluations);
-    if (stuck) errand.update->outcome = Outcome::unresolved;
+    if (stuck) task.update->outcome = Outcome::unresolved;
     return stuck || over;
 }
 
@@ -146,7 +146,7 @@ struct Calls {
     using Strain = norsand::Strain;
     using Options = norsand::Options;
     using Update = norsand::Update;
-    using Errand = norsand::Errand;
+    using Task = norsand::Task;
     template <class R>
     using Walk = norsand::Walk<R>;
     static Strain strain(const Voigt& d_epsilon) { return inward(d_epsilon); }

@@ -1,4 +1,4 @@
-// The door: one call, and the tangents.
+// The public interface: one call, and the tangents.
 #include "core/materials/norsand/norsand.hpp"
 
 #include "core/materials/norsand/call.hpp"

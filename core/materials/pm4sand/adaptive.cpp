@@ -20,18 +20,18 @@ Plane direction(const Ready& law, const Stress& sigma, const Plane& alpha,
 
 }  // namespace
 
-bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand) {
-    *errand.update = {old, Outcome::done, {}};
-    State& state = errand.update->state;
+bool open_call(const Ready& law, const State& old, const Strain<double>& d, Task& task) {
+    *task.update = {old, Outcome::done, {}};
+    State& state = task.update->state;
     const Stress change = elastic_change(law, state.G, d);
     const double a = elastic_fraction(law, {state.p, state.s}, state.alpha, change);
     const Stress sigma{state.p + a * change.p, state.s + a * change.s};
     state.p = std::max(sigma.p, 0.2 * state.p_min);
     state.s = sigma.s;
     if (a >= 1.0) return false;
-    errand.plastic = {(1.0 - a) * d.v, (1.0 - a) * d.e};
-    errand.epsilon_v = old.epsilon_v + a * d.v;
-    errand.n = direction(law, sigma, state.alpha, d);
+    task.plastic = {(1.0 - a) * d.v, (1.0 - a) * d.e};
+    task.epsilon_v = old.epsilon_v + a * d.v;
+    task.n = direction(law, sigma, state.alpha, d);
     if (!(state.sub_step > 0.0)) state.sub_step = 1e-5;
     return true;
 }
@@ -53,8 +53,8 @@ Excursion unload(const Ready& law, const Stress& sigma, const Plane& alpha, doub
             t};
 }
 
-void finish_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand) {
-    Update& update = *errand.update;
+void finish_call(const Ready& law, const State& old, const Strain<double>& d, Task& task) {
+    Update& update = *task.update;
     State& state = update.state;
     if (update.outcome == Outcome::done) {
         state.epsilon_v = old.epsilon_v + d.v;

@@ -9,7 +9,7 @@
 namespace breach::materials::pm4sand {
 
 /// One call in the making: what a lane of a walk does not carry.
-struct Errand {
+struct Task {
     Update* update;          ///< the state being changed, and what is counted
     Strain<double> plastic;  ///< strain that is left after the elastic part
     double epsilon_v;        ///< before the plastic part
@@ -17,7 +17,7 @@ struct Errand {
 };
 
 /// The elastic part. True if there is plastic strain to walk through.
-bool open_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand);
+bool open_call(const Ready& law, const State& old, const Strain<double>& d, Task& task);
 
 /// Takes a point that unloads from (p, alpha, n) along the elastic path.
 struct Excursion {
@@ -30,7 +30,7 @@ Excursion unload(const Ready& law, const Stress& sigma, const Plane& alpha, doub
                  const Strain<double>& rest, double floor);
 
 /// Closes a call whose update holds the final p, s, alpha, z and sums.
-void finish_call(const Ready& law, const State& old, const Strain<double>& d, Errand& errand);
+void finish_call(const Ready& law, const State& old, const Strain<double>& d, Task& task);
 
 template <class R>
 [[gnu::always_inline]] inline void set_lane(Deviator<R>& a, int i, const Plane& value) {
@@ -52,23 +52,23 @@ template <class R>
     lanes::set_lane(f.p_zp, i, s.p_zp);
 }
 
-/// Puts an opened errand into lane i.
+/// Puts an opened task into lane i.
 template <class R>
-[[gnu::always_inline]] inline void load(const Errand& errand, int i, Walk<R>& walk) {
+[[gnu::always_inline]] inline void load(const Task& task, int i, Walk<R>& walk) {
     using lanes::set_lane;
-    const State& s = errand.update->state;
-    const Strain<double>& d = errand.plastic;
+    const State& s = task.update->state;
+    const Strain<double>& d = task.plastic;
     const double size = std::sqrt(0.5 * d.v * d.v + dot(d.e, d.e));
     set_lane(walk.p, i, s.p);
     set_lane(walk.time, i, 0.0);
     set_lane(walk.step, i, std::min(1.0, s.sub_step / size));
     set_lane(walk.proposed, i, s.sub_step / size);
     set_lane(walk.size, i, size);
-    set_lane(walk.epsilon_v, i, errand.epsilon_v);
+    set_lane(walk.epsilon_v, i, task.epsilon_v);
     set_lane(walk.d.v, i, d.v);
     pm4sand::set_lane(walk.d.e, i, d.e);
     pm4sand::set_lane(walk.alpha, i, s.alpha);
-    pm4sand::set_lane(walk.n, i, errand.n);
+    pm4sand::set_lane(walk.n, i, task.n);
     pm4sand::set_lane(walk.z, i, s.z);
     Fixed<R>& f = walk.fixed;
     load_reversal(s, i, f);
@@ -81,12 +81,11 @@ template <class R>
     for (R* count : walk.counts()) set_lane(*count, i, 0.0);
 }
 
-/// Writes lane i back into its errand.
+/// Writes lane i back into its task.
 template <class R>
-[[gnu::always_inline]] inline void store(const Ready& law, int i, const Walk<R>& walk,
-                                         Errand& errand) {
+[[gnu::always_inline]] inline void store(const Ready& law, int i, const Walk<R>& walk, Task& task) {
     using lanes::lane;
-    State& s = errand.update->state;
+    State& s = task.update->state;
     s.p = lane(walk.p, i);
     s.alpha = pm4sand::lane(walk.alpha, i);
     const Plane n = pm4sand::lane(walk.n, i);
@@ -96,34 +95,34 @@ template <class R>
     s.z_peak = lane(walk.fixed.z_peak, i);
     s.sub_step = lane(walk.proposed, i) * lane(walk.size, i);
     const auto number = [i](const R& count) { return static_cast<int>(lane(count, i)); };
-    errand.update->counts += {.evaluations = number(walk.evaluations),
-                              .sub_steps = number(walk.sub_steps),
-                              .rejected = number(walk.rejected),
-                              .forced = number(walk.forced),
-                              .projected = number(walk.projected),
-                              .softened = number(walk.softened),
-                              .stalled = number(walk.stalled)};
+    task.update->counts += {.evaluations = number(walk.evaluations),
+                            .sub_steps = number(walk.sub_steps),
+                            .rejected = number(walk.rejected),
+                            .forced = number(walk.forced),
+                            .projected = number(walk.projected),
+                            .softened = number(walk.softened),
+                            .stalled = number(walk.stalled)};
 }
 
 /// What an excursion did to a lane of a walk.
 template <class R>
 [[gnu::always_inline]] inline Excursion::End excursion(const Ready& law, int i, Walk<R>& walk,
-                                                       Errand& errand) {
+                                                       Task& task) {
     using lanes::lane;
     using lanes::set_lane;
     const double p = lane(walk.p, i);
     const Plane alpha = pm4sand::lane(walk.alpha, i);
     const Plane n = pm4sand::lane(walk.n, i);
     const double left = 1.0 - lane(walk.time, i);
-    const Strain<double> rest{left * errand.plastic.v, left * errand.plastic.e};
+    const Strain<double> rest{left * task.plastic.v, left * task.plastic.e};
     const Stress sigma{p, p * (alpha + (law.parameters.m * inverse_sqrt2) * n)};
     const Excursion path =
-        unload(law, sigma, alpha, lane(walk.G, i), rest, 0.2 * errand.update->state.p_min);
+        unload(law, sigma, alpha, lane(walk.G, i), rest, 0.2 * task.update->state.p_min);
     if (path.end == Excursion::End::nowhere) return path.end;
     set_lane(walk.p, i, path.sigma.p);
     if (path.end == Excursion::End::inside) {
-        store(law, i, walk, errand);
-        errand.update->state.s = path.sigma.s;
+        store(law, i, walk, task);
+        task.update->state.s = path.sigma.s;
         return path.end;
     }
     pm4sand::set_lane(walk.n, i, path.n);
@@ -136,9 +135,8 @@ template <class R>
 /// Section 11 on the plastic path, wherever in a call that is: the memory of a point does not hang
 /// on how its strain is cut into calls.
 template <class R>
-[[gnu::always_inline]] inline bool reverses(const Ready& law, int i, Walk<R>& walk,
-                                            Errand& errand) {
-    State& s = errand.update->state;
+[[gnu::always_inline]] inline bool reverses(const Ready& law, int i, Walk<R>& walk, Task& task) {
+    State& s = task.update->state;
     const Plane alpha = pm4sand::lane(walk.alpha, i);
     const Plane n = pm4sand::lane(walk.n, i);
     if (dot(alpha - s.alpha_true, n) >= reversed_below(law)) return false;
@@ -153,9 +151,9 @@ template <class R>
 /// What lane i does after `begin` found that it unloads or reverses.
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
-                                                   Errand& errand) {
-    if (reverses(law, i, walk, errand)) return Next::again;
-    switch (excursion(law, i, walk, errand)) {
+                                                   Task& task) {
+    if (reverses(law, i, walk, task)) return Next::again;
+    switch (excursion(law, i, walk, task)) {
         case Excursion::End::nowhere:
             return Next::walk;
         case Excursion::End::inside:
@@ -164,16 +162,16 @@ template <class R>
             break;
     }
     if (lanes::lane(walk.time, i) < 1.0) return Next::again;
-    store(law, i, walk, errand);
+    store(law, i, walk, task);
     return Next::leave;
 }
 
 /// Whether lane i has come to its end, after `advance` or to begin again, and how.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
-                                        const Options& options, Errand& errand) {
+                                        const Options& options, Task& task) {
     const bool stuck = lost || lanes::lane(walk.evaluations, i) > options.most_evaluations;
-    if (stuck) errand.update->outcome = Outcome::unresolved;
+    if (stuck) task.update->outcome = Outcome::unresolved;
     return stuck || lanes::lane(walk.time, i) >= 1.0;
 }
 
@@ -186,7 +184,7 @@ struct Calls {
     using Strain = pm4sand::Strain<double>;
     using Options = pm4sand::Options;
     using Update = pm4sand::Update;
-    using Errand = pm4sand::Errand;
+    using Task = pm4sand::Task;
     template <class R>
     using Walk = pm4sand::Walk<R>;
     static Strain strain(const Voigt& d_epsilon) { return inward(d_epsilon); }

@@ -1,4 +1,4 @@
-// The door to both schemes, and the tangents.
+// The public interface of both schemes, and the tangents.
 #include "core/materials/pm4sand/pm4sand.hpp"
 
 #include <algorithm>

@@ -79,7 +79,7 @@ Server::~Server() = default;
 namespace {
 
 /// Why the server's certificate was not taken, and what helps. verdict: OpenSSL's; where that is good, the name was not.
-std::string doubt_about(const std::string& origin, long verdict) {
+std::string fault_of_certificate(const std::string& origin, long verdict) {
     const std::string what = origin + ": its certificate is not to be trusted: ";
     switch (verdict) {
         case X509_V_OK:
@@ -110,7 +110,7 @@ std::string doubt_about(const std::string& origin, long verdict) {
 const httplib::Response& good(const httplib::Result& result, const httplib::Client& client,
                               const std::string& origin) {
     if (result.error() == httplib::Error::SSLServerVerification)
-        throw fault::IoError(doubt_about(origin, client.get_openssl_verify_result()));
+        throw fault::IoError(fault_of_certificate(origin, client.get_openssl_verify_result()));
     if (result.error() == httplib::Error::SSLLoadingCerts)
         throw fault::IoError(
             "the file of --tls-ca or BREACH_TLS_CA holds no certificate; give the authority's as "

@@ -28,24 +28,24 @@ const AccuracyRow& recommended_row(const AccuracyTable& table) {
     return table.rows[*table.recommended];
 }
 
-const AccuracyRow& wanted_row(const AccuracyTable& table, const CheckWish& wish) {
-    if (!wish.ladder && !wish.step) return recommended_row(table);
-    if (!wish.ladder || !wish.step)
-        refuse(wish.ladder ? "/step" : "/ladder", "a rung is named by its ladder and its step",
+const AccuracyRow& wanted_row(const AccuracyTable& table, const CheckRequest& request) {
+    if (!request.ladder && !request.step) return recommended_row(table);
+    if (!request.ladder || !request.step)
+        refuse(request.ladder ? "/step" : "/ladder", "a rung is named by its ladder and its step",
                "give both, or neither: then the recommended setting is checked");
     for (const AccuracyRow& row : table.rows)
-        if (table.plan.ladders[row.setting.ladder].name == *wish.ladder &&
-            row.setting.step + 1 == *wish.step)
+        if (table.plan.ladders[row.setting.ladder].name == *request.ladder &&
+            row.setting.step + 1 == *request.step)
             return row;
     refuse("/ladder",
-           "the study has no rung " + std::to_string(*wish.step) + " on a ladder \"" +
-               *wish.ladder + "\"",
+           "the study has no rung " + std::to_string(*request.step) + " on a ladder \"" +
+               *request.ladder + "\"",
            "GET .../accuracy lists ladders and steps");
 }
 
 /// What a mean over few draws is worth: as many as keep the asked error, or one.
-std::size_t draws_of_a_mean(const AccuracyRow& row, const CheckWish& wish) {
-    if (wish.mean_of) return *wish.mean_of;
+std::size_t draws_of_a_mean(const AccuracyRow& row, const CheckRequest& request) {
+    if (request.mean_of) return *request.mean_of;
     return row.mean_within_asked ? row.mean_within_asked->draws : 1;
 }
 
@@ -80,14 +80,14 @@ json as_json(const BlindMean& mean) {
 }  // namespace
 
 json study_of_check(const Store& store, const std::string& run, const AccuracyTable& table,
-                    const CheckWish& wish) {
+                    const CheckRequest& request) {
     const AccuracyPlan& plan = table.plan;
-    const AccuracyRow& row = wanted_row(table, wish);
+    const AccuracyRow& row = wanted_row(table, request);
     const std::optional<double>& reference = table.ladders[row.setting.ladder].reference;
     if (!reference)
         refuse("/ladder", "there is no reference yet: " + table.ladders[row.setting.ladder].message,
                "wait for the study's end, or check a rung of another ladder");
-    const std::size_t mean_of = draws_of_a_mean(row, wish);
+    const std::size_t mean_of = draws_of_a_mean(row, request);
 
     const json of = still(store.study_of(run));
     json study{{"format", of.at("format")},
@@ -96,7 +96,7 @@ json study_of_check(const Store& store, const std::string& run, const AccuracyTa
                              " " + std::to_string(row.setting.step + 1)},
                {"scene", json::parse(still(store.scene_of(run)))},
                {"overrides", overrides_of(plan, row.setting.ladder, row.setting.step)},
-               {"draws", wish.repeats * mean_of},
+               {"draws", request.repeats * mean_of},
                {"first_draw", plan.draws},
                {"draws_of", name_of(plan.draws_of)},
                {"stability", false},

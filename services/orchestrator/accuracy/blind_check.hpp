@@ -16,7 +16,7 @@ namespace breach::orchestrator {
 constexpr std::size_t most_repeats_of_a_check = 100;
 
 /// Which setting is checked: a row of the table, so many draws of it in a mean.
-struct CheckWish {
+struct CheckRequest {
     std::size_t repeats = 10;  ///< so many means; with mean_of as many draws as a study may have
     std::optional<std::string> ladder = {};
     std::optional<std::size_t> step = {};  ///< from 1; with the ladder: instead of the recommended
@@ -26,7 +26,7 @@ struct CheckWish {
 /// The study that draws the setting on lattices that the accuracy study has not used. Throws
 /// BadInput, with pointers into the request, when there is no such setting, or none is recommended.
 nlohmann::json study_of_check(const Store& store, const std::string& run,
-                              const AccuracyTable& table, const CheckWish& wish);
+                              const AccuracyTable& table, const CheckRequest& request);
 
 /// Nothing: the run is no such check, or there is none.
 std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data,

@@ -46,13 +46,14 @@ std::optional<double> value_measured(const Task& task, const Quantity& quantity,
                                      const DataFolder& data) {
     if (!quantity.time) return number_in(*task.result, quantity.pointer);
     // A course of more lines than one answer holds is read on.
-    TelemetryWish wish{.fields = {"time", quantity.name}};
+    TelemetryRequest request{.fields = {"time", quantity.name}};
     for (;;) {
-        const json part = read_telemetry(data.output(task) / phases::files::telemetry, wish);
+        const json part = read_telemetry(data.output(task) / phases::files::telemetry, request);
         if (const auto value = value_at(part.at("lines"), quantity.name, *quantity.time))
             return value;
-        if (part.at("next") <= wish.from + 1 || part.at("lines").empty()) return std::nullopt;
-        wish.from = part.at("next").get<std::int64_t>() - 1;  // the line before the gap once more
+        if (part.at("next") <= request.from + 1 || part.at("lines").empty()) return std::nullopt;
+        request.from =
+            part.at("next").get<std::int64_t>() - 1;  // the line before the gap once more
     }
 }
 
@@ -66,8 +67,8 @@ Measured measured(const Task& last, const TasksById& tasks, const Quantity& quan
     Measured found{.value = value_measured(last, quantity, data)};
     for (const Task* each : chain) {
         add(found.cost, *each);
-        const json& doubt = each->result->value("questionable", json());
-        found.questionable |= doubt.is_boolean() && doubt.get<bool>();
+        const json& caution = each->result->value("questionable", json());
+        found.questionable |= caution.is_boolean() && caution.get<bool>();
     }
     if (!found.value)
         found.reason =

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t most_studies = 20;  // the newest are asked
 /// Standard deviation of a runout over lattices of points where no draws tell it: about what
-/// docs/accuracy.md has of short runouts (up to 0.5 of a cell) and of long ones (1.2 to 1.5 %).
+/// docs/verification/accuracy.md has of short runouts (up to 0.5 of a cell) and of long ones (1.2 to 1.5 %).
 constexpr double scatter_in_cells = 0.5;
 constexpr double scatter_of_runout = 0.015;
 constexpr const char* noise_of_points =
@@ -179,18 +179,19 @@ class Scatter {
     std::optional<Estimate> estimate(const ResultRow& row) const {
         const auto found = runouts_.find(place_of(row));
         if (found == runouts_.end() || found->second.size() < 2) return std::nullopt;
-        return Estimate{statistics::repeats_of(found->second).deviation,
-                        "scatter of " + std::to_string(found->second.size()) + " draws: " + noise_};
+        return Estimate{
+            statistics::repeats_of(found->second).deviation,
+            "scatter of " + std::to_string(found->second.size()) + " repeats: " + noise_};
     }
 
     /// What the scatter leaves of the mean of a place's draws.
     Estimate of_mean(const Place& place) const {
         const auto found = runouts_.find(place);
         if (found == runouts_.end() || found->second.size() < 2)
-            return {std::nullopt, "fewer than two draws have a runout"};
+            return {std::nullopt, "fewer than two repeats have a runout"};
         return {statistics::half_width_of_mean(statistics::repeats_of(found->second)),
                 "scatter of the mean of " + std::to_string(found->second.size()) +
-                    " draws, Student's 90 %: " + noise_};
+                    " repeats, Student's 90 %: " + noise_};
     }
 
     /// Root mean square of what the draws scatter by over all places; nothing: none has two.
@@ -274,10 +275,10 @@ Estimate at_least_lattices(Estimate beside, double runout, const std::optional<d
         std::max(scatter_in_cells * cell.value_or(0.0), scatter_of_runout * std::abs(runout));
     const double floor = draws.value_or(usual);
     if (floor <= *beside.error) return beside;
-    const std::string why = draws ? "scatter of the draws of other rows"
+    const std::string why = draws ? "scatter of the repeats of other rows"
                                   : "what lattices of points usually scatter by, half a cell and " +
                                         words::text_of(100.0 * scatter_of_runout) +
-                                        " % of the runout at least (\"draws\" would tell it)";
+                                        " % of the runout at least (set \"draws\" to measure it)";
     return {floor, why + "; neighbouring transfer times share a lattice and scatter by " +
                        words::text_of(*beside.error, 2) +
                        " m only: noise, not the error of the setting or of the FEM"};
@@ -327,7 +328,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         if (!estimate)
             estimate = Estimate{std::nullopt,
                                 "no accuracy study has this scene at this setting, and the sweep "
-                                "has no draws and too few transfer times"};
+                                "has no repeats and too few transfer times"};
         if (estimate->error) value_of(row, "runout_error") = *estimate->error;
         value_of(row, "runout_error_from") = estimate->from;
     }

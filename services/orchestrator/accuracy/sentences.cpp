@@ -26,9 +26,9 @@ std::string with_unit(double value, const Quantity& quantity) {
 
 /// Empty: every run of the quantity gives the same.
 std::string what_tells_the_noise(const AccuracyPlan& plan) {
-    if (can_redraw(Redrawn::points, plan.quantity.reach)) return "\"draws\" would tell it";
+    if (can_redraw(Redrawn::points, plan.quantity.reach)) return "set \"draws\" to measure it";
     return can_redraw(Redrawn::fem, plan.quantity.reach)
-               ? "\"draws\" with \"draws_of\": \"fem\" would tell it"
+               ? "set \"draws\" and \"draws_of\": \"fem\" to measure it"
                : "";
 }
 
@@ -46,7 +46,7 @@ std::string order_in_words(const statistics::Convergence& convergence) {
     const auto [low, high] = *convergence.order_by_noise;
     if (high <= 2.0 * low) return words;
     return words + " (by the noise anything from " + shown(low, "%.2g") + " to " +
-           shown(high, "%.2g") + "; rungs farther apart, or more draws, would tell it)";
+           shown(high, "%.2g") + "; use rungs farther apart or more repeats)";
 }
 
 std::string setting_in_words(const AccuracyTable& table, const AccuracyRow& row) {
@@ -68,7 +68,7 @@ std::string left_out(const AccuracyTable& table, const AccuracyRow& row) {
 
 /// "one run", "the mean of 4 draws"
 std::string mean_in_words(std::size_t draws) {
-    return draws == 1 ? "one run" : "the mean of " + std::to_string(draws) + " draws";
+    return draws == 1 ? "one run" : "the mean of " + std::to_string(draws) + " repeats";
 }
 
 std::string cost_in_words(double cpu_seconds) { return shown(cpu_seconds, "%.3g") + " CPU s"; }
@@ -201,30 +201,32 @@ std::string recommendation_in_words(const AccuracyTable& table) {
                sizes_to_give(table) + ".";
     std::string words = "No setting meets " + asked;
     if (best->value->deviation)
-        words += ", nor the mean of " + std::to_string(statistics::most_draws_of_a_mean) + " draws";
+        words +=
+            ", nor the mean of " + std::to_string(statistics::most_draws_of_a_mean) + " repeats";
     words += "; the nearest is " + setting_in_words(table, *best) + " (";
     if (best->value->deviation && *best->bias > table.plan.asked_error)
-        words += "its own error is " + percent(*best->bias) + ", whatever is averaged; ";
+        words += "its own error is " + percent(*best->bias) + ", for any number of repeats; ";
     else if (best->value->deviation)
         words += "nine of ten such means are within " + percent(error_of_means(table, *best)) +
                  ", the scatter being known from " + std::to_string(best->value->count) +
-                 " draws; ";
+                 " repeats; ";
     return words + run_in_words(table, *best) + ")." + shares_of(table, *best);
 }
 
 std::string verdict_in_words(const BlindCheck& check) {
     const BlindCheckPlan& plan = check.plan;
-    const std::string of =
-        plan.mean_of == 1 ? "new draws" : "means of " + std::to_string(plan.mean_of) + " new draws";
+    const std::string of = plan.mean_of == 1
+                               ? "new repeats"
+                               : "means of " + std::to_string(plan.mean_of) + " new repeats";
     std::string words = std::to_string(check.kept) + " of " + std::to_string(check.judged) + " " +
                         of + (check.judged == 1 ? " is" : " are") + " within " +
                         percent(plan.asked_error) + " of " +
                         with_unit(plan.reference, plan.quantity);
     if (check.furthest) words += "; the furthest is off by " + percent(*check.furthest);
     if (const std::size_t missing = check.means.size() - check.judged; missing > 0)
-        words += "; " + std::to_string(missing) + " not judged: a draw has no value";
+        words += "; " + std::to_string(missing) + " not judged: a repeat has no value";
     const auto doubtful = std::ranges::count_if(check.means, &BlindMean::questionable);
-    if (doubtful > 0) words += "; " + std::to_string(doubtful) + " with a questionable draw";
+    if (doubtful > 0) words += "; " + std::to_string(doubtful) + " with a questionable repeat";
     return words + ".";
 }
 

@@ -25,11 +25,11 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
       data_(data),
       executor_(executor),
       settings_(std::move(settings)),
-      registered_(bell_),
+      registered_(notifier_),
       registrar_(store, data, [this](const std::string& task) { registered_.put(task); }),
       attempts_(store, data, executor, board, settings_,
                 [this](const Task& task) { registrar_.add(task); }),
-      ready_(store, data, bell_),
+      ready_(store, data, notifier_),
       triggers_(store, data),
       batches_(store, data, settings_.numerics) {
     thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
@@ -44,7 +44,7 @@ void Dispatcher::stop() {
     thread_.join();
 }
 
-void Dispatcher::wake() { bell_.ring(); }
+void Dispatcher::wake() { notifier_.notify(); }
 
 void Dispatcher::settle_all() {
     unsettled_ = true;
@@ -110,11 +110,11 @@ void Dispatcher::wait_for_something() {
     wait = std::min(wait, triggers_.patience());
     pollfd wanted[] = {{attempts_.descriptor(), POLLIN, 0},
                        {triggers_.descriptor(), POLLIN, 0},
-                       {bell_.descriptor(), POLLIN, 0}};
+                       {notifier_.descriptor(), POLLIN, 0}};
     poll(wanted, 3, static_cast<int>(wait.count()));
     std::this_thread::sleep_until(round_began_ + shortest_round);
     round_began_ = Clock::now();
-    bell_.silence();
+    notifier_.clear();
 }
 
 void Dispatcher::shut_down(const std::stop_token& stop) {

@@ -46,7 +46,7 @@ class Dispatcher {
     const DataFolder& data_;
     Executor& executor_;
     DispatchSettings settings_;
-    Bell bell_;                        // before those whose threads ring it: it goes after them
+    Notifier notifier_;                // before those whose threads notify it: it goes after them
     Mailbox<std::string> registered_;  ///< tasks that the registrar has finished with
     Registrar registrar_;
     Attempts attempts_;

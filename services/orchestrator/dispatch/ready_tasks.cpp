@@ -4,10 +4,10 @@
 
 namespace breach::orchestrator {
 
-ReadyTasks::ReadyTasks(Store& store, const DataFolder& data, const Bell& bell)
+ReadyTasks::ReadyTasks(Store& store, const DataFolder& data, const Notifier& notifier)
     : store_(store),
-      bell_(bell),
-      looked_up_(bell),
+      notifier_(notifier),
+      looked_up_(notifier),
       cache_(store, data, [this](LookedUp found) { looked_up_.put(std::move(found)); }) {}
 
 std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
@@ -55,7 +55,7 @@ bool ReadyTasks::waits_for_an_equal(const Task& task, const std::vector<Task>& c
         return task.recipe && other.recipe == task.recipe && (other.run != task.run || same_input);
     };
     if (std::ranges::any_of(chosen, may_be_equal)) {
-        bell_.ring();  // once that has been started the store knows
+        notifier_.notify();  // once that has been started the store knows
         return true;
     }
     return store_.equal_in_flight(task).has_value();

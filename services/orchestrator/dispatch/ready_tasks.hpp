@@ -4,16 +4,16 @@
 
 #include <set>
 
-#include "services/orchestrator/dispatch/bell.hpp"
 #include "services/orchestrator/dispatch/cache.hpp"
 #include "services/orchestrator/dispatch/capacity.hpp"
+#include "services/orchestrator/dispatch/notifier.hpp"
 
 namespace breach::orchestrator {
 
 class ReadyTasks {
   public:
-    /// bell: rung when the cache has looked a task up.
-    ReadyTasks(Store& store, const DataFolder& data, const Bell& bell);
+    /// notifier: notified when the cache has looked a task up.
+    ReadyTasks(Store& store, const DataFolder& data, const Notifier& notifier);
 
     /// In order of priority and age; the first that does not fit holds back those behind it, so that
     /// small tasks cannot keep a large one waiting for ever.
@@ -26,7 +26,7 @@ class ReadyTasks {
     bool waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const;
 
     Store& store_;
-    const Bell& bell_;
+    const Notifier& notifier_;
     Mailbox<LookedUp> looked_up_;                 ///< what the cache has finished with
     std::set<std::string> in_the_cache_;          ///< tasks that it looks up now
     std::map<std::string, LookedUp> not_cached_;  ///< tasks that nothing found answers

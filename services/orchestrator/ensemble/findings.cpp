@@ -272,9 +272,9 @@ json findings_of(const Ensemble& ensemble, const json& scene, const std::string&
     if (const json::json_pointer own("/lem/probability");
         scene.contains(own) && answer["quantities"].contains("factor_of_safety"))
         answer["sentences"].push_back(
-            "/lem/probability of the scene draws strengths of its own within each sample's "
+            "/lem/probability of the scene samples strengths within each sample's "
             "stability "
-            "analysis; what is told here of failure rests on the samples alone.");
+            "analysis; the probability of failure here counts the samples only.");
     return answer;
 }
 

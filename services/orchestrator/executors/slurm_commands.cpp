@@ -7,7 +7,7 @@
 #include <charconv>
 #include <sstream>
 
-#include "services/orchestrator/programs/command.hpp"
+#include "core/command/command.hpp"
 
 namespace breach::orchestrator {
 
@@ -92,7 +92,8 @@ Submitted SlurmCommands::submit(const Batch& batch) const {
         words.push_back(std::move(range));
     }
     words.insert(words.end(), options_.begin(), options_.end());
-    const CommandResult result = run_command(std::move(words), script_of(batch, self_), longest_);
+    const command::Result result =
+        command::run(std::move(words), script_of(batch, self_), longest_);
     if (!result.exit_code) return {Reply::doubtful, "sbatch gave no answer"};
     const std::string said = first_line(result.err);
     if (*result.exit_code != 0)
@@ -103,10 +104,10 @@ Submitted SlurmCommands::submit(const Batch& batch) const {
 }
 
 std::optional<std::map<JobName, ListedJob>> SlurmCommands::list() const {
-    const CommandResult result =
-        run_command({"squeue", "--noheader", "--array", "--states=all", "--user=" + user_,
-                     std::string("--format=") + squeue_format},
-                    "", longest_);
+    const command::Result result =
+        command::run({"squeue", "--noheader", "--array", "--states=all", "--user=" + user_,
+                      std::string("--format=") + squeue_format},
+                     "", longest_);
     if (result.exit_code != 0) return std::nullopt;
     std::map<JobName, ListedJob> found;
     std::istringstream lines(result.out);
@@ -118,7 +119,7 @@ std::optional<std::map<JobName, ListedJob>> SlurmCommands::list() const {
 
 void SlurmCommands::cancel(const JobName& job, const std::string& number) const {
     // The name too: the number may be another job's by now.
-    run_command({"scancel", "--quiet", "--name=" + job.name, number}, "", longest_);
+    command::run({"scancel", "--quiet", "--name=" + job.name, number}, "", longest_);
 }
 
 std::optional<std::pair<JobName, ListedJob>> job_in(const std::string& line) {

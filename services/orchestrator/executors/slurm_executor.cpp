@@ -191,7 +191,7 @@ std::string SlurmExecutor::Job::what_keeps() const {
         case Stage::asking:
             return "sbatch was called " + std::to_string(seconds) + " s ago and has not answered";
         case Stage::doubtful:
-            return "in doubt for " + std::to_string(seconds) + " s: " + why +
+            return "unknown for " + std::to_string(seconds) + " s: " + why +
                    "; looking for it in Slurm's queue";
         case Stage::submitted:
         case Stage::refused:

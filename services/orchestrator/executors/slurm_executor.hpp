@@ -60,7 +60,7 @@ class SlurmExecutor final : public Executor {
         std::string state = {};     ///< Slurm's word when it was last listed
         std::string reason = {};    ///< Slurm's word for why it waits
         std::string number = {};    ///< Slurm's number for it when it was last listed
-        std::string why = {};       ///< it was refused, or is in doubt
+        std::string why = {};       ///< it was refused, or is in caution
         int asked = 0;              ///< how often sbatch was called for it
         Clock::time_point since{};  ///< of this stage
         /// Since when nothing speaks for its life: not listed, or listed as over or as running, and

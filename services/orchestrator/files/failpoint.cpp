@@ -18,9 +18,9 @@ namespace breach::orchestrator {
 namespace {
 
 /// What one of the variables asks for, and how often its place was reached.
-class Wish {
+class FailpointSetting {
   public:
-    explicit Wish(const char* variable) {
+    explicit FailpointSetting(const char* variable) {
         const char* text = std::getenv(variable);
         if (text == nullptr) return;
         std::istringstream parts(text);
@@ -46,9 +46,9 @@ class Wish {
 }  // namespace
 
 void pass_failpoint(Failpoint point) {
-    static Wish to_die("BREACHLINE_FAILPOINT");
-    static Wish to_throw("BREACHLINE_TROUBLE");
-    static Wish to_wait("BREACHLINE_HOLD");
+    static FailpointSetting to_die("BREACHLINE_FAILPOINT");
+    static FailpointSetting to_throw("BREACHLINE_TROUBLE");
+    static FailpointSetting to_wait("BREACHLINE_HOLD");
     if (to_wait.is_due(point.name))
         while (to_wait.has_the_file()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (to_die.is_due(point.name) && to_die.takes_the_file()) kill(getpid(), SIGKILL);

@@ -23,17 +23,17 @@ json chosen(const json& line, const std::vector<std::string>& fields) {
 
 }  // namespace
 
-json read_telemetry(const std::filesystem::path& file, const TelemetryWish& wish) {
+json read_telemetry(const std::filesystem::path& file, const TelemetryRequest& request) {
     json lines = json::array();
     std::int64_t number = 0;
     telemetry::LineWalk walk(file);
     while (lines.size() < most_lines && walk.next()) {
         const std::int64_t here = number++;
-        if (here < wish.from || here % wish.stride != 0) continue;
+        if (here < request.from || here % request.stride != 0) continue;
         const json line = json::parse(walk.text(), nullptr, false);
-        if (line.is_object()) lines.push_back(chosen(line, wish.fields));
+        if (line.is_object()) lines.push_back(chosen(line, request.fields));
     }
-    return {{"lines", std::move(lines)}, {"next", std::max(number, wish.from)}};
+    return {{"lines", std::move(lines)}, {"next", std::max(number, request.from)}};
 }
 
 }  // namespace breach::orchestrator

@@ -9,13 +9,13 @@
 
 namespace breach::orchestrator {
 
-struct TelemetryWish {
+struct TelemetryRequest {
     std::vector<std::string> fields;  ///< empty: all
     std::int64_t from = 0;            ///< first line, from 0
     std::int64_t stride = 1;          ///< every stride-th line, counted from line 0
 };
 
 /// {"lines":[...],"next":LINE}: `next` is where to go on; a torn last line waits until it is whole.
-nlohmann::json read_telemetry(const std::filesystem::path& file, const TelemetryWish& wish);
+nlohmann::json read_telemetry(const std::filesystem::path& file, const TelemetryRequest& request);
 
 }  // namespace breach::orchestrator

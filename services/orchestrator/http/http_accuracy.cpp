@@ -45,14 +45,14 @@ std::optional<std::size_t> count_in(const Call& call, const std::string& name, s
 void draw_check(Service& service, Call& call) {
     call.allow_parameters({"repeats", "ladder", "step", "mean_of", "asked_error"});
     const Run run = wanted_run(service, call.parts[0]);
-    CheckWish wish;
-    wish.repeats = count_in(call, "repeats", most_repeats_of_a_check).value_or(wish.repeats);
-    wish.ladder = call.parameter("ladder");
-    wish.step = count_in(call, "step", most_repeats_of_a_check);
-    wish.mean_of = count_in(call, "mean_of", statistics::most_draws_of_a_mean);
+    CheckRequest request;
+    request.repeats = count_in(call, "repeats", most_repeats_of_a_check).value_or(request.repeats);
+    request.ladder = call.parameter("ladder");
+    request.step = count_in(call, "step", most_repeats_of_a_check);
+    request.mean_of = count_in(call, "mean_of", statistics::most_draws_of_a_mean);
     const AccuracyTable table = wanted_table(service, call, run);
     const std::string check =
-        accept_made_study(service, call, study_of_check(service.store, run.id, table, wish));
+        accept_made_study(service, call, study_of_check(service.store, run.id, table, request));
     call.response.set_header("Location", "/v1/runs/" + check);
     reply(call.response, as_json(wanted_run(service, check), service.store, service.board), 202);
 }

@@ -50,7 +50,7 @@ json body_of(const Task& task, const outflow::Hydrograph& hydrograph,
 }
 
 /// What the runout's row of results says against its numbers.
-std::string doubt_of(const Store& store, const Task& task) {
+std::string caution_of(const Store& store, const Task& task) {
     for (const ResultRow& row : store.results(task.run)) {
         if (value_of(row, "mpm_task") != task.id) continue;
         std::string codes;
@@ -58,11 +58,11 @@ std::string doubt_of(const Store& store, const Task& task) {
             if (flag.at("severity") != "questionable") continue;
             codes += (codes.empty() ? "" : ", ") + flag.at("code").get<std::string>();
         }
-        std::string doubt = codes.empty() ? "" : "Questionable: " + codes + ".";
+        std::string warning = codes.empty() ? "" : "Questionable: " + codes + ".";
         if (value_of(row, "lower_bound") == true)
-            doubt += (doubt.empty() ? "" : " ") +
-                     std::string("The runout was cut off in motion: volumes are lower bounds.");
-        return doubt;
+            warning += (warning.empty() ? "" : " ") +
+                       std::string("The runout was cut off in motion: volumes are lower bounds.");
+        return warning;
     }
     return "";
 }
@@ -84,7 +84,7 @@ void hydrograph(Service& service, Call& call) {
         found = outflow::hydrograph_in(outflow::history_of(output),
                                        call.parameter("section").value_or(""), "runout");
     });
-    found.doubt = doubt_of(service.store, task);
+    found.warning = caution_of(service.store, task);
     const auto width = wanted_width(call, output);
     if (target == "json" || target == "csv")
         call.response.set_header("X-Warning", outflow::warning_of(found));
@@ -99,11 +99,11 @@ void hydrograph(Service& service, Call& call) {
     if (target == "hec-ras")
         return call.response.set_content(as_hec_ras(found, width->best, interval, "request"),
                                          "text/csv");
-    const outflow::Flo2dWish wish{.cell = call.whole_number("cell", 1, 1, largest_cell),
-                                  .concentration = call.number("concentration")};
-    if (wish.concentration && !(*wish.concentration >= 0.0 && *wish.concentration < 1.0))
+    const outflow::Flo2dOptions request{.cell = call.whole_number("cell", 1, 1, largest_cell),
+                                        .concentration = call.number("concentration")};
+    if (request.concentration && !(*request.concentration >= 0.0 && *request.concentration < 1.0))
         throw bad_request("concentration must be a share of volume, from 0 to below 1");
-    call.response.set_content(as_flo_2d(found, width->best, interval, wish, "request"),
+    call.response.set_content(as_flo_2d(found, width->best, interval, request, "request"),
                               "text/plain");
 }
 

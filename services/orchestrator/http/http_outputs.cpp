@@ -57,11 +57,11 @@ void telemetry(const Service& service, Call& call) {
     const std::string phase = call.parameter("phase").value_or(phases::fem.program);
     const Task task = meant_task(service, call.parts[0], phase, call.number("transfer_time"),
                                  call.parameter("variant"));
-    const TelemetryWish wish{.fields = names_in(call, "fields"),
-                             .from = call.whole_number("from", 0, 0, largest_count),
-                             .stride = call.whole_number("stride", 1, 1, largest_count)};
+    const TelemetryRequest query{.fields = names_in(call, "fields"),
+                                 .from = call.whole_number("from", 0, 0, largest_count),
+                                 .stride = call.whole_number("stride", 1, 1, largest_count)};
     reply(call.response,
-          read_telemetry(service.data.output(task) / phases::files::telemetry, wish));
+          read_telemetry(service.data.output(task) / phases::files::telemetry, query));
 }
 
 void frames(const Service& service, Call& call) {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <mutex>
 
+#include "core/command/command.hpp"
 #include "core/exchange/publish.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
-#include "services/orchestrator/programs/command.hpp"
 
 namespace breach::orchestrator {
 
@@ -118,8 +118,8 @@ void send_report(const Router& router, const Service& service, Call& call) {
     const ScratchFolder scratch(service.data.scratch(), run.id);
     Folder(router, service, call, scratch.path()).fill();
     const fs::path page = scratch.path() / "report.html";
-    const CommandResult made =
-        run_command({report_program(), scratch.path(), "--output", page, "--alone"}, "", longest);
+    const command::Result made =
+        command::run({report_program(), scratch.path(), "--output", page, "--alone"}, "", longest);
     if (made.exit_code != 0)
         throw Problem{409, "/problems/nothing-to-report", "Nothing to report",
                       made.err.empty() ? "the program report was stopped" : made.err};

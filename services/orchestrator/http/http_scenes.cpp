@@ -92,7 +92,7 @@ void remove_scene(Service& service, Call& call) {
     const std::string& address = call.parts[0];
     if (address.find('@') != std::string::npos)
         throw bad_request(
-            "versions are not removed one by one: a run may be told by its number; remove the "
+            "a single version cannot be removed: a run may refer to its number; remove the "
             "whole "
             "name, or a content by its SHA-256");
     const bool content = exchange::is_sha256(address);

@@ -146,7 +146,7 @@ class HttpServer::Implementation {
         add_all_routes(router_, service, stopping_);
         server_.set_default_headers({{"X-Content-Type-Options", "nosniff"}});
         set_connections();
-        set_doors();
+        set_handlers();
         bind();
     }
 
@@ -179,7 +179,7 @@ class HttpServer::Implementation {
         });
     }
 
-    void set_doors() {
+    void set_handlers() {
         server_.set_pre_routing_handler(
             [this](const httplib::Request& request, httplib::Response& response) {
                 // Only artifacts come in parts; hundreds of ranges would multiply any other answer.
@@ -200,19 +200,19 @@ class HttpServer::Implementation {
                 answer(request, response, nullptr);
                 return httplib::Server::HandlerResponse::Handled;
             });
-        const httplib::Server::Handler door = [this](const httplib::Request& request,
-                                                     httplib::Response& response) {
+        const httplib::Server::Handler handler = [this](const httplib::Request& request,
+                                                        httplib::Response& response) {
             answer(request, response, nullptr);
         };
-        const httplib::Server::HandlerWithContentReader door_with_body =
+        const httplib::Server::HandlerWithContentReader handler_with_body =
             [this](const httplib::Request& request, httplib::Response& response,
                    const httplib::ContentReader& body) { answer(request, response, &body); };
-        server_.Get(".*", door);
-        server_.Options(".*", door);
-        server_.Post(".*", door_with_body);
-        server_.Put(".*", door_with_body);
-        server_.Patch(".*", door_with_body);
-        server_.Delete(".*", door_with_body);
+        server_.Get(".*", handler);
+        server_.Options(".*", handler);
+        server_.Post(".*", handler_with_body);
+        server_.Put(".*", handler_with_body);
+        server_.Patch(".*", handler_with_body);
+        server_.Delete(".*", handler_with_body);
         server_.set_error_handler([](const httplib::Request&, httplib::Response& response) {
             if (response.body.empty() && !response.content_provider_)
                 refuse(response, problem_of(response.status));
@@ -275,12 +275,12 @@ class HttpServer::Implementation {
                   settings_.host + " can be reached from other machines, and there is "
                                    "no token",
                   "stay on 127.0.0.1; for other machines give --tokens FILE (or --token-file FILE) "
-                  "and put nginx with TLS in front (docs/reverse_proxy.md)"}});
+                  "and put nginx with TLS in front (docs/how-to/reverse_proxy.md)"}});
         }
         if (!is_loopback(settings_.host))
             spdlog::warn(
                 "tokens and results travel unencrypted: stay on 127.0.0.1 and put nginx with TLS "
-                "in front (docs/reverse_proxy.md)");
+                "in front (docs/how-to/reverse_proxy.md)");
         if (settings_.port == 0) {
             port_ = server_.bind_to_any_port(settings_.host);
         } else if (server_.bind_to_port(settings_.host, settings_.port)) {

@@ -1,5 +1,5 @@
 // The service's HTTP side: sizes, hardening, tokens, routes. TLS, slow clients and rates are nginx's
-// (docs/reverse_proxy.md). cpp-httplib stays inside this folder.
+// (docs/how-to/reverse_proxy.md). cpp-httplib stays inside this folder.
 #pragma once
 
 #include <memory>

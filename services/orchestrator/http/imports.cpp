@@ -77,37 +77,37 @@ class Entries {
     std::vector<Fault> faults_;
 };
 
-importing::Wish wish_from(const std::string& text) {
+importing::Request request_from(const std::string& text) {
     const json body = scene::parse_json(text, "request");
     Entries entries(body);
-    importing::Wish wish{.drawing = {entries.text("file"), entries.text("drawing")},
-                         .materials = entries.object("materials"),
-                         .map = entries.texts("map"),
-                         .layers = entries.texts("layers"),
-                         .phreatic = entries.file("phreatic"),
-                         .terrain = entries.file("terrain"),
-                         .ground = entries.file("ground"),
-                         .unit = entries.text("unit"),
-                         .tolerance = entries.number("tolerance").value_or(0.05),
-                         .flatten = entries.number("flatten"),
-                         .name = entries.text("name"),
-                         .confirmed = entries.flag("confirmed")};
+    importing::Request request{.drawing = {entries.text("file"), entries.text("drawing")},
+                               .materials = entries.object("materials"),
+                               .map = entries.texts("map"),
+                               .layers = entries.texts("layers"),
+                               .phreatic = entries.file("phreatic"),
+                               .terrain = entries.file("terrain"),
+                               .ground = entries.file("ground"),
+                               .unit = entries.text("unit"),
+                               .tolerance = entries.number("tolerance").value_or(0.05),
+                               .flatten = entries.number("flatten"),
+                               .name = entries.text("name"),
+                               .confirmed = entries.flag("confirmed")};
     entries.finish();
-    return wish;
+    return request;
 }
 
 }  // namespace
 
 json imported(const std::string& body) {
-    const importing::Wish wish = wish_from(body);
-    importing::Imported made = importing::import_section(wish);
+    const importing::Request request = request_from(body);
+    importing::Imported made = importing::import_section(request);
     if (!made.faults.empty()) throw fault::BadInput("drawing", std::move(made.faults));
     return {{"scene", std::move(made.scene)}, {"report", std::move(made.report)}};
 }
 
 std::string picture_of_import(const std::string& body) {
-    const importing::Wish wish = wish_from(body);
-    importing::Imported made = importing::import_section(wish);
+    const importing::Request request = request_from(body);
+    importing::Imported made = importing::import_section(request);
     const json shown =
         made.faults.empty() ? made.scene : json{{"title", "What is wrong with the drawing"}};
     const report::Draft draft{{shown, {}, ""}, std::move(made.sketch), made.faults};

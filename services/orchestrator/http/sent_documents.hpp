@@ -1,4 +1,4 @@
-// Studies and scenes that come over the network, read with what only the door knows: the sender
+// Studies and scenes that come over the network, read with what only the HTTP layer knows: the sender
 // may have taken the one for the other, and files are on this machine, not on the sender's.
 #pragma once
 

@@ -4,9 +4,9 @@
 #include <chrono>
 #include <sstream>
 
+#include "core/command/command.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
-#include "services/orchestrator/programs/command.hpp"
 
 namespace breach::orchestrator {
 
@@ -18,7 +18,8 @@ std::int64_t numerics_of(const std::filesystem::path& program) {
     const std::string remedy = "; give the folder of the phases of this build with --bin";
     if (!std::filesystem::exists(program))
         throw fault::IoError(program.string() + ": there is no such program" + remedy);
-    const CommandResult result = run_command({program.string(), "--version"}, "", longest_answer);
+    const command::Result result =
+        command::run({program.string(), "--version"}, "", command::longest_answer);
     std::istringstream lines(result.out);
     for (std::string line; result.exit_code == 0 && std::getline(lines, line);) {
         if (!line.starts_with(numerics_word)) continue;

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 
+#include "core/command/command.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/phases.hpp"
-#include "services/orchestrator/programs/command.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {
@@ -15,8 +15,8 @@ namespace {
 
 /// What the program prints until it ends.
 std::string answer_of(const std::filesystem::path& program, const std::filesystem::path& scene) {
-    const CommandResult result =
-        run_command({program.string(), scene.string(), "--plan"}, "", longest_answer);
+    const command::Result result =
+        command::run({program.string(), scene.string(), "--plan"}, "", command::longest_answer);
     if (result.exit_code != 0)
         throw fault::IoError(program.filename().string() + " --plan did not answer");
     return result.out;

@@ -15,29 +15,29 @@ class MeanColumns {
         add({"transfer_time", "", number, "s", "t_T", "transfer time"});
         add({"variant", "", word, "", "variant", "of the study; empty: it has none"});
         add({"state", "", word, "", "state",
-             "running: draws are open; partial: a draw has no result; questionable: one is not to "
-             "be relied on; else as that of the draws"});
-        add({"draws", "", number, "1", "draws", "draws that were asked for"});
+             "running: repeats are open; partial: a repeat has no result; questionable: a repeat "
+             "is "
+             "questionable; else the state of the repeats"});
+        add({"draws", "", number, "1", "repeats", "repeats of the study"});
         add({"draws_done", "", number, "1", "done",
-             "draws that have a result: the mean is theirs"});
+             "repeats with a result, over which the mean is taken"});
         for (const ResultColumn* each : averaged_columns()) {
             add({each->name, "", number, each->unit, each->title,
-                 text("mean over the draws: " + std::string(each->meaning))});
+                 text("mean over the repeats: " + std::string(each->meaning))});
             add({text(deviation_of(each->name)), "", number, each->unit, *each->title ? "+-" : "",
-                 text("standard deviation over the draws; null: fewer than two have a result")});
+                 text("standard deviation over the repeats; null: fewer than two have a result")});
         }
         add({"missing_draws", "", word, "", "",
-             "draws without a result, with their states; the mean is without them"});
+             "repeats without a result, with their states; the mean leaves them out"});
         add({"questionable_draws", "", word, "", "",
-             "draws whose results are not to be relied on; the mean has them in it"});
+             "repeats with a questionable result; the mean includes them"});
         add({"lower_bound", "", yes_no, "", "",
-             "soil of a draw still moved at the end: mean distances and areas are lower bounds"});
+             "soil of a repeat still moved at the end: mean distances and areas are lower bounds"});
         add({"runout_error", "", number, "m", "",
-             "how far the mean runout is off: the bias that an accuracy study of an equal scene "
-             "tells, "
-             "if there is one, and t s / sqrt(draws), Student's 90 % for so few of them; null: "
-             "nothing tells it"});
-        add({"runout_error_from", "", word, "", "", "what tells the error, or why nothing does"});
+             "error of the mean runout: the bias from an accuracy study of an equal scene, if "
+             "there "
+             "is one, and t s / sqrt(n) of the n repeats with Student's 90 %; null: not known"});
+        add({"runout_error_from", "", word, "", "", "source of the error, or why it is not known"});
     }
 
     std::span<const ResultColumn> columns() const { return columns_; }

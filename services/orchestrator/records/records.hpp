@@ -287,7 +287,7 @@ struct StoredFile {
     std::vector<std::string> runs = {};  ///< whose scenes name it
 };
 
-/// What becomes of the wish to remove a run or a file.
+/// What becomes of the request to remove a run or a file.
 enum class Removal { done, unknown, going_on, pinned, needed };
 
 /// A firing and how long it took from the line that met its trigger [ms].

@@ -68,7 +68,7 @@ constexpr std::array columns{
                  "what to know before believing it: of the MPM, the transfer and the FEM"},
     ResultColumn{"runout_error", "", number, "m", "+-",
                  "how far one run's runout is off: by an accuracy study of an equal scene, else by "
-                 "the sweep's own draws, else by its neighbours in transfer time; null: nothing "
+                 "the sweep's own repeats, else by its neighbours in transfer time; null: nothing "
                  "tells it"},
     ResultColumn{"runout_error_from", "", word, "", "",
                  "what tells the error, or why nothing does"},

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
+#include "core/criteria/ranges.hpp"
 #include "core/telemetry/columns.hpp"
+#include "core/words/number.hpp"
 #include "core/words/words.hpp"
 
 namespace breach::orchestrator {
@@ -90,12 +93,35 @@ void check_entries(const json& entry, const KindRule& rule, const std::string& p
     }
 }
 
+criteria::Range range_of(const std::string& field) {
+    const telemetry::Column* column = telemetry::column_named(field);
+    return column ? criteria::Range{column->least, column->most} : criteria::Range{};
+}
+
+std::string ranges_of(const criteria::Expression& condition) {
+    std::string text;
+    for (const std::string& field : condition.fields) {
+        const auto [least, most] = range_of(field);
+        if (std::isinf(least) && std::isinf(most)) continue;
+        text += (text.empty() ? "" : ", ") + field;
+        if (std::isinf(most))
+            text += " is at least " + words::text_of(least);
+        else
+            text += " goes from " + words::text_of(least) + " to " + words::text_of(most);
+    }
+    return text;
+}
+
 void check_condition(const json& spec, const char* key, const std::string& pointer,
                      std::vector<Fault>& faults) {
     if (!spec.contains(key)) return;
     try {
-        criteria::parse(spec[key].get<std::string>(), criteria::Kind::condition,
-                        pointer + "/" + key, telemetry_fields());
+        const auto asked = criteria::parse(spec[key].get<std::string>(), criteria::Kind::condition,
+                                           pointer + "/" + key, telemetry_fields());
+        const bool can_be = criteria::can_be_true(asked, range_of);
+        if (!can_be && std::string_view(key) != "upper")
+            faults.push_back({pointer + "/" + key, "can never be true: " + asked.text,
+                              "check sign and unit: " + ranges_of(asked)});
     } catch (const fault::BadInput& error) {
         faults.insert(faults.end(), error.faults().begin(), error.faults().end());
     }

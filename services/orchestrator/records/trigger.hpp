@@ -1,5 +1,5 @@
-// What makes a transfer happen: the kinds of triggers, their states, and their checking at the
-// door. At-time triggers need no watching: they become transfer times of the study.
+// What makes a transfer happen: the kinds of triggers, their states, and their checks when they
+// are submitted. At-time triggers need no watching: they become transfer times of the study.
 //
 //     armed             -> holding   its condition is true (or a user asked); it waits for the hold
 //                                    or for a snapshot

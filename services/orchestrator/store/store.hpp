@@ -1,4 +1,4 @@
-// The memory of the service: one database file behind one door. A single writer thread owns the
+// The memory of the service: one database file behind one interface. A single writer thread owns the
 // only writing connection and commits what has queued up together (group commit); readers use their
 // own read-only connections. SQLite 3.40 can corrupt when two connections write or checkpoint at
 // once, hence "single".

@@ -79,7 +79,7 @@ std::vector<std::vector<std::string>> read_steps(const json& ladder, const std::
             {at + "/steps",
              "the ladder has " + std::to_string(steps.size()) + " rung" +
                  (steps.size() == 1 ? "" : "s") +
-                 (least > 2 ? ", and a limit is told by three" : ": there is nothing to compare"),
+                 (least > 2 ? ", and a limit needs three" : ": there is nothing to compare"),
              least > 2 ? "give three rungs or more, or another reference"
                        : "give two rungs or more; with three an order can be observed"});
     return steps;
@@ -198,8 +198,8 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
     for (const Ladder& each : plan.ladders) rungs += each.steps.size();
     if (rungs * plan.draws > most_variants)
         faults.push_back({"/accuracy/draws",
-                          "rungs times draws are more than " + std::to_string(most_variants),
-                          "ask for fewer draws, or split the study"});
+                          "rungs times repeats are more than " + std::to_string(most_variants),
+                          "give fewer \"draws\", or split the study"});
     return plan;
 }
 
@@ -270,7 +270,7 @@ BlindCheckPlan read_blind_check(const json& entry, const json& scene, const Draw
                           "check a quantity that is not zero, such as runout_largest"});
     if (draws.count % plan.mean_of != 0)
         faults.push_back({"/draws",
-                          std::to_string(draws.count) + " draws do not make whole means of " +
+                          std::to_string(draws.count) + " repeats do not make whole means of " +
                               std::to_string(plan.mean_of),
                           "give a multiple of /check/mean_of"});
     return plan;

@@ -38,7 +38,7 @@ std::string override_of(const std::string& pointer, double value) {
 /// What may be left out of balance gets 5 % smaller from draw to draw, and steps are shorter by what is
 /// left of multiples of the golden section, 0 to 10 %: changes too small to be of the model. Where soil
 /// is about to fail the runs part ways. By the residuals alone they part too little: the crest of
-/// docs/mochikoshi_fem.md scatters three times as much with the steps.
+/// docs/verification/mochikoshi_fem.md scatters three times as much with the steps.
 std::vector<std::string> fem_of_draw(std::size_t draw, const json& scene) {
     if (draw == 0 || !scene.contains("fem")) return {};
     const auto d = static_cast<double>(draw);
@@ -87,7 +87,7 @@ void check_draws(const Draws& draws, Reach reach, const std::string& where,
     if (draws.of == Redrawn::fem && !can_redraw(draws.of, reach))
         faults.push_back(
             {where + "/draws_of",
-             std::string("draws are to compute the FEM again, and ") + program + " comes first",
+             std::string("each repeat computes the FEM again, and ") + program + " comes first",
              "leave \"draws_of\" out"});
     else if (draws.first + draws.count > 1 && !can_redraw(draws.of, reach))
         faults.push_back(
@@ -113,7 +113,7 @@ Draws draws_of(const json& study) {
 
 std::string_view refusal_of_triggers(const Draws& draws) {
     if (draws.of != Redrawn::fem || draws.count == 1) return "";
-    return "each draw has a FEM of its own, and a trigger fires at another time in each: there "
+    return "each repeat has its own FEM, and a trigger fires at another time in each: there "
            "would be no mean at a transfer time";
 }
 

@@ -106,17 +106,17 @@ class Planner {
     void plan_chain(const Variant& variant) {
         json scene = variant.scene;
         scene["fem"]["snapshot_times"] = snapshot_times(scene, study_.transfer_times);
-        std::vector<std::string> wishes{"/fem/snapshot_times=" +
-                                        scene["fem"]["snapshot_times"].dump()};
+        std::vector<std::string> changes{"/fem/snapshot_times=" +
+                                         scene["fem"]["snapshot_times"].dump()};
         if (study_.snapshot_interval > 0.0) {
             scene["fem"]["snapshot_interval"] = study_.snapshot_interval;
-            wishes.push_back("/fem/snapshot_interval=" + json(study_.snapshot_interval).dump());
+            changes.push_back("/fem/snapshot_interval=" + json(study_.snapshot_interval).dump());
         }
         variant_ = &variant;
         for (const phases::Phase& each : phases::all)
             if (each.program != std::string_view(phases::lem.program) || study_.stability)
                 recipes_of_variant_[each.program] = recipe(each.program, scene);
-        const std::size_t fem = add_fem(tasks_, std::move(wishes));
+        const std::size_t fem = add_fem(tasks_, std::move(changes));
         if (study_.stability) add_first(tasks_, phases::lem.program, {}, sharing_of_stability());
         for (const double time : study_.transfer_times) plan_transfer(tasks_, fem, time);
         plan_transfer(open_, add_fem(open_, {}), std::nullopt);
@@ -136,22 +136,23 @@ class Planner {
 
   private:
     /// A task that waits for nothing.
-    std::size_t add_first(TaskList& list, const std::string& phase, std::vector<std::string> wishes,
-                          Sharing sharing = Sharing::wanted, const std::string& beside = {}) {
+    std::size_t add_first(TaskList& list, const std::string& phase,
+                          std::vector<std::string> changes, Sharing sharing = Sharing::wanted,
+                          const std::string& beside = {}) {
         return list.add({.phase = phase,
                          .label = {},
                          .transfer_time = {},
                          .parent = {},
                          .release = Release::at_once,
                          .input = {},
-                         .overrides = std::move(wishes),
+                         .overrides = std::move(changes),
                          .recipe = recipes_of_variant_.at(phase)},
                         *variant_, sharing, beside);
     }
 
     /// A trigger that asks for the critical depth has one for each FEM.
-    std::size_t add_fem(TaskList& list, std::vector<std::string> wishes) {
-        return add_first(list, phases::fem.program, std::move(wishes), Sharing::wanted,
+    std::size_t add_fem(TaskList& list, std::vector<std::string> changes) {
+        return add_first(list, phases::fem.program, std::move(changes), Sharing::wanted,
                          triggers_ask_for_stability_ ? recipes_of_variant_.at(phases::lem.program)
                                                      : std::string());
     }

@@ -1,4 +1,4 @@
-// A study at the door: checked whole, its scene completed and made immutable, its transfer times a
+// A submitted study: checked whole, its scene completed and made immutable, its transfer times a
 // plain list.
 #pragma once
 

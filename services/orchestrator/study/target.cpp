@@ -81,7 +81,7 @@ Target read_target(const json& entry, const UncertaintyPlan& plan, Reach reach,
     }
     target.lattices = asked.value("draws", has_lattice(reach) ? usual_lattices : 1);
     if (target.lattices > 1 && !has_lattice(reach))
-        fault("/draws", "draws move the lattice of material points, and there are none",
+        fault("/draws", "repeats move the lattice of material points, and there are no points",
               "leave \"draws\" out");
     const std::string quantity = asked.value("quantity", plan.quantity);
     const auto columns = result_columns();

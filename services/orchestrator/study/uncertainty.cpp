@@ -352,7 +352,7 @@ std::vector<AskedCorrelation> read_correlations(const json& entries,
                                   "the parameters are " + names_of(parameters)});
             else
                 faults.push_back({at + "/" + std::to_string(k),
-                                  in_quotes(name) + " has no order that a rank could be told of",
+                                  in_quotes(name) + " has no order, so that it has no ranks",
                                   "correlate parameters with a distribution"});
         }
         const double rank = entry[2];
@@ -391,7 +391,7 @@ void check_correlations(const UncertaintyPlan& plan, std::vector<Fault>& faults)
         faults.push_back({"/uncertainty/correlation",
                           "these correlations contradict each other: their matrix is not positive "
                           "definite",
-                          "weaken one of them, or correlate what both hang on: two that go with a "
+                          "weaken one of them, or correlate their common cause: two that go with a "
                           "third cannot go against each other"});
     const std::size_t least = plan.parameters.size() + 2;
     if (plan.sampling == Sampling::latin_hypercube && plan.first < least)

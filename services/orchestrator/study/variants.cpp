@@ -145,7 +145,7 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, con
     const std::string refusal(refusal_of_triggers(draws));
     if (!refusal.empty() && waits && !document.contains("check"))
         faults.push_back({"/draws_of", refusal,
-                          "give \"transfer_times\", or leave \"draws_of\" out: draws of the "
+                          "give \"transfer_times\", or leave \"draws_of\" out: repeats of the "
                           "points share one FEM and its triggers"});
     if (own.empty())
         own.push_back({.name = "",
@@ -197,7 +197,7 @@ std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, 
             const bool of_lattice = !entry.draws_pointer.empty() && is_lattice(each.pointer);
             const Fault fault{of_lattice ? entry.draws_pointer : entry.pointer,
                               each.pointer + ": " + each.cause,
-                              each.remedy + (of_lattice ? "; or ask for no draws" : "")};
+                              each.remedy + (of_lattice ? "; or leave \"draws\" out" : "")};
             const bool told = std::ranges::any_of(faults, [&](const Fault& other) {
                 return of_lattice && other.pointer == fault.pointer && other.cause == fault.cause;
             });

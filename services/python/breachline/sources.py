@@ -102,9 +102,9 @@ class Api:
         except urllib.error.HTTPError as refusal:
             raise BreachlineError(f"{self.server}{path}: {_problem(refusal)}") from refusal
         except OSError as cause:  # urllib.error.URLError is one
-            doubt = getattr(cause, "reason", cause)
-            if isinstance(doubt, ssl.SSLCertVerificationError):
-                raise BreachlineError(f"{self.server}: its certificate is not to be trusted: {doubt.verify_message}; if its "
+            reason = getattr(cause, "reason", cause)
+            if isinstance(reason, ssl.SSLCertVerificationError):
+                raise BreachlineError(f"{self.server}: its certificate is not to be trusted: {reason.verify_message}; if its "
                                       "authority is yours, BREACH_TLS_CA names the file with it") from cause
             raise Unreachable(f"{self.server}: does not answer ({cause}); is the service running, is BREACH_SERVER right?") from cause
 

@@ -83,8 +83,8 @@ class Table:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two runs row by row; a row is found by its variant and transfer time. The difference of a column is the other's
-    value minus this one's."""
+    """Two runs row by row; a row is found by its variant and transfer time. Of a variant without a common transfer time
+    the rows with the largest runouts belong together. The difference of a column is the other's value minus this one's."""
 
     here: Table
     other: Table
@@ -95,8 +95,12 @@ class Comparison:
     @classmethod
     def of(cls, here: Table, other: Table) -> Comparison:
         mine, theirs = _places(here), _places(other)
-        return cls(here, other, [(row, theirs[key]) for key, row in mine.items() if key in theirs],
-                   [key for key in mine if key not in theirs], [key for key in theirs if key not in mine])
+        common = {key: key for key in mine if key in theirs}
+        for variant in {key[0] for key in mine} - {key[0] for key in common}:
+            if any(key[0] == variant for key in theirs):
+                common[_farthest(here, mine, variant)] = _farthest(other, theirs, variant)
+        return cls(here, other, [(mine[key], theirs[twin]) for key, twin in common.items()],
+                   [key for key in mine if key not in common], [key for key in theirs if key not in common.values()])
 
     def __len__(self) -> int:
         return len(self.pairs)
@@ -112,7 +116,8 @@ class Comparison:
         lines = [f"{len(self)} rows in both, {len(self.only_here)} only here, {len(self.only_there)} only there"]
         for (i, j), difference in zip(self.pairs, self.difference("runout")):
             row = self.here.rows[i]
-            place = " ".join(filter(None, [str(row.get("variant") or ""), _cell(row.get("transfer_time")) + " s"]))
+            times = {_cell(row.get("transfer_time")): 0, _cell(self.other.rows[j].get("transfer_time")): 0}
+            place = " ".join(filter(None, [str(row.get("variant") or ""), " and ".join(times) + " s"]))
             lines.append(f"{place}: runout {_cell(row.get('runout'))} m, {_cell(self.other.rows[j].get('runout'))} m, "
                          f"difference {difference:+.4g} m")
         return "\n".join(lines)
@@ -120,6 +125,11 @@ class Comparison:
 
 def _places(table: Table) -> dict[tuple[str, float | None], int]:
     return {(str(row.get("variant") or ""), row.get("transfer_time")): k for k, row in enumerate(table.rows)}
+
+
+def _farthest(table: Table, places: dict[tuple[str, float | None], int], variant: str) -> tuple[str, float | None]:
+    own = [key for key in places if key[0] == variant]
+    return max(own, key=lambda key: -np.inf if (runout := table.rows[places[key]].get("runout")) is None else runout)
 
 
 def _cell(value: Any) -> str:

@@ -61,8 +61,7 @@ std::string when_it_fails(const Run& run) {
     for (const PhaseFolder* each : sampled_runouts(run))
         if (each->transfer_time) times.insert(*each->transfer_time);
     if (times.empty())
-        return "Not asked: a static scene, whose soil is let go as it stands. Times below count "
-               "from then.";
+        return "Not applicable: a static scene. Times below count from the start of the runout.";
     const std::string first = short_number(*times.begin());
     return "The failing mesh becomes material points at t_T = " + first +
            (times.size() > 1 ? " to " + short_number(*times.rbegin()) : std::string()) +
@@ -215,8 +214,8 @@ Table cases_of(const Run& run) {
           "a slope that fails and slumps with the strength that it keeps"}},
         std::string(liquefies || keeps
                         ? ""
-                        : "Whether this static scene is 2A or 2B hangs on whether its strengths "
-                          "are those of liquefied soil, which it does not say. ") +
+                        : "Whether this static scene is 2A or 2B depends on whether its strengths "
+                          "are those of liquefied soil, which the scene does not state. ") +
             "Canadian Dam Association (2021), Technical Bulletin: Tailings Dam Breach Analysis. "
             "A dam with a pond needs an analysis of its release beside this one. Nor is there a "
             "channel or a valley that narrows: plane strain, so that no flow spreads or is "

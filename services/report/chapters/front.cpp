@@ -79,7 +79,7 @@ std::string question_of(const Run& run, const json& scene) {
                "? Finite elements for " + seconds_of_stages(scene) +
                "; their state becomes material points at t_T = " + transfers_of(run) + ".";
     if (phase_named(run, phases::mpm.program))
-        return "How far does the soil run out when it is let go as it stands, with the strengths "
+        return "How far does the soil run out from the given section, with the strengths "
                "of the scene? A static scene: no earthquake, no finite elements; material points "
                "fill the section, with the stress \"" +
                scene.value("/mpm/fill_stress"_json_pointer, "none") + "\" at the start.";
@@ -159,7 +159,7 @@ std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
     return rounded(phase.result.at(at).get<double>(), digits);
 }
 
-/// How far the number is to be believed: what is known of its error, and its result's doubts.
+/// How far the number is to be believed: what is known of its error, and its result's cautions.
 std::string worth_of(const PhaseFolder& mpm) {
     std::string text =
         mpm.runout_error
@@ -187,15 +187,15 @@ void add_mean(const Run& run, Table& table) {
     const json error = largest->value("runout_error", json());
     const std::string variant = largest->at("variant");
     const bool moves = any_moves(draws_of(run, *largest));
-    const std::string doubt =
+    const std::string caution =
         largest->value("missing_draws", "") + largest->value("questionable_draws", "");
     table.rows.push_back(
-        {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " draws" +
+        {"Runout, mean of " + rounded(largest->at("draws_done").get<double>(), 4) + " repeats" +
              (variant.empty() ? "" : ", " + variant) + " [m]",
          (moves ? at_least : "") + rounded(largest->at("runout").get<double>(), digits), "-",
          (error.is_number() ? "\u00b1 " + rounded(error.get<double>(), 2) + " m (nine of ten)"
                             : std::string("numerical error not quantified")) +
-             (doubt.empty() ? "" : "; not whole or questionable: " + doubt)});
+             (caution.empty() ? "" : "; not whole or questionable: " + caution)});
 }
 
 /// When the flow of the governing runout came to each gauge, how deep and how fast.
@@ -400,8 +400,8 @@ std::vector<std::string> limits_of(const Run& run) {
     if (!asks_for_runouts(run)) return limits;
     limits.emplace_back("No mixing with water: nothing is diluted, and no free water flows along.");
     limits.emplace_back(
-        "Total stress in the runout: strength is what the soil had when it was let go, but for "
-        "what strain softens; no pore pressure builds or drains.");
+        "Total stress in the runout: strength is that at the transfer, reduced "
+        "by softening; no pore pressure builds up or drains.");
     if (!phase_named(run, phases::fem.program))
         limits.emplace_back("Static: whether and when the section fails is not asked.");
     else

@@ -78,7 +78,7 @@ Table errors_of(const Run& run) {
                 {"run", "t_T [s]", "variant", "runout [m]", "error of one run [m]", "from"},
                 {},
                 "The error of a setting (bias and scatter against a reference) comes from an "
-                "accuracy study of the same scene at the same setting; draws, and neighbours in "
+                "accuracy study of the same scene at the same setting; repeats, and neighbours in "
                 "transfer time, tell the scatter alone."};
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (each->runout_error_from.empty()) continue;
@@ -104,21 +104,21 @@ std::string with_scatter(const Run& run, const json& mean, const std::string& me
 /// Mean and scatter of every runout of a study with draws.
 Table means_of(const Run& run) {
     Table table{"numbers_means",
-                "Means over the draws",
-                {"t_T [s]", "variant", "draws", "runout [m]", "beyond the toe [m]", "farthest [m]",
-                 "mean runout is off by [m]", "not as it should be"},
+                "Means over the repeats",
+                {"t_T [s]", "variant", "repeats", "runout [m]", "beyond the toe [m]",
+                 "farthest [m]", "mean runout is off by [m]", "not as it should be"},
                 {},
-                "Mean +- standard deviation of one draw. A draw is the same setting on another "
+                "Mean +- standard deviation of one repeat. A repeat is the same setting on another "
                 "lattice of points. Off by: nine of ten such means, by Student's distribution for "
-                "so few draws, with the bias where an accuracy study tells it. \u2265: a lower "
-                "bound, soil of a draw still moved."};
+                "so few repeats, with the bias where an accuracy study tells it. \u2265: a lower "
+                "bound, soil of a repeat still moved."};
     for (const json& mean : run.means) {
         const json error = mean.value("runout_error", json());
-        std::string doubt;
+        std::string caution;
         for (const auto& [key, words] : {std::pair{"missing_draws", "without a result: "},
                                          std::pair{"questionable_draws", "questionable: "}})
             if (const std::string draws = mean.at(key); !draws.empty())
-                doubt += (doubt.empty() ? "" : "; ") + (words + draws);
+                caution += (caution.empty() ? "" : "; ") + (words + draws);
         const std::string variant = mean.at("variant");
         const json& time = mean.at("transfer_time");
         table.rows.push_back({time.is_number() ? rounded(time.get<double>(), 6) : "-",
@@ -129,7 +129,7 @@ Table means_of(const Run& run) {
                               with_scatter(run, mean, "runout_beyond_toe"),
                               with_scatter(run, mean, "runout_largest"),
                               error.is_number() ? rounded(error.get<double>(), 3) : "no estimate",
-                              doubt.empty() ? "-" : doubt});
+                              caution.empty() ? "-" : caution});
     }
     return table;
 }

@@ -51,7 +51,7 @@ std::vector<Series> curves_of_means(const Run& run) {
     for (const json& mean : run.means) {
         if (!mean.at("runout").is_number()) continue;
         const std::string variant = mean.at("variant");
-        const std::string name = variant.empty() ? "mean of the draws" : variant;
+        const std::string name = variant.empty() ? "mean of the repeats" : variant;
         auto curve = std::ranges::find(curves, name, &Series::name);
         if (curve == curves.end())
             curve = curves.insert(curve, Series{name, {}, {}, Style::line_and_points});
@@ -90,14 +90,15 @@ std::vector<Series> curves_of_runs(const Run& run) {
 Figure runout_against_time(const Material& from) {
     const char* of_means =
         "99th percentile of the mobile soil's distance beyond the toe, by mass: mean over the "
-        "draws, each on a lattice of points of its own; the band is the standard deviation of "
-        "one draw. Hollow with an arrow: soil of a draw still moved, the mean is a lower bound; "
-        "hollow and dashed: a draw has no result, or one that is questionable (table of means).";
+        "repeats, each on a lattice of points of its own; the band is the standard deviation of "
+        "one repeat. Hollow with an arrow: soil of a repeat still moved, the mean is a lower "
+        "bound; "
+        "hollow and dashed: a repeat has no result, or one that is questionable (table of means).";
     const char* of_runs =
         "99th percentile of the mobile soil's distance beyond the toe, by mass; negative "
         "while it lies before the toe. Hollow with an arrow: the soil still moved, the runout "
         "is a lower bound; hollow and dashed: questionable (table of flags); pale: its "
-        "result carries no flags. Where an accuracy study, draws or the neighbours in "
+        "result carries no flags. Where an accuracy study, repeats or the neighbours in "
         "transfer time tell the error of one run, it is drawn as a band.";
     Figure figure{std::string(runout_figure),
                   {"Runout against transfer time",

@@ -35,10 +35,10 @@ struct LeftOut {
 
 /// What must be known before the numbers are believed, in sentences.
 struct Verdict {
-    std::string word = {};                 ///< "questionable"; empty: the sentences say it all
-    bool usable = true;                    ///< false: no number of it can be used
-    std::vector<std::string> doubts = {};  ///< a number is a bound, is wrong or cannot be trusted
-    std::vector<std::string> notes = {};   ///< all else, and that there is nothing
+    std::string word = {};                   ///< "questionable"; empty: the sentences say it all
+    bool usable = true;                      ///< false: no number of it can be used
+    std::vector<std::string> cautions = {};  ///< a number is a bound, is wrong or cannot be trusted
+    std::vector<std::string> notes = {};     ///< all else, and that there is nothing
 };
 
 /// The first page, which a reader can sign: what was asked, what comes out, and within which limits.

@@ -112,13 +112,13 @@ const char* opening_of(const std::string& cell) {
 }
 
 void write_verdict(std::ostream& html, const Verdict& verdict) {
-    if (verdict.doubts.empty() && verdict.notes.empty()) return;
-    const bool doubt = !verdict.doubts.empty();
-    html << "<section id=\"verdict\" class=\"verdict" << (doubt ? " doubt" : "")
+    if (verdict.cautions.empty() && verdict.notes.empty()) return;
+    const bool caution = !verdict.cautions.empty();
+    html << "<section id=\"verdict\" class=\"verdict" << (caution ? " doubt" : "")
          << (verdict.usable ? "" : " unusable") << "\"><h2>Verdict of the checks";
     if (!verdict.word.empty()) html << ": " << escaped(verdict.word);
     html << "</h2>\n<ul>\n";
-    for (const auto* sentences : {&verdict.doubts, &verdict.notes}) {
+    for (const auto* sentences : {&verdict.cautions, &verdict.notes}) {
         for (const std::string& each : *sentences) html << "<li>" << escaped(each) << "</li>\n";
     }
     html << "</ul></section>\n";

@@ -242,18 +242,18 @@ std::string how_it_ended(const PhaseFolder& phase) {
 
 std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts) {
     if (runouts.empty()) return "none";
-    std::vector<Flag> doubts;
+    std::vector<Flag> cautions;
     std::size_t questionable = 0;
     for (const PhaseFolder* each : runouts) {
         if (!each->fault.empty()) return each->fault;
         const auto flags = findings::flags_of(each->result);
         if (!fault::is_questionable(flags)) continue;
         ++questionable;
-        doubts.insert(doubts.end(), flags.begin(), flags.end());
+        cautions.insert(cautions.end(), flags.begin(), flags.end());
     }
     if (questionable == 0) return "well";
     return std::to_string(questionable) + " of " + std::to_string(runouts.size()) +
-           " questionable: " + listed(doubts, Severity::questionable);
+           " questionable: " + listed(cautions, Severity::questionable);
 }
 
 Verdict verdict_of(const Run& run) {
@@ -262,16 +262,16 @@ Verdict verdict_of(const Run& run) {
                     .usable = found.usable != findings::Usable::no};
     for (const findings::Reason& each : found.reasons) {
         if (each.code.starts_with("entangled")) continue;  // below, with place and time
-        const bool doubt = each.usable > findings::Usable::with_remarks;
-        (doubt ? verdict.doubts : verdict.notes).push_back(each.text);
+        const bool caution = each.usable > findings::Usable::with_remarks;
+        (caution ? verdict.cautions : verdict.notes).push_back(each.text);
     }
     for (const PhaseFolder* fem : phases_named(run, phases::fem.program)) {
         const std::string end = entanglement_of(*fem);
         if (end.empty()) continue;
         const std::string of = fem->variant.empty() ? "" : capital(fem->variant) + ": ";
-        (is_corner(*fem) ? verdict.doubts : verdict.notes).push_back(of + end);
+        (is_corner(*fem) ? verdict.cautions : verdict.notes).push_back(of + end);
     }
-    if (verdict.doubts.empty() && verdict.notes.empty())
+    if (verdict.cautions.empty() && verdict.notes.empty())
         verdict.notes.emplace_back("No phase of this run raised a flag.");
     return verdict;
 }

@@ -1,14 +1,10 @@
 #include "services/report/section/mesh_question.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "core/command/command.hpp"
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
@@ -51,24 +47,7 @@ std::string key_of(const Draft& draft, const fs::path& program) {
                                     program.string() + std::to_string(built));
 }
 
-/// Says nothing on our own streams; the exit code, or nothing where it was killed.
-std::optional<int> exit_code_of(std::vector<std::string> words) {
-    std::vector<char*> arguments;
-    for (std::string& each : words) arguments.push_back(each.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", O_WRONLY, 0);
-    pid_t child = 0;
-    const int error =
-        posix_spawnp(&child, arguments[0], &quiet, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&quiet);
-    if (error != 0) throw fault::IoError(words[0] + ": cannot be started");
-    int status = 0;
-    waitpid(child, &status, 0);
-    return WIFEXITED(status) ? std::optional(WEXITSTATUS(status)) : std::nullopt;
-}
+constexpr auto longest_meshing = std::chrono::hours(1);
 
 /// What the phase left behind instead of a result.
 [[noreturn]] void tell_fault(const fs::path& folder, const std::string& prefix) {
@@ -89,9 +68,10 @@ void make(const Draft& draft, const Mesher& mesher, const fs::path& file) {
     const Scratch scratch(mesher.cache);
     const fs::path scene = scratch.path() / "scene.json", output = scratch.path() / "mesh";
     exchange::publish_text(scene, draft.base.scene.dump());
-    const auto code = exit_code_of({mesher.fem_solver.string(), "mesh", scene.string(), "--output",
-                                    output.string(), "--progress", "none"});
-    if (code != 0) tell_fault(output, draft.base.pointer);
+    const auto made = command::run({mesher.fem_solver.string(), "mesh", scene.string(), "--output",
+                                    output.string(), "--progress", "none"},
+                                   "", longest_meshing);
+    if (made.exit_code != 0) tell_fault(output, draft.base.pointer);
     fs::rename(output / phases::files::snapshot_name(0.0), file);
 }
 

@@ -217,12 +217,12 @@ export class Compare {
     /// What makes the two hard to compare.
     note(field, [a, b]) {
         if (!b) return "";
-        const doubts = [];
+        const remarks = [];
         const [one, other] = this.sides.map(({ task }) => task.phase);
-        if (one !== other) doubts.push("The two have different clocks: a mesh's time is since its first dynamic stage began, a runout's since its transfer.");
+        if (one !== other) remarks.push("The two have different clocks: a mesh's time is since its first dynamic stage began, a runout's since its transfer.");
         const names = (snapshot) => (field === "region" ? snapshot.regions : snapshot.materials ?? []).join();
-        if (is_named(field) && names(a) !== names(b)) doubts.push("Their names differ: the legend is the left one's.");
-        return doubts.join(" ");
+        if (is_named(field) && names(a) !== names(b)) remarks.push("Their names differ: the legend is the left one's.");
+        return remarks.join(" ");
     }
 
     /// What is seen, with all that must be known of it, for a file.

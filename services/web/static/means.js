@@ -11,8 +11,8 @@ export function mean_rows(means) {
     return means.map((mean) => {
         const missing = names_in(mean.missing_draws);
         const doubtful = names_in(mean.questionable_draws);
-        const flags = [...flag_of_draws("missing_draws", missing, "the mean is without them"),
-                       ...flag_of_draws("questionable_draws", doubtful, "the mean has them in it")];
+        const flags = [...flag_of_draws("missing_draws", missing, "the mean leaves them out"),
+                       ...flag_of_draws("questionable_draws", doubtful, "the mean includes them")];
         return { ...mean, mean: true, flags, questionable: flags.length > 0, at_rest: null };
     });
 }

@@ -83,7 +83,7 @@ async function chain_of(run, row, stability) {
     }));
 }
 
-/// Which wish made this transfer: a time in the study, or a trigger with what it saw.
+/// What made this transfer: a time in the study, or a trigger with what it saw.
 function asked_for(run, row, steps) {
     const trigger = run.triggers.find(({ name }) => name && name === row.trigger);
     const firing = trigger?.firings.find((each) => Math.abs(each.transfer_time - row.transfer_time) < 1e-6);

@@ -100,7 +100,7 @@ export class Results {
         const what = this.is_static() ? (several ? "variants" : "runs")
             : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
-        set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} draws each)` : what} finished`);
+        set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} repeats each)` : what} finished`);
         by_id("runout-plot").hidden = rows.length < 2; // one number stands at the top
         by_id("runout-table").parentElement.hidden = rows.length === 0 && without?.length > 0;
         return this.rows;
@@ -153,7 +153,7 @@ export class Results {
         by_id("runout-table").classList.toggle("one-variant", this.shown_variants().length < 2);
         by_id("runout-csv").href = api.results_csv(this.run.id, this.shows_means());
         const hidden = chosen.length - this.shown().length;
-        const note = [this.of_mean ? `Only the draws of ${point_name(this.of_mean)}.` : "", hidden ? `${hidden} not shown.` : "", this.unplaced_note()]
+        const note = [this.of_mean ? `Only the repeats of ${point_name(this.of_mean)}.` : "", hidden ? `${hidden} not shown.` : "", this.unplaced_note()]
             .filter(Boolean).join(" ");
         by_id("runout-note").hidden = !note;
         set_text(by_id("runout-note"), note);
@@ -193,7 +193,7 @@ export class Results {
         const points = (some) => ({ unit: unit_of(measure), points: true, keys: some.map(key_of), y: some.map((row) => row[measure] ?? null),
                                     errors: some.map((row) => error_of(row, measure)), looks: some.map((row) => look_of_measure(row, measure)), notes: some.map((row) => note_of(row, measure)) });
         const marks = rows.filter((row) => !is_finished(row));
-        const errors_name = this.shows_means() ? "standard deviation of the draws" : "error of one run";
+        const errors_name = this.shows_means() ? "standard deviation of the repeats" : "error of one run";
         const what = is_safety(measure) ? "Factor of safety" : "Runout";
         const parameter = this.parameter();
         if (parameter) {
@@ -272,7 +272,7 @@ function mean_note(row, measure, deviation) {
     const scatter = deviation === null ? "" : `, one draw scatters by ${number(deviation, 2)}${unit} (standard deviation)`;
     const off = measure === "runout" && Number.isFinite(row.runout_error)
         ? `the mean may be off by ${number(row.runout_error, 2)} m: ${row.runout_error_from}` : "";
-    return [`${point_name(row) || "all draws"}: ${number(row[measure])}${unit}, mean of ${row.draws_done} of ${row.draws} draws${scatter}`, off, flag_note(row)]
+    return [`${point_name(row) || "all repeats"}: ${number(row[measure])}${unit}, mean of ${row.draws_done} of ${row.draws} repeats${scatter}`, off, flag_note(row)]
         .filter(Boolean).join("\n");
 }
 
@@ -316,7 +316,7 @@ function fill_row(row, values) {
     flags.title = is_finished(values) ? flag_note(values) : "";
     row.dataset.trust = is_finished(values) ? trust_of(values) : "";
     set_text(row.children[row.children.length - 2], values.trigger === "at_time" ? "study" : values.trigger ?? "");
-    set_text(row.lastElementChild.firstElementChild, values.mean ? "draws" : "trace");
+    set_text(row.lastElementChild.firstElementChild, values.mean ? "repeats" : "trace");
     row.lastElementChild.firstElementChild.setAttribute("aria-label", ["Where the numbers", point_name(values) && `at ${point_name(values)}`,
                                                                       "come from"].filter(Boolean).join(" "));
     row.classList.toggle("waiting", is_active(values.state));

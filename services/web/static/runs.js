@@ -42,8 +42,8 @@ function fill_item(item, run, open_id) {
     progress.setAttribute("aria-label", `progress of ${run.name}`);
     set_text(time, `${clock(run.created)} · ${is_active(run.state) ? percent(run.progress) + " · " : ""}` +
                    `${run.tasks_done} of ${run.tasks_total} tasks${run.pinned ? " · pinned" : ""}`);
-    const doubt = doubt_of(run);
-    set_text(why, doubt);
+    const reason = doubt_of(run);
+    set_text(why, reason);
     why.classList.toggle("unusable", run.verdict.usable === "no");
     why.hidden = why.textContent === "";
     link.title = [run.title || run.name, run.message].filter(Boolean).join("\n");

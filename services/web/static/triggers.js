@@ -73,7 +73,7 @@ function outcome(trigger) {
         if (!result) return `${firings.length} runs asked for`;
         const close = (result.straddling ?? []).map(({ transfer_time }) => number(transfer_time)).join(", ");
         return `${result.runs} runs instead of ${result.uniform_runs}` +
-               (close ? `; at ${close} s the ${result.draws} draws scatter across the level` : "");
+               (close ? `; at ${close} s the ${result.draws} repeats scatter across the level` : "");
     }
     return firings.map((firing) => `at ${number(firing.wanted_time)} s, known at step ${firing.fem_step}, ` +
                                    `snapshot ${number(firing.transfer_time)} s`).join("; ");

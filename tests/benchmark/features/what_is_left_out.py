@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """What a scene does not need: instructions per step and bytes with every feature on, and with one at a time off.
 
-    what_is_left_out.py      prints the tables of docs/what_is_left_out.md (workflows/verification/write)
+    what_is_left_out.py      prints the tables of docs/verification/what_is_left_out.md (workflows/verification/write)
 
 Instructions are counted by valgrind's cachegrind without its caches: they do not hang on the machine's load. Per step: a run of
 twice the steps less a run of them, so that reading, meshing and the first matrix drop out. Bytes are those of --plan --measure."""

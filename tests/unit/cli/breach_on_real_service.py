@@ -113,17 +113,17 @@ class RealService(unittest.TestCase):
     def test_a_recommendation_is_checked_on_new_lattices(self):
         file = self.accuracy_study()  # of the column as it is shipped, which comes to rest
         study = json.loads(file.read_text()) | {"overrides": [], "transfer_times": [0.4]}
-        # The mean on cells of 2 m in docs/accuracy.md. One run scatters by 2 %: the mean of some keeps 5.5 %.
-        study["accuracy"] |= {"draws": 3, "asked_error": 0.055, "reference": {"value": 29.35, "source": "docs/accuracy.md"}}
+        # The mean on cells of 2 m in docs/verification/accuracy.md. One run scatters by 2 %: the mean of some keeps 5.5 %.
+        study["accuracy"] |= {"draws": 3, "asked_error": 0.055, "reference": {"value": 29.35, "source": "docs/verification/accuracy.md"}}
         file.write_text(json.dumps(study))
         run = self.breach("accuracy", file).stdout.strip()
         self.breach("watch", run)
         answer = json.loads(self.breach("accuracy", "--of", run, "--json").stdout)
         best = answer["recommended"]
         self.assertGreater(best["draws"], 1, answer["recommendation"])
-        self.assertIn(f"the mean of {best['draws']} draws of cells: /mpm/cell_size=2", answer["recommendation"])
+        self.assertIn(f"the mean of {best['draws']} repeats of cells: /mpm/cell_size=2", answer["recommendation"])
         shown = self.breach("accuracy", "--of", run, "--check", 5, "--watch").stdout
-        self.assertRegex(shown, rf"\d of 5 means of {best['draws']} new draws are within 5.5 % of 29.35 m")
+        self.assertRegex(shown, rf"\d of 5 means of {best['draws']} new repeats are within 5.5 % of 29.35 m")
         check = shown.split()[0]
         told = json.loads(self.breach("accuracy", "--of", check, "--json").stdout)
         self.assertEqual((told["of"], told["mean_of"], told["judged"]), (run, best["draws"], 5))

@@ -7,7 +7,7 @@ import urllib.parse
 
 run_id = "01JD0000000000000000000000"
 log = "".join(f"line {i}\n" for i in range(1, 6)).encode()
-doubt = "1 of 1 runouts still moving: lower bounds"
+message = "1 of 1 runouts still moving: lower bounds"
 columns = [{"name": name, "kind": kind, "unit": unit, "title": name, "meaning": ""}
            for name, kind, unit in (("transfer_time", "number", "s"), ("state", "word", ""), ("runout", "number", "m"))]
 artifact = b"\x89HDF pretend " * 1000
@@ -63,7 +63,7 @@ class Service(http.server.ThreadingHTTPServer):
                 "tasks_total": 3, "tasks_done": 3 if over else 1,
                 "tasks_failed": 1 if over and self.end == "failed" else 0,
                 "questionable": 1 if over and self.end == "questionable" else 0,
-                "verdict": self.verdict(), "message": doubt if over and self.end == "questionable" else ""}
+                "verdict": self.verdict(), "message": message if over and self.end == "questionable" else ""}
 
     def verdict(self):
         usable = "questionable" if self.looks_left <= 0 and self.end == "questionable" else "yes"

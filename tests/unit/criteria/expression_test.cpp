@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/criteria/evaluation.hpp"
+#include "core/criteria/ranges.hpp"
 #include "core/fault/fault.hpp"
 
 namespace breach::criteria {
@@ -27,6 +28,23 @@ std::string complaint(const std::string& text, Kind kind = Kind::condition,
         return error.faults().front().cause;
     }
     return "no complaint";
+}
+
+TEST(Expression, ThatCanNeverBeTrueIsKnownFromTheRangesOfItsFields) {
+    const auto can_be = [](const std::string& text) {
+        return can_be_true(parse(text, Kind::condition, ""), [](const std::string& field) {
+            return field == "share" ? Range{0.0, 1.0} : field == "time" ? Range{0.0, 9.0} : Range{};
+        });
+    };
+    for (const char* never :
+         {"share > 1", "share < 0", "1 < share", "share >= 1.01", "time > 9 and x > 0",
+          "not (share >= 0)", "abs(share - 3) < 1.5", "share > 2 or time > 10",
+          "max(share, -share) > 1", "min(share, x) > 1"})
+        EXPECT_FALSE(can_be(never)) << never;
+    for (const char* possible :
+         {"share >= 1", "share <= 0", "x > 1e9", "share * 5 > 4", "rate(share, 1) > 9",
+          "not (share > 0.5)", "time > 10 or x > 0", "max(share, x) > 1"})
+        EXPECT_TRUE(can_be(possible)) << possible;
 }
 
 TEST(Expression, ArithmeticBindsAsInSchool) {

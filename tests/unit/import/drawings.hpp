@@ -92,7 +92,7 @@ inline nlohmann::json materials() {
             {"tailings", soil(1900, 2, 30)}};
 }
 
-inline Wish wish(std::string drawing, const std::string& file = "dam.dxf") {
+inline Request request(std::string drawing, const std::string& file = "dam.dxf") {
     return {.drawing = {file, std::move(drawing)}, .materials = materials()};
 }
 

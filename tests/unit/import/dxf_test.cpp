@@ -18,12 +18,12 @@ using test::group;
 using test::light;
 using test::Line;
 
-Drawing read(const std::string& text, const DxfWish& wish = {},
+Drawing read(const std::string& text, const DxfOptions& request = {},
              const std::vector<std::string>& map = {}) {
     std::vector<Fault> faults;
     const LayerMap layers(map, {"clay", "rock"}, faults);
     EXPECT_EQ(test::told(faults), "");
-    return read_dxf(text, layers, wish);
+    return read_dxf(text, layers, request);
 }
 
 const Line square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};

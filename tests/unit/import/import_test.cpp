@@ -61,7 +61,7 @@ double free_border(const fem::Mesh& mesh) {
 }
 
 TEST(Import, ADrawingBecomesASceneWithItsWaterAndGuessedSearch) {
-    const Imported imported = import_section(test::wish(dxf(section() + water)));
+    const Imported imported = import_section(test::request(dxf(section() + water)));
     ASSERT_EQ(test::told(imported.faults), "");
     const json& scene = imported.scene;
     EXPECT_EQ(scene.at("name"), "dam");
@@ -80,7 +80,7 @@ TEST(Import, ADrawingBecomesASceneWithItsWaterAndGuessedSearch) {
 
 TEST(Import, ASlopeThatFallsToTheLeftIsSearchedThere) {
     const Line mirrored{{-80, 0}, {-20, 0}, {-50, 12}, {-55, 12}};
-    const Imported imported = import_section(test::wish(dxf(light("CLAY", mirrored))));
+    const Imported imported = import_section(test::request(dxf(light("CLAY", mirrored))));
     ASSERT_EQ(test::told(imported.faults), "");
     const auto& search = imported.scene.at("lem").at("search");
     // Both faces are 12 m high; the left one falls over 25 m, the right one over 30 m.
@@ -95,11 +95,11 @@ TEST(Import, AHealedDrawingIsMeshedWithoutAGap) {
         for (Vec2& each : ring) each = 1e3 * (each + Vec2(off(random), off(random)));
         return ring;
     };
-    Wish wish = test::wish(dxf(test::heavy("ROCK", millimetres(test::rock)) +
-                                   test::sides("CLAY", millimetres(test::clay)) +
-                                   light("TAILINGS", millimetres(test::tailings)),
-                               4));
-    const Imported imported = import_section(wish);
+    Request request = test::request(dxf(test::heavy("ROCK", millimetres(test::rock)) +
+                                            test::sides("CLAY", millimetres(test::clay)) +
+                                            light("TAILINGS", millimetres(test::tailings)),
+                                        4));
+    const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     EXPECT_FALSE(imported.report.at("healed").empty());
     const scene::Scene scene = scene::parse_scene(imported.scene.dump(), "scene");
@@ -115,12 +115,12 @@ TEST(Import, AHealedDrawingIsMeshedWithoutAGap) {
 
 TEST(Import, LayersBelowThePhreaticLineHaveTheirAreasAndTheNeighboursTheirVertices) {
     // A block of 10 by 8 m; the line falls from y = 7 to 6: 1 m of soil above it at x = 0, 2 at 10.
-    Wish wish = test::wish(dxf(light("TAILINGS", {{0, 0}, {10, 0}, {10, 8}, {0, 8}}) +
-                               light("CLAY", {{10, 0}, {30, 0}, {10, 8}}) +
-                               light("PHREATIC", {{0, 7}, {10, 6}}, false)));
-    wish.layers = {"tailings=2,4.5"};
-    wish.materials["TAILINGS_0_2"] = wish.materials["tailings"];
-    const Imported imported = import_section(wish);
+    Request request = test::request(dxf(light("TAILINGS", {{0, 0}, {10, 0}, {10, 8}, {0, 8}}) +
+                                        light("CLAY", {{10, 0}, {30, 0}, {10, 8}}) +
+                                        light("PHREATIC", {{0, 7}, {10, 6}}, false)));
+    request.layers = {"tailings=2,4.5"};
+    request.materials["TAILINGS_0_2"] = request.materials["tailings"];
+    const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     const json& scene = imported.scene;
     EXPECT_NEAR(area_of(region(scene, "TAILINGS_above")), 15.0, 1e-9);
@@ -134,18 +134,20 @@ TEST(Import, LayersBelowThePhreaticLineHaveTheirAreasAndTheNeighboursTheirVertic
     const scene::Scene read = scene::parse_scene(scene.dump(), "scene");
     EXPECT_NEAR(free_border(fem::mesh_with_gmsh(read.section, folder.path())),
                 8 + 10 + 20 + std::hypot(20.0, 8.0) + 10, 1e-6);
-    wish.layers = {"TAILINGS=2", "dam=1"};
-    EXPECT_NE(test::told(import_section(wish).faults).find("there is no region \"dam\""),
+    request.layers = {"TAILINGS=2", "dam=1"};
+    EXPECT_NE(test::told(import_section(request).faults).find("there is no region \"dam\""),
               std::string::npos);
-    wish.layers = {"TAILINGS=3,2"};
-    EXPECT_NE(test::told(import_section(wish).faults).find("ascending depths"), std::string::npos);
+    request.layers = {"TAILINGS=3,2"};
+    EXPECT_NE(test::told(import_section(request).faults).find("ascending depths"),
+              std::string::npos);
 }
 
 TEST(Import, ALayerThatWouldBeThinnerThanTheToleranceIsTakenIn) {
-    Wish wish = test::wish(dxf(light("TAILINGS", {{0, 0}, {10, 0}, {10, 7.03}, {0, 7.03}})));
-    wish.layers = {"TAILINGS=2"};
-    wish.phreatic = {"water.csv", "x,y\n0,7\n10,7\n"};
-    const Imported imported = import_section(wish);
+    Request request =
+        test::request(dxf(light("TAILINGS", {{0, 0}, {10, 0}, {10, 7.03}, {0, 7.03}})));
+    request.layers = {"TAILINGS=2"};
+    request.phreatic = {"water.csv", "x,y\n0,7\n10,7\n"};
+    const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     ASSERT_EQ(imported.scene.at("section").at("regions").size(), 2u);
     EXPECT_NEAR(area_of(region(imported.scene, "TAILINGS_0_2")), 20.3, 0.31);
@@ -160,7 +162,7 @@ TEST(Import, EveryFaultOfADrawingIsFoundAtOnceAndNothingIsMade) {
         light("CLAY", {{90, 0}, {100, 5}, {100, 0}, {90, 5}}) +                  // crosses itself
         test::group(0, "SPLINE") + test::group(8, "CLAY") + test::group(10, 30.0) +
         test::group(20, 8.0);
-    const Imported imported = import_section(test::wish(dxf(bad)));
+    const Imported imported = import_section(test::request(dxf(bad)));
     EXPECT_TRUE(imported.scene.is_null());
     const std::string told = test::told(imported.faults);
     for (const char* each :
@@ -202,7 +204,7 @@ TEST(Import, MillimetresTakenForMetresAreRefused) {
         for (Vec2& each : ring) each *= 250.0;
         return ring;
     };
-    const Imported imported = import_section(test::wish(dxf(light("ROCK", scaled(test::rock)))));
+    const Imported imported = import_section(test::request(dxf(light("ROCK", scaled(test::rock)))));
     ASSERT_EQ(imported.faults.size(), 1u);
     EXPECT_NE(imported.faults[0].cause.find("it is 3e+04 m long, as if millimetres"),
               std::string::npos)
@@ -211,64 +213,66 @@ TEST(Import, MillimetresTakenForMetresAreRefused) {
 }
 
 TEST(Import, TheReportBeginsWithTheUnitItsSourceAndTheSizeThatCameOfIt) {
-    const auto first_line = [](const Wish& wish) {
-        const Imported imported = import_section(wish);
+    const auto first_line = [](const Request& request) {
+        const Imported imported = import_section(request);
         EXPECT_EQ(test::told(imported.faults), "");
         return lines_of(imported.report, 5).at(0);
     };
     const std::string slope = light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}});
-    EXPECT_EQ(first_line(test::wish(dxf(slope, 2))),
+    EXPECT_EQ(first_line(test::request(dxf(slope, 2))),
               "read in ft (the drawing's $INSUNITS): the section is 45.7 m long and 7.92 m high");
-    Wish asked = test::wish(dxf(slope, 2));
+    Request asked = test::request(dxf(slope, 2));
     asked.unit = "m";
     EXPECT_EQ(first_line(asked), "read in m (as asked): the section is 150 m long and 26 m high");
     const std::string table = "region,x,y\nclay,0,0\nclay,1500,0\nclay,700,260\nclay,0,260\n";
-    EXPECT_EQ(first_line(test::wish(table, "dam.csv")),
+    EXPECT_EQ(first_line(test::request(table, "dam.csv")),
               "read in m (metres, as nothing says otherwise): the section is 1500 m long and 260 m "
               "high");
-    const Imported imported = import_section(test::wish(table, "dam.csv"));
+    const Imported imported = import_section(test::request(table, "dam.csv"));
     EXPECT_EQ(imported.report.at("unit_from"), "default");
     EXPECT_EQ(imported.report.at("size"), json::parse("[1500.0, 260.0]"));
 }
 
 TEST(Import, ALineInAnotherUnitThanTheDrawingIsTold) {
-    Wish wish = test::wish(dxf(light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}}), 2));
-    wish.phreatic = {"water.csv", "x,y\n0,5\n45,0\n"};
-    const auto remarks = [](const Wish& asked) {
+    Request request = test::request(dxf(light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}}), 2));
+    request.phreatic = {"water.csv", "x,y\n0,5\n45,0\n"};
+    const auto remarks = [](const Request& asked) {
         return import_section(asked).report.at("remarks").dump();
     };
-    EXPECT_NE(remarks(wish).find("water.csv was read in m, as nothing says otherwise, the drawing "
-                                 "in ft"),
-              std::string::npos)
-        << remarks(wish);
-    wish.unit = "ft";
-    EXPECT_EQ(remarks(wish).find("water.csv was read"), std::string::npos);
+    EXPECT_NE(
+        remarks(request).find("water.csv was read in m, as nothing says otherwise, the drawing "
+                              "in ft"),
+        std::string::npos)
+        << remarks(request);
+    request.unit = "ft";
+    EXPECT_EQ(remarks(request).find("water.csv was read"), std::string::npos);
 }
 
 TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
-    Wish wish = test::wish(dxf(light("CLAY", test::clay) + light("TAILINGS", test::tailings)));
-    wish.terrain = {"terrain.csv", "x,y\n0,0\n80,0\n300,-6\n"};
-    const Imported imported = import_section(wish);
+    Request request =
+        test::request(dxf(light("CLAY", test::clay) + light("TAILINGS", test::tailings)));
+    request.terrain = {"terrain.csv", "x,y\n0,0\n80,0\n300,-6\n"};
+    const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     EXPECT_EQ(imported.scene.at("mpm").at("runout").at("toe"), json::parse("[80.0,0.0]"));
     // A centimetre above the base of the section: the soil lies on it all the same.
-    wish.terrain->bytes = "x,y\n0,0\n50,0.01\n80,-0.01\n300,-6\n";
-    const Imported healed = import_section(wish);
+    request.terrain->bytes = "x,y\n0,0\n50,0.01\n80,-0.01\n300,-6\n";
+    const Imported healed = import_section(request);
     ASSERT_EQ(test::told(healed.faults), "");
     const scene::Scene scene = scene::parse_scene(healed.scene.dump(), "scene");
     for (const scene::Region& each : scene.section.regions)
         for (const Vec2& vertex : each.polygon)
             EXPECT_GE(vertex.y(), geometry::level_at(scene.mpm->terrain, vertex.x()) - 1e-9);
-    wish.terrain->bytes = "x,y\n0,3\n300,-6\n";
-    const Imported cut = import_section(wish);
+    request.terrain->bytes = "x,y\n0,3\n300,-6\n";
+    const Imported cut = import_section(request);
     EXPECT_NE(test::told(cut.faults).find("/mpm/terrain: passes through region"), std::string::npos)
         << test::told(cut.faults);
 }
 
 TEST(Import, AGapThatIsOpenToASideIsFoundAlsoUnderLevelGround) {
     const Imported imported =
-        import_section(test::wish(dxf(light("ROCK", {{0, 0}, {30, 0}, {30, 4}, {0, 4}}) +
-                                      light("CLAY", {{0, 4.3}, {30, 4.7}, {30, 9}, {0, 9}}))));
+        import_section(test::request(dxf(light("ROCK", {{0, 0}, {30, 0}, {30, 4}, {0, 4}}) +
+                                         light("CLAY", {{0, 4.3}, {30, 4.7}, {30, 9}, {0, 9}}))));
     ASSERT_EQ(imported.faults.size(), 1u) << test::told(imported.faults);
     EXPECT_NE(imported.faults[0].cause.find("air below CLAY at (15, 4.25): it stands 0.5 m above"),
               std::string::npos)
@@ -276,20 +280,20 @@ TEST(Import, AGapThatIsOpenToASideIsFoundAlsoUnderLevelGround) {
 }
 
 TEST(Import, OptionsThatMakeNoSenseAreToldWithWhatWould) {
-    Wish wish = test::wish(dxf(section()));
-    wish.map = {"CLAY", "ROCK=granite", "SHELL=clay"};
-    wish.layers = {"TAILINGS=5"};
-    const std::string told = test::told(import_section(wish).faults);
+    Request request = test::request(dxf(section()));
+    request.map = {"CLAY", "ROCK=granite", "SHELL=clay"};
+    request.layers = {"TAILINGS=5"};
+    const std::string told = test::told(import_section(request).faults);
     for (const char* each : {"\"CLAY\" maps nothing", "there is no material \"granite\"",
                              "nothing is drawn on layer \"shell\""})
         EXPECT_NE(told.find(each), std::string::npos) << each << "\n" << told;
-    wish.map = {};
-    EXPECT_NE(test::told(import_section(wish).faults).find("there is no phreatic line"),
+    request.map = {};
+    EXPECT_NE(test::told(import_section(request).faults).find("there is no phreatic line"),
               std::string::npos);
-    wish.materials = json::array();
-    wish.tolerance = -1;
-    wish.unit = "furlong";
-    EXPECT_EQ(import_section(wish).faults.size(), 3u);
+    request.materials = json::array();
+    request.tolerance = -1;
+    request.unit = "furlong";
+    EXPECT_EQ(import_section(request).faults.size(), 3u);
 }
 
 TEST(Import, PolygonsInATableAreTheSameSection) {
@@ -298,9 +302,9 @@ TEST(Import, PolygonsInATableAreTheSameSection) {
              {"rock", test::rock}, {"clay", test::clay}, {"tailings", test::tailings}})
         for (const Vec2& each : ring)
             table += name + "," + std::to_string(each.x()) + "," + std::to_string(each.y()) + "\n";
-    const Imported imported = import_section(test::wish(table, "dam.csv"));
+    const Imported imported = import_section(test::request(table, "dam.csv"));
     ASSERT_EQ(test::told(imported.faults), "");
-    const Imported drawn = import_section(test::wish(dxf(section())));
+    const Imported drawn = import_section(test::request(dxf(section())));
     for (const char* name : {"rock", "clay", "tailings"}) {
         std::string layer = name;
         for (char& each : layer) each = static_cast<char>(each - 32);
@@ -320,7 +324,7 @@ TEST(Import, TheToeIsWhereTheFaceEndsThoughTheGroundFallsOn) {
             for (Vec2& each : ring) each.x() *= way;
             return ring;
         };
-        const Imported imported = import_section(test::wish(
+        const Imported imported = import_section(test::request(
             dxf(light("ROCK", turned(falling_ground)) + light("TAILINGS", turned(dam_on_it)))));
         ASSERT_EQ(test::told(imported.faults), "");
         EXPECT_EQ(imported.report.at("slope").at("toe"), json({way * 200.0, 100.0}));
@@ -330,9 +334,9 @@ TEST(Import, TheToeIsWhereTheFaceEndsThoughTheGroundFallsOn) {
         EXPECT_GT(std::max(way * exit[0].get<double>(), way * exit[1].get<double>()), 210.0);
         EXPECT_LT(std::max(way * exit[0].get<double>(), way * exit[1].get<double>()), 250.0);
     }
-    Wish wish = test::wish(dxf(drawn));
-    wish.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
-    const Imported imported = import_section(wish);
+    Request request = test::request(dxf(drawn));
+    request.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
+    const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     const json& mpm = imported.scene.at("mpm");
     EXPECT_EQ(mpm.at("runout").at("toe"), json({200.0, 100.0}));
@@ -346,20 +350,20 @@ TEST(Import, ASlopeThatIsTooLowToBeOneIsAskedForWithItsSizeInOtherUnits) {
     // Drawn in metres, and the file says inches: 12 m become 0.3 m.
     const std::string drawn =
         light("ROCK", test::rock) + light("CLAY", test::clay) + light("TAILINGS", test::tailings);
-    Wish wish = test::wish(dxf(drawn, 1));
-    const Imported asked = import_section(wish);
+    Request request = test::request(dxf(drawn, 1));
+    const Imported asked = import_section(request);
     ASSERT_EQ(asked.faults.size(), 1u) << test::told(asked.faults);
-    EXPECT_EQ(asked.doubts.size(), 1u);
+    EXPECT_EQ(asked.to_confirm.size(), 1u);
     EXPECT_TRUE(asked.scene.is_null());
     EXPECT_EQ(asked.faults[0].pointer, "unit");
     for (const char* each : {"is 0.305 m high only, read in in", "120 m by 22 m in m",
                              "1.2 m by 0.22 m in cm", "36.6 m by 6.71 m in ft"})
         EXPECT_NE(asked.faults[0].cause.find(each), std::string::npos) << asked.faults[0].cause;
-    wish.confirmed = true;
-    EXPECT_EQ(test::told(import_section(wish).faults), "");
-    wish.confirmed = false;
-    wish.unit = "m";
-    EXPECT_EQ(test::told(import_section(wish).faults), "");
+    request.confirmed = true;
+    EXPECT_EQ(test::told(import_section(request).faults), "");
+    request.confirmed = false;
+    request.unit = "m";
+    EXPECT_EQ(test::told(import_section(request).faults), "");
 }
 
 TEST(Import, SwappedAxesAndDepthsForLevelsAreAskedFor) {
@@ -368,10 +372,10 @@ TEST(Import, SwappedAxesAndDepthsForLevelsAreAskedFor) {
             for (Vec2& each : ring) each = change(each);
             return ring;
         };
-        const Imported imported = import_section(
-            test::wish(dxf(light("ROCK", changed(test::rock)) + light("CLAY", changed(test::clay)) +
-                           light("TAILINGS", changed(test::tailings)))));
-        return test::told(imported.doubts);
+        const Imported imported = import_section(test::request(
+            dxf(light("ROCK", changed(test::rock)) + light("CLAY", changed(test::clay)) +
+                light("TAILINGS", changed(test::tailings)))));
+        return test::told(imported.to_confirm);
     };
     EXPECT_EQ(cause([](const Vec2& v) { return v; }), "");
     EXPECT_NE(cause([](const Vec2& v) {
@@ -380,21 +384,22 @@ TEST(Import, SwappedAxesAndDepthsForLevelsAreAskedFor) {
               std::string::npos);
     EXPECT_NE(cause([](const Vec2& v) {
                   return Vec2(v.x(), 12.0 - v.y());
-              }).find("depths look taken for levels"),
+              }).find("looks as if depths were given as levels"),
               std::string::npos);
 }
 
 TEST(Import, CellsFitTheLayersThatItCutsItself) {
     const auto cell = [](const std::string& layers) {
-        Wish wish = test::wish(dxf(light("ROCK", falling_ground) + light("TAILINGS", dam_on_it) +
-                                   light("PHREATIC", {{0, 127}, {110, 120}, {200, 100}}, false)));
-        wish.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
-        wish.layers = {layers};
+        Request request =
+            test::request(dxf(light("ROCK", falling_ground) + light("TAILINGS", dam_on_it) +
+                              light("PHREATIC", {{0, 127}, {110, 120}, {200, 100}}, false)));
+        request.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
+        request.layers = {layers};
         for (const char* part : {"TAILINGS_0_3", "TAILINGS_3_6", "TAILINGS_0_0p4"}) {
-            wish.materials[part] = wish.materials["tailings"];
-            wish.materials[part]["law"]["c_kPa"] = part[9] == '3' ? 5 : 8;
+            request.materials[part] = request.materials["tailings"];
+            request.materials[part]["law"]["c_kPa"] = part[9] == '3' ? 5 : 8;
         }
-        const Imported imported = import_section(wish);
+        const Imported imported = import_section(request);
         EXPECT_EQ(test::told(imported.faults), "");
         return imported.scene.at("mpm");
     };
@@ -404,13 +409,13 @@ TEST(Import, CellsFitTheLayersThatItCutsItself) {
 }
 
 TEST(Import, NamesOfMaterialsAndRegionsMatchInAnyCase) {
-    Wish wish = test::wish(dxf(light("TAILINGS", {{0, 0}, {20, 0}, {20, 8}, {0, 8}}) +
-                               light("CORE", {{20, 0}, {40, 0}, {20, 8}}) +
-                               light("PHREATIC", {{0, 7}, {20, 6}}, false)));
-    wish.layers = {"Tailings=3"};
-    wish.map = {"core=CLAY"};
-    wish.materials["tailings_0_3"] = wish.materials["tailings"];
-    const Imported imported = import_section(wish);
+    Request request = test::request(dxf(light("TAILINGS", {{0, 0}, {20, 0}, {20, 8}, {0, 8}}) +
+                                        light("CORE", {{20, 0}, {40, 0}, {20, 8}}) +
+                                        light("PHREATIC", {{0, 7}, {20, 6}}, false)));
+    request.layers = {"Tailings=3"};
+    request.map = {"core=CLAY"};
+    request.materials["tailings_0_3"] = request.materials["tailings"];
+    const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     EXPECT_EQ(region(imported.scene, "TAILINGS_0_3").at("material"), "tailings_0_3");
     EXPECT_EQ(region(imported.scene, "TAILINGS_below_3").at("material"), "tailings");

@@ -42,7 +42,7 @@ double ratio_by_path(const NorSand& law, double sigma_v0, OnPath part) {
 }
 
 TEST(NorSandByState, PeakInSimpleShearIsTheReferencesTables) {
-    // CJ1, psi_0 = 0.05, K_0 = 0.7, S = 1: 0.253556 (docs/static_liquefaction.md).
+    // CJ1, psi_0 = 0.05, K_0 = 0.7, S = 1: 0.253556 (docs/verification/static_liquefaction.md).
     const NorSand law = tailings(with());
     EXPECT_NEAR(ratio_by_path(law, 100e3, OnPath::peak), 0.253556, 1e-3 * 0.253556);
 }

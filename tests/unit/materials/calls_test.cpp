@@ -27,7 +27,7 @@ struct Update {
     Outcome outcome = Outcome::done;
     int evaluations = 0;
 };
-struct Errand {
+struct Task {
     Update* update = nullptr;
     double strain = 0.0;
 };
@@ -47,35 +47,35 @@ struct Walk {
     }
 };
 
-bool open_call(const Ready&, const State& old, double strain, Errand& errand) {
-    errand.update->state = old;
-    errand.strain = strain;
+bool open_call(const Ready&, const State& old, double strain, Task& task) {
+    task.update->state = old;
+    task.strain = strain;
     return strain > 0.0;
 }
 template <class R>
-void load(const Errand& errand, int i, Walk<R>& walk) {
+void load(const Task& task, int i, Walk<R>& walk) {
     materials::lanes::set_lane(walk.time, i, 0.0);
-    materials::lanes::set_lane(walk.strain, i, errand.strain);
+    materials::lanes::set_lane(walk.strain, i, task.strain);
     materials::lanes::set_lane(walk.evaluations, i, 0.0);
 }
 template <class R>
-materials::Next after_unloading(const Ready&, int, Walk<R>&, Errand&) {
+materials::Next after_unloading(const Ready&, int, Walk<R>&, Task&) {
     return materials::Next::again;
 }
 template <class R>
-bool ends(int i, const Walk<R>& walk, bool lost, const Options& options, Errand& errand) {
+bool ends(int i, const Walk<R>& walk, bool lost, const Options& options, Task& task) {
     const bool stuck =
         lost || materials::lanes::lane(walk.evaluations, i) > options.most_evaluations;
-    if (stuck) errand.update->outcome = Outcome::unresolved;
+    if (stuck) task.update->outcome = Outcome::unresolved;
     return stuck || materials::lanes::lane(walk.time, i) > 0.95;
 }
 template <class R>
-void store(const Ready&, int i, const Walk<R>& walk, Errand& errand) {
-    errand.update->state.walked = materials::lanes::lane(walk.time, i);
-    errand.update->evaluations = static_cast<int>(materials::lanes::lane(walk.evaluations, i));
+void store(const Ready&, int i, const Walk<R>& walk, Task& task) {
+    task.update->state.walked = materials::lanes::lane(walk.time, i);
+    task.update->evaluations = static_cast<int>(materials::lanes::lane(walk.evaluations, i));
 }
-void finish_call(const Ready&, const State& old, double, Errand& errand) {
-    if (errand.update->outcome != Outcome::done) errand.update->state = old;
+void finish_call(const Ready&, const State& old, double, Task& task) {
+    if (task.update->outcome != Outcome::done) task.update->state = old;
 }
 bool may_be_tried(double, const Options&) { return true; }
 
@@ -85,7 +85,7 @@ struct Calls {
     using Strain = double;
     using Options = turning::Options;
     using Update = turning::Update;
-    using Errand = turning::Errand;
+    using Task = turning::Task;
     template <class R>
     using Walk = turning::Walk<R>;
     static Strain strain(const Voigt& d_epsilon) { return d_epsilon[0]; }

@@ -21,18 +21,18 @@ Recording shaking(double peak, Quantity quantity = Quantity::acceleration, doubl
 }
 
 std::string refusal(const Recording& motion) {
-    const Doubts doubts = doubts_about(motion, "/here");
-    EXPECT_EQ(doubts.faults.size(), 1U);
-    if (doubts.faults.empty()) return "";
-    EXPECT_EQ(doubts.faults[0].pointer, "/here");
-    return doubts.faults[0].cause + ": " + doubts.faults[0].remedy;
+    const Remarks remarks = remarks_about(motion, "/here");
+    EXPECT_EQ(remarks.faults.size(), 1U);
+    if (remarks.faults.empty()) return "";
+    EXPECT_EQ(remarks.faults[0].pointer, "/here");
+    return remarks.faults[0].cause + ": " + remarks.faults[0].remedy;
 }
 
-std::string doubt(const Recording& motion) {
-    const Doubts doubts = doubts_about(motion, "/here");
-    EXPECT_TRUE(doubts.faults.empty());
-    EXPECT_EQ(doubts.flags.size(), 1U);
-    return doubts.flags.empty() ? "" : doubts.flags[0].code + ": " + doubts.flags[0].message;
+std::string warning(const Recording& motion) {
+    const Remarks remarks = remarks_about(motion, "/here");
+    EXPECT_TRUE(remarks.faults.empty());
+    EXPECT_EQ(remarks.flags.size(), 1U);
+    return remarks.flags.empty() ? "" : remarks.flags[0].code + ": " + remarks.flags[0].message;
 }
 
 void expect_says(const std::string& text, const std::string& part) {
@@ -41,15 +41,15 @@ void expect_says(const std::string& text, const std::string& part) {
 
 TEST(MotionPlausibility, AnOrdinaryMotionPassesWithoutAWord) {
     for (const double g : {0.05, 0.3, 1.0}) {
-        const Doubts doubts = doubts_about(shaking(g * standard_gravity), "/here");
-        EXPECT_TRUE(doubts.faults.empty());
-        for (const auto& flag : doubts.flags) ADD_FAILURE() << flag.message;
+        const Remarks remarks = remarks_about(shaking(g * standard_gravity), "/here");
+        EXPECT_TRUE(remarks.faults.empty());
+        for (const auto& flag : remarks.flags) ADD_FAILURE() << flag.message;
     }
-    EXPECT_TRUE(doubts_about(shaking(0.3, Quantity::velocity), "/here").flags.empty());
+    EXPECT_TRUE(remarks_about(shaking(0.3, Quantity::velocity), "/here").flags.empty());
 }
 
 TEST(MotionPlausibility, MetresPerSecondSquaredGivenAsGAreNamed) {
-    expect_says(doubt(shaking(1.962 * standard_gravity)),
+    expect_says(warning(shaking(1.962 * standard_gravity)),
                 "a PGA of 1.962 g, hardly plausible: 1.962 looks like m/s2 given as g: divide by "
                 "9.81 (0.2001 g)");
     expect_says(refusal(shaking(4.905 * standard_gravity)), "divide by 9.81 (0.5002 g)");
@@ -57,13 +57,13 @@ TEST(MotionPlausibility, MetresPerSecondSquaredGivenAsGAreNamed) {
 }
 
 TEST(MotionPlausibility, GGivenAsMetresPerSecondSquaredIsNamed) {
-    expect_says(doubt(shaking(0.03)), "g given as m/s2");
+    expect_says(warning(shaking(0.03)), "g given as m/s2");
 }
 
 TEST(MotionPlausibility, VelocitiesInCentimetresAreNamed) {
     expect_says(refusal(shaking(30.0, Quantity::velocity)), "cm/s given as m/s: divide by 100");
-    expect_says(doubt(shaking(5.0, Quantity::velocity)), "cm/s given as m/s");
-    expect_says(doubt(shaking(0.001, Quantity::velocity)), "m/s given as cm/s");
+    expect_says(warning(shaking(5.0, Quantity::velocity)), "cm/s given as m/s");
+    expect_says(warning(shaking(0.001, Quantity::velocity)), "m/s given as cm/s");
 }
 
 TEST(MotionPlausibility, TimesInMillisecondsAreNamed) {
@@ -73,24 +73,24 @@ TEST(MotionPlausibility, TimesInMillisecondsAreNamed) {
 }
 
 TEST(MotionPlausibility, AMotionOfZerosIsFlagged) {
-    expect_says(doubt(shaking(0.0)), "zero throughout");
+    expect_says(warning(shaking(0.0)), "zero throughout");
 }
 
 TEST(MotionPlausibility, AVelocityLeftAtTheEndIsFlagged) {
     Recording motion = shaking(3.0);
     for (double& a : motion.series.values) a += 0.1;
-    expect_says(doubt(motion), "drifting_motion: the motion leaves 0.988 m/s at its end");
+    expect_says(warning(motion), "drifting_motion: the motion leaves 0.988 m/s at its end");
 }
 
 TEST(MotionPlausibility, StepsThatPassOverSamplesAreFlagged) {
     const Series series = shaking(3.0).series;
-    EXPECT_FALSE(doubt_about_step(series, 0.02, "/step"));
-    const auto flag = doubt_about_step(series, 5.0, "/step");
+    EXPECT_FALSE(warning_about_step(series, 0.02, "/step"));
+    const auto flag = warning_about_step(series, 5.0, "/step");
     ASSERT_TRUE(flag);
     EXPECT_EQ(flag->code, "coarse_step");
     EXPECT_EQ(flag->pointer, "/step");
     expect_says(flag->message, "pass over 500 samples");
-    EXPECT_FALSE(doubt_about_step({0.001, {0.0, 1.0}}, 0.01, "/step")) << "resolves 10 Hz";
+    EXPECT_FALSE(warning_about_step({0.001, {0.0, 1.0}}, 0.01, "/step")) << "resolves 10 Hz";
 }
 
 TEST(MotionPlausibility, SaysHowStrongTheMotionIs) {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "mpm_solver/measure/doubts.hpp"
+#include "mpm_solver/measure/ending_flags.hpp"
 #include "mpm_solver/simulation.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 
@@ -175,7 +175,7 @@ Ending sound() {
 
 std::vector<std::string> codes(const Ending& ending) {
     std::vector<std::string> found;
-    for (const fault::Flag& each : doubts_of(ending)) {
+    for (const fault::Flag& each : flags_of_ending(ending)) {
         const bool warns = each.code == "thin_deposit" || each.code == "overlap_work" ||
                            (each.code == "overlap" && ending.overlap <= 0.05);
         EXPECT_EQ(each.severity, warns ? fault::Severity::warning : fault::Severity::questionable);
@@ -184,18 +184,18 @@ std::vector<std::string> codes(const Ending& ending) {
     return found;
 }
 
-TEST(Doubts, AreNoneOfASoundRunAndOneForEachLimitPassed) {
+TEST(EndingFlags, AreNoneOfASoundRunAndOneForEachLimitPassed) {
     using Codes = std::vector<std::string>;
     EXPECT_EQ(codes(sound()), Codes{});
     Ending ending = sound();
     ending.moving = "it moves";
     ending.kinetic_share = 0.12;
     EXPECT_EQ(codes(ending), Codes{"still_moving"});
-    EXPECT_THAT(doubts_of(ending)[0].message,
+    EXPECT_THAT(flags_of_ending(ending)[0].message,
                 HasSubstr("still moving at 12 s with 12 % of the released energy"));
-    EXPECT_THAT(doubts_of(ending)[0].message, HasSubstr("raise /mpm/duration"));
+    EXPECT_THAT(flags_of_ending(ending)[0].message, HasSubstr("raise /mpm/duration"));
     ending.until_rest = true;
-    EXPECT_EQ(doubts_of(ending)[0].pointer, "/mpm/longest_duration");
+    EXPECT_EQ(flags_of_ending(ending)[0].pointer, "/mpm/longest_duration");
     for (const double share : {-0.21, 0.21, std::nan("")}) {
         ending = sound();
         ending.numerical_share = share;
@@ -205,11 +205,13 @@ TEST(Doubts, AreNoneOfASoundRunAndOneForEachLimitPassed) {
     ending.stood = true;
     EXPECT_EQ(codes(ending), Codes{});
     ending.numerical_share = -0.5;
-    ASSERT_EQ(doubts_of(ending).size(), 1u);
-    EXPECT_EQ(doubts_of(ending)[0].severity, fault::Severity::warning) << "no runout hangs on it";
-    EXPECT_THAT(doubts_of(ending)[0].message, HasSubstr("the scheme made 50 % of what so small"));
+    ASSERT_EQ(flags_of_ending(ending).size(), 1u);
+    EXPECT_EQ(flags_of_ending(ending)[0].severity, fault::Severity::warning)
+        << "no runout hangs on it";
+    EXPECT_THAT(flags_of_ending(ending)[0].message,
+                HasSubstr("the scheme made 50 % of what so small"));
     ending.numerical_share = std::nan("");
-    EXPECT_EQ(doubts_of(ending)[0].severity, fault::Severity::questionable);
+    EXPECT_EQ(flags_of_ending(ending)[0].severity, fault::Severity::questionable);
     for (const double ratio : {0.79, 1.31}) {
         ending = sound();
         ending.volume_ratio = ratio;
@@ -219,13 +221,13 @@ TEST(Doubts, AreNoneOfASoundRunAndOneForEachLimitPassed) {
     ending.numerical_share = -0.02;
     ending.correction_share = 0.09;
     EXPECT_EQ(codes(ending), Codes{"overlap_work"});
-    EXPECT_THAT(doubts_of(ending)[0].message,
+    EXPECT_THAT(flags_of_ending(ending)[0].message,
                 HasSubstr("put in 9 % of the released energy (5 % can be trusted), and the rest of "
                           "the scheme took 7 %"));
     ending = sound();
     ending.cell_size = 1.21;
     EXPECT_EQ(codes(ending), Codes{"thin_deposit"});
-    EXPECT_THAT(doubts_of(ending)[0].message, HasSubstr("6 m deep on the mean, 4.96 cells"));
+    EXPECT_THAT(flags_of_ending(ending)[0].message, HasSubstr("6 m deep on the mean, 4.96 cells"));
     ending.deposit_depth = 0.0;
     EXPECT_EQ(codes(ending), Codes{}) << "nothing came past the toe";
     ending = sound();

@@ -232,7 +232,7 @@ TEST(Accuracy, WhereOneRunScattersTooMuchItTellsHowManyToAverage) {
     const double half = 2.3534 * 0.007207 / 10.3125 * std::sqrt(1.0 / 2 + 1.0 / 4);
     EXPECT_NEAR(best.at("error").get<double>(), half + 0.000263 / 10.3125, 2e-6);
     const std::string words = answer.at("recommendation");
-    EXPECT_NE(words.find("the mean of 2 draws of cells: /mpm/cell_size=0.25"), std::string::npos)
+    EXPECT_NE(words.find("the mean of 2 repeats of cells: /mpm/cell_size=0.25"), std::string::npos)
         << words;
     EXPECT_NE(words.find("256 CPU s"), std::string::npos) << words;
     EXPECT_TRUE(answer.at("rows")[0].at("mean_within_asked").is_null()) << "its bias is 7 %";
@@ -247,8 +247,8 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
     Service service(sandbox);
     const std::string run = service.submit(noisy_study());
     service.wait_for_end(run);
-    const std::string door = "/v1/runs/" + run + "/accuracy/check";
-    const auto made = service.post(door + "?repeats=3", "{}");
+    const std::string route = "/v1/runs/" + run + "/accuracy/check";
+    const auto made = service.post(route + "?repeats=3", "{}");
     ASSERT_EQ(made.status, 202) << made.text;
     const std::string check = made.body.at("id");
     const json checked = service.wait_for_end(check);
@@ -265,7 +265,7 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
 
     // One by one the same six lattices: 0.02 m x 0.8649 and x 0.8298 are more than 0.15 %.
     const std::string single =
-        service.post(door + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
+        service.post(route + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
     const json ended = service.wait_for_end(single);
     for (const json& each : ended.at("tasks"))
         EXPECT_EQ(each.at("state"), "cached") << each.at("label");
@@ -274,7 +274,7 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
     EXPECT_EQ(one_by_one.at("kept"), 4) << one_by_one.dump(1);
     EXPECT_NEAR(one_by_one.at("furthest").get<double>(), 0.02 * 0.8649 / 10.3125, 1e-6);
     EXPECT_TRUE(one_by_one.at("verdict").get<std::string>().starts_with(
-        "4 of 6 new draws are within 0.15 % of 10.31 m; the furthest is off by 0.17 %"))
+        "4 of 6 new repeats are within 0.15 % of 10.31 m; the furthest is off by 0.17 %"))
         << one_by_one.at("verdict");
 }
 
@@ -433,8 +433,8 @@ TEST(RunoutError, OfAPageOrAFilterIsThatOfTheWholeTable) {
     sweep["scene"]["mpm"]["cell_size"] = 1;
     const std::string run = service.submit(sweep);
     service.wait_for_end(run);
-    const auto rows = [&](const std::string& wish) {
-        return service.get("/v1/runs/" + run + "/results" + wish).body.at("rows");
+    const auto rows = [&](const std::string& request) {
+        return service.get("/v1/runs/" + run + "/results" + request).body.at("rows");
     };
     const json whole = rows("");
     ASSERT_EQ(whole.size(), 5u);
@@ -449,7 +449,7 @@ TEST(RunoutError, OfDrawsSaysWhatTransferTimesScatterBy) {
     ASSERT_EQ(rows.size(), 10u);
     for (const json& row : rows) {
         const std::string from = row.at("runout_error_from");
-        EXPECT_TRUE(from.starts_with("scatter of 2 draws")) << from;
+        EXPECT_TRUE(from.starts_with("scatter of 2 repeats")) << from;
         EXPECT_NE(from.find("neighbouring transfer times scatter by "), std::string::npos) << from;
     }
 }
@@ -491,7 +491,7 @@ TEST(Means, TellMeanAndStandardDeviationOfEveryMeasure) {
     EXPECT_NEAR(coarse.at("runout_largest_deviation").get<double>(), 0.0, 1e-12);
     // Two degrees of freedom: t = 2.920.
     EXPECT_NEAR(coarse.at("runout_error").get<double>(), 2.920 * deviation / std::sqrt(3.0), 1e-5);
-    EXPECT_NE(coarse.at("runout_error_from").get<std::string>().find("mean of 3 draws"),
+    EXPECT_NE(coarse.at("runout_error_from").get<std::string>().find("mean of 3 repeats"),
               std::string::npos);
     EXPECT_EQ(means[3].at("variant"), "fine");
     EXPECT_NEAR(means[3].at("transfer_time").get<double>(), 0.75, 1e-12);

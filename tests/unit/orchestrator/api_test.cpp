@@ -307,7 +307,7 @@ TEST_F(Api, ResultsComeAsCsvToo) {
     EXPECT_NE(csv.text.find("0.25,\"succeeded\",10.0625,"), std::string::npos) << csv.text;
 }
 
-TEST(ApiDoor, TokenIsNeededWhenThereIsOne) {
+TEST(ApiAccess, TokenIsNeededWhenThereIsOne) {
     const Sandbox sandbox;
     std::ofstream(sandbox.root() / "token") << "correct-horse-battery\n";
     Service service(sandbox, {"--token-file", sandbox.root() / "token"});
@@ -320,7 +320,7 @@ TEST(ApiDoor, TokenIsNeededWhenThereIsOne) {
     EXPECT_EQ(service.get("/healthz").status, 200);
 }
 
-TEST(ApiDoor, OtherMachinesAreNotServedWithoutAToken) {
+TEST(ApiAccess, OtherMachinesAreNotServedWithoutAToken) {
     const Sandbox sandbox;
     Service service(sandbox, {"--host", "0.0.0.0"});
     EXPECT_FALSE(service.valid());
@@ -329,7 +329,7 @@ TEST(ApiDoor, OtherMachinesAreNotServedWithoutAToken) {
     EXPECT_NE(service.complaint().find("nginx"), std::string::npos) << service.complaint();
 }
 
-TEST(ApiDoor, PortInUseIsSaid) {
+TEST(ApiAccess, PortInUseIsSaid) {
     const Sandbox one;
     const Sandbox two;
     Service first(one);

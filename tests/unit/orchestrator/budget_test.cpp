@@ -133,8 +133,8 @@ TEST(Budget, IsRefusedWhereItIsNoneAndToldBeforehandWhereItIsTooSmall) {
     for (const json& wrong : {json(0), json(-1), json("much"), json(nullptr)}) {
         json wanted = study("", {0.5});
         wanted["budget"] = {{"cpu_seconds", wrong}};
-        for (const char* door : {"/v1/runs", "/v1/cost"}) {
-            const Answer answer = service.post(door, wanted.dump());
+        for (const char* route : {"/v1/runs", "/v1/cost"}) {
+            const Answer answer = service.post(route, wanted.dump());
             EXPECT_EQ(answer.status, 422) << wrong << " " << answer.text;
             EXPECT_EQ(answer.body.at("faults")[0].at("pointer"), "/budget/cpu_seconds");
         }

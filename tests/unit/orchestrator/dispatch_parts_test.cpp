@@ -52,7 +52,7 @@ class DispatchParts : public testing::Test {
     const test::Folder folder_;
     DataFolder data_;
     Store store_;
-    Bell bell_;
+    Notifier notifier_;
     DispatchSettings settings_;
     Told executor_;
     ProgressBoard board_;
@@ -80,7 +80,7 @@ TEST_F(DispatchParts, CapacityHasRoomUntilCoresMemoryOrPhaseAreTaken) {
 
 TEST_F(DispatchParts, OneThatDoesNotFitHoldsBackThoseBehindIt) {
     submit({planned("lem_tool", 1), planned("fem_solver", 4), planned("mpm_solver", 1)});
-    ReadyTasks ready(store_, data_, bell_);
+    ReadyTasks ready(store_, data_, notifier_);
     EXPECT_EQ(labels(ready.to_start(Capacity(settings_))), Labels{"lem_tool"});
 }
 

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/command/command.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/reads.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/telemetry/columns.hpp"
 #include "services/orchestrator/dispatch/verdict.hpp"
-#include "services/orchestrator/programs/command.hpp"
 #include "services/orchestrator/programs/numerics.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/trigger.hpp"
@@ -501,8 +501,8 @@ TEST_F(NumericsOfPhases, ProgramThatIsMissingOrOldIsNamedWithARemedy) {
 }
 
 TEST(Command, ThatClosesItsOutputAndGoesOnIsEnded) {
-    const CommandResult result =
-        run_command({"sh", "-c", "exec >&- 2>&-; sleep 3600"}, "", std::chrono::milliseconds(300));
+    const command::Result result =
+        command::run({"sh", "-c", "exec >&- 2>&-; sleep 3600"}, "", std::chrono::milliseconds(300));
     EXPECT_FALSE(result.exit_code);
 }
 

@@ -127,7 +127,7 @@ TEST(Exports, Flo2dHasHoursAndTheCell) {
 
 TEST(Exports, CsvHasEveryRowAndTheBreachOnce) {
     Hydrograph cut_off = triangle();
-    cut_off.doubt = "The runout was cut off in motion: volumes are lower bounds.";
+    cut_off.warning = "The runout was cut off in motion: volumes are lower bounds.";
     for (const std::string& text : {as_csv(cut_off, {}), as_hec_ras(cut_off, 72.0, 1.0, "test")})
         EXPECT_NE(text.find("Route it with a rheology of its own. The runout was cut off"),
                   std::string::npos)

@@ -1,4 +1,4 @@
-// The smallest real phase, for testing the door: counts to 20, one telemetry line each, and fails
+// The smallest real phase, for testing run_phase: counts to 20, one telemetry line each, and fails
 // as the scene's title tells it to.
 #include <chrono>
 #include <fstream>

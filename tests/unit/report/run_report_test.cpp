@@ -256,13 +256,13 @@ TEST_F(WetRun, SaysWhatNothingWasTransferredOf) {
     const auto said = [](const std::vector<std::string>& list, const std::string& text) {
         return std::ranges::find(list, text) != list.end();
     };
-    EXPECT_TRUE(said(verdict.doubts,
+    EXPECT_TRUE(said(verdict.cautions,
                      "No transfer from strong, so there is no runout: window: never "
                      "met. The dam may stand; then nothing runs out."));
-    EXPECT_TRUE(said(verdict.doubts,
+    EXPECT_TRUE(said(verdict.cautions,
                      "No transfer from early, so there is no runout: the FEM ended at 8 s. "
                      "This does not mean that the dam stands."));
-    EXPECT_TRUE(said(verdict.doubts,
+    EXPECT_TRUE(said(verdict.cautions,
                      "No transfer from odd, so there is no runout: window: there is "
                      "no window. This does not mean that the dam stands."));
 }
@@ -428,22 +428,22 @@ TEST_F(WetRun, NamesTheMaterialThatAVariantChanges) {
 TEST_F(WetRun, SaysWhichPhaseLeftNoResult) {
     const Document d = document();
     EXPECT_NE(
-        in_one(d.verdict.doubts).find("The FEM left no result: the mesh is entangled at 21 s."),
+        in_one(d.verdict.cautions).find("The FEM left no result: the mesh is entangled at 21 s."),
         std::string::npos)
-        << in_one(d.verdict.doubts);
+        << in_one(d.verdict.cautions);
     EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "settings"), "not known: no result.json");
 }
 
 TEST_F(WetRun, SaysAtItsHeadWhatMustBeKnownFirst) {
     flag_all();
     const Document d = document();
-    const std::string doubts = in_one(d.verdict.doubts), notes = in_one(d.verdict.notes);
-    EXPECT_NE(doubts.find("Still moving, 1 of 3 runouts: 12 % of the released energy is left."),
+    const std::string cautions = in_one(d.verdict.cautions), notes = in_one(d.verdict.notes);
+    EXPECT_NE(cautions.find("Still moving, 1 of 3 runouts: 12 % of the released energy is left."),
               std::string::npos)
-        << doubts;
-    EXPECT_NE(doubts.find("Implausible, 3 of 3 runouts: 19 looks like kN/m3 (mpm_13"),
+        << cautions;
+    EXPECT_NE(cautions.find("Implausible, 3 of 3 runouts: 19 looks like kN/m3 (mpm_13"),
               std::string::npos)
-        << doubts;
+        << cautions;
     EXPECT_NE(
         notes.find("The mesh entangled at 20.5 s in element 212 (region sand, x = 1.5 m, "
                    "y = 0.25 m), in the failure's band; then: mean epsilon_q there 34 %, failure "
@@ -525,11 +525,11 @@ TEST_F(WetRun, ThatHasNotEndedIsNotTakenForAnother) {
     std::ofstream(folder_ / "run.json") << R"({"id": "01", "name": "wet", "state": "running"})";
     const Document d = document();
     EXPECT_EQ(d.verdict.word, "not finished");
-    EXPECT_NE(
-        in_one(d.verdict.doubts).find("1 of 3 runouts left no result: it has not ended (blocked)"),
-        std::string::npos)
-        << in_one(d.verdict.doubts);
-    EXPECT_NE(in_one(d.verdict.doubts).find("The run is running: this is not all of it."),
+    EXPECT_NE(in_one(d.verdict.cautions)
+                  .find("1 of 3 runouts left no result: it has not ended (blocked)"),
+              std::string::npos)
+        << in_one(d.verdict.cautions);
+    EXPECT_NE(in_one(d.verdict.cautions).find("The run is running: this is not all of it."),
               std::string::npos);
     EXPECT_NE(d.front.found.rows.front()[2].find("(2 of 3)"), std::string::npos);
 }
@@ -649,7 +649,7 @@ TEST_F(WetRun, MarksAMeanAsALowerBoundWhereADrawStillMoved) {
               (std::vector{Certainty::at_least, Certainty::certain}));
     const auto& rows = d.front.found.rows;
     const auto row = std::ranges::find_if(
-        rows, [](const auto& each) { return each[0].starts_with("Runout, mean of 2 draws"); });
+        rows, [](const auto& each) { return each[0].starts_with("Runout, mean of 2 repeats"); });
     ASSERT_NE(row, rows.end());
     EXPECT_EQ((*row)[1], "\u2265 220");
 }
@@ -672,14 +672,14 @@ TEST_F(WetRun, DrawsTheMeanOfItsDrawsWithTheirScatter) {
     const Document d = document();
     const Figure& against = figure(d, "runout_against_transfer_time");
     const Series& curve = against.chart.series.front();
-    EXPECT_EQ(curve.name, "mean of the draws");
+    EXPECT_EQ(curve.name, "mean of the repeats");
     EXPECT_EQ(curve.y, (std::vector{113.0, 116.0}));
     EXPECT_EQ(curve.error[0], 2.5);
-    EXPECT_TRUE(std::isnan(curve.error[1])) << "one draw has no scatter";
+    EXPECT_TRUE(std::isnan(curve.error[1])) << "one repeat has no scatter";
     EXPECT_EQ(curve.certainty, (std::vector{Certainty::certain, Certainty::doubtful}));
     EXPECT_EQ(cell(d, "numbers_means", 0, "runout [m]"), "113 +- 2.5");
     EXPECT_EQ(cell(d, "numbers_means", 1, "runout [m]"), "116");
-    EXPECT_EQ(cell(d, "numbers_means", 1, "draws"), "2 of 3");
+    EXPECT_EQ(cell(d, "numbers_means", 1, "repeats"), "2 of 3");
     EXPECT_EQ(cell(d, "numbers_means", 1, "not as it should be"), "without a result: d2: failed");
 }
 
@@ -688,7 +688,7 @@ TEST_F(WetRun, DrawsHowFarARunoutIsOffWhereItIsKnown) {
         return nlohmann::json{{"transfer_time", time},
                               {"variant", "softened"},
                               {"runout_error", error},
-                              {"runout_error_from", "scatter of 5 draws"}};
+                              {"runout_error_from", "scatter of 5 repeats"}};
     };
     std::ofstream(folder_ / "results.json")
         << nlohmann::json{{"rows", {row(13, 4.0), row(16, nullptr)}}};
@@ -801,11 +801,11 @@ TEST_F(WetRun, TellsABadCornerFromAFailure) {
                            {"message", "one corner folded"},
                            {"pointer", ""}}}}});
     const Document d = document();
-    EXPECT_NE(in_one(d.verdict.doubts)
+    EXPECT_NE(in_one(d.verdict.cautions)
                   .find("The mesh entangled at 20.5 s in element 3, at one bad corner, not in a "
                         "failure's band. That is the mesh's doing"),
               std::string::npos)
-        << in_one(d.verdict.doubts);
+        << in_one(d.verdict.cautions);
     EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "how it ended"),
               "entangled at 20.5 s in element 3, at one bad corner, not in a failure's band; "
               "questionable: entangled corner");

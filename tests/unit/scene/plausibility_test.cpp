@@ -73,10 +73,10 @@ json with(const Slip& slip) {
 }
 
 /// What is said of entries; whether the cells are fine enough is another test's affair.
-std::vector<fault::Flag> doubts_of(const scene::Scene& read) {
-    std::vector<fault::Flag> doubts = read.warnings;
-    std::erase_if(doubts, [](const fault::Flag& each) { return each.code != "implausible"; });
-    return doubts;
+std::vector<fault::Flag> warnings_of(const scene::Scene& read) {
+    std::vector<fault::Flag> warnings = read.warnings;
+    std::erase_if(warnings, [](const fault::Flag& each) { return each.code != "implausible"; });
+    return warnings;
 }
 
 class UnitSlip : public testing::TestWithParam<Slip> {};
@@ -88,7 +88,7 @@ TEST_P(UnitSlip, IsCaughtAndNamed) {
     try {
         const scene::Scene read = scene::parse_scene(with(slip).dump(), "dam");
         caught = Caught::flagged;
-        for (const fault::Flag& flag : doubts_of(read)) {
+        for (const fault::Flag& flag : warnings_of(read)) {
             if (flag.pointer != slip.pointer) continue;
             EXPECT_EQ(flag.severity, fault::Severity::warning);
             said += flag.message + "\n";
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Plausibility, ADamWithoutSlipsPassesWithoutAWord) {
     const scene::Scene read = scene::parse_scene(dam().dump(), "dam");
-    for (const fault::Flag& flag : doubts_of(read)) {
+    for (const fault::Flag& flag : warnings_of(read)) {
         ADD_FAILURE() << flag.pointer << ": " << flag.message;
     }
 }
@@ -200,7 +200,7 @@ TEST(Plausibility, ADamWithoutSlipsPassesWithoutAWord) {
 TEST(Plausibility, ShippedScenesPassWithoutAWord) {
     const auto folder = std::filesystem::path(BREACH_ROOT) / "workflows/scenes";
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        for (const fault::Flag& flag : doubts_of(scene::read_scene(entry.path()))) {
+        for (const fault::Flag& flag : warnings_of(scene::read_scene(entry.path()))) {
             ADD_FAILURE() << entry.path() << flag.pointer << ": " << flag.message;
         }
     }
@@ -209,10 +209,10 @@ TEST(Plausibility, ShippedScenesPassWithoutAWord) {
 TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
     const json document = with({"/fem/stages/1/time_step", "5", Caught::flagged, ""});
     const scene::Scene read = scene::parse_scene(document.dump(), "dam");
-    const auto doubts = doubts_of(read);
-    ASSERT_EQ(doubts.size(), 1U);
+    const auto warnings = warnings_of(read);
+    ASSERT_EQ(warnings.size(), 1U);
     for (const char* part : {"5 looks like ms", "section's natural period of about"}) {
-        EXPECT_NE(doubts[0].message.find(part), std::string::npos) << part;
+        EXPECT_NE(warnings[0].message.find(part), std::string::npos) << part;
     }
 }
 
@@ -233,7 +233,7 @@ TEST(Plausibility, AFaultIsToldOfTheDoubtThatExplainsIt) {
 TEST(Plausibility, ZeroMeansNone) {
     for (const char* pointer : {"/materials/fill/viscosity", "/lem/seismic_coefficient"}) {
         const json document = with({pointer, "0", Caught::flagged, ""});
-        EXPECT_TRUE(doubts_of(scene::parse_scene(document.dump(), "dam")).empty()) << pointer;
+        EXPECT_TRUE(warnings_of(scene::parse_scene(document.dump(), "dam")).empty()) << pointer;
     }
 }
 

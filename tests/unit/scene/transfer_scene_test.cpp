@@ -1,4 +1,4 @@
-// /transfer at the door: what points become, and what is refused.
+// /transfer in scenes: what points become, and what is refused.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -154,8 +154,9 @@ TEST(Inverse, RefusesATargetThatBothEndsGive) {
     const Search found = search(
         none, [](double) { return 0.0; }, 2);
     EXPECT_FALSE(found.advice.found);
-    EXPECT_EQ(found.advice.refused,
-              "runout_beyond_toe is 0 m at 0.4 and at 2.5: no value between them is told apart");
+    EXPECT_EQ(
+        found.advice.refused,
+        "runout_beyond_toe is 0 m at 0.4 and at 2.5: values between them give the same result");
 }
 
 TEST(Inverse, LowerBoundsBesideTheTargetMakeItABoundAsWell) {

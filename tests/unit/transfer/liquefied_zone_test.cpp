@@ -123,19 +123,19 @@ TEST(LiquefiedZone, AWideWallAndTheZonesEndsStay) {
 }
 
 TEST(LiquefiedGaps, NarrowerThanTwoCellsForbidToRelyOnARunout) {
-    EXPECT_FALSE(doubt_of({}, 2.5).has_value());
+    EXPECT_FALSE(flag_of({}, 2.5).has_value());
     const LiquefiedGap narrow{.from = 97.26, .to = 99.94, .level = 29.4, .beside = 13.28};
     const LiquefiedGap wide{.from = 60.0, .to = 65.5, .level = 25.0, .beside = 15.0};
-    const auto both = doubt_of({wide, narrow}, 2.5);
+    const auto both = flag_of({wide, narrow}, 2.5);
     ASSERT_TRUE(both.has_value());
     EXPECT_EQ(both->severity, fault::Severity::questionable);
     EXPECT_NE(both->message.find("from x = 97.26 to 99.94 m"), std::string::npos) << both->message;
     EXPECT_NE(both->message.find("(2 such gaps)"), std::string::npos);
-    const auto one = doubt_of({wide}, 2.5);
+    const auto one = flag_of({wide}, 2.5);
     ASSERT_TRUE(one.has_value());
     EXPECT_EQ(one->severity, fault::Severity::warning);
-    EXPECT_EQ(doubt_of({narrow}, 1.25)->severity, fault::Severity::warning);
-    EXPECT_EQ(doubt_of({narrow}, 0.0)->severity, fault::Severity::warning) << "no runout";
+    EXPECT_EQ(flag_of({narrow}, 1.25)->severity, fault::Severity::warning);
+    EXPECT_EQ(flag_of({narrow}, 0.0)->severity, fault::Severity::warning) << "no runout";
 }
 
 // At t_T the pore pressure has dipped everywhere; before, it had reached down to y = 4.

@@ -132,6 +132,29 @@ TEST(Comparison, ReadsLinesBetweenTwoTimesAndColumnsOfCsv) {
     EXPECT_DOUBLE_EQ(outcomes[0].found[1].value.value(), 30.0);
 }
 
+TEST(Comparison, AnOrderOfConvergenceIsOverTheLevelsOfACase) {
+    // The answer is 3 + size^2, whose size comes as --set SIZE.
+    json order = quantity(2.0);
+    order["limit"] = 3.0;
+    json file = topic(json::array({order}));
+    const auto level = [](double size, const char* set) {
+        return json{{"size", size}, {"set", {set}}};
+    };
+    file["cases"][0]["levels"] = {level(4, "4"), level(2, "2"), level(1, "1")};
+    const Bench bench(file, "echo \"{\\\"answer\\\": $((3 + $3 * $3))}\" > \"$1/result.json\"");
+    const auto topics = bench.catalogue();
+    const auto outcomes = bench.outcomes(topics);
+    EXPECT_EQ(outcomes[0].found[0].problem, "");
+    EXPECT_NEAR(outcomes[0].found[0].value.value_or(0.0), 2.0, 1e-12);
+
+    json two = file;
+    two["cases"][0]["levels"].erase(2);
+    EXPECT_EQ(pointer_of_refusal(two), "/cases/0/levels");
+    json no_limit = file;
+    no_limit["cases"][0]["quantities"][0].erase("limit");
+    EXPECT_EQ(pointer_of_refusal(no_limit), "/cases/0/quantities/0/limit");
+}
+
 TEST(Comparison, LeavesSlowCasesOutOfQuick) {
     json file = topic(json::array({quantity(1.0)}));
     file["cases"][0]["slow"] = true;

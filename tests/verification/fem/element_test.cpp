@@ -108,7 +108,7 @@ double cook_deflection(int n, double nu) {
           {"stages", {{{"type", "static"}, {"name", "load"}}}},
           {"crest", {48, 60}}}}};
     scene::Scene parsed = bench::parse(scene);
-    parsed.materials[0].law = materials::LinearElastic{{1.0, nu}};  // no soil: set behind the door
+    parsed.materials[0].law = materials::LinearElastic{{1.0, nu}};  // no soil: set after the checks
     Model model = bench::model_of(parsed);
     for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
         const Vec2 x = model.mesh.nodes[i];

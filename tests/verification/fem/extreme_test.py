@@ -1,4 +1,4 @@
-"""Extreme scenes through the door of fem_solver: the right answer, an entangled mesh that says so, or a clear stop (exit
+"""Extreme scenes in fem_solver: the right answer, an entangled mesh that says so, or a clear stop (exit
 70 that says what, where and when, with the last good state saved). Usage: extreme_test.py CASE; each case is named after what is true."""
 import json
 import math

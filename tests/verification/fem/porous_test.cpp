@@ -77,7 +77,7 @@ TEST(CoupledElement, StepsLikeAnIndependentCode) {
     scene["fem"]["rayleigh_mass"] = 0.3;
     scene["fem"]["rayleigh_stiffness"] = 0.01;
     scene::Scene parsed = bench::parse(scene);
-    parsed.materials[0].density = 2.0;  // no soil: set behind the door
+    parsed.materials[0].density = 2.0;  // no soil: set after the checks
     Model model = bench::model_of(parsed);
     Corners x;
     x << 0, 2, 1.8, .1, 0, .2, 1.5, 1;

@@ -68,7 +68,7 @@ TEST(Mochikoshi, DoesNotDependOnTheCoarseGrid) {
     }
 }
 
-/// What the scene's notes and docs/mochikoshi.md say of the warning bound_raises_factor.
+/// What the scene's notes and docs/verification/mochikoshi.md say of the warning bound_raises_factor.
 TEST(Mochikoshi, SurfacesThroughTheFoundationAreLowerOnlyWhileLittleHasLiquefied) {
     constexpr std::array through_the_foundation{1.539, 1.528};
     scene::Scene scene = mochikoshi();

@@ -1,6 +1,6 @@
 // NorSand against what must come out: the critical state line, the peaks of the open table, and the
 // published runs of Cheng & Jefferies (2020, Geo-Congress GSP 318) and of the authors' workbook as
-// docs/static_liquefaction.md lists them.
+// docs/verification/static_liquefaction.md lists them.
 #include <gtest/gtest.h>
 
 #include <cmath>

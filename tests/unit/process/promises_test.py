@@ -1,4 +1,4 @@
-"""What every phase promises at its door: exit codes, faults, plan, progress lines, checkpoint on a signal, resume."""
+"""What every phase promises: exit codes, faults, plan, progress lines, checkpoint on a signal, resume."""
 import json
 import os
 import pathlib

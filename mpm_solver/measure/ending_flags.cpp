@@ -1,4 +1,4 @@
-#include "mpm_solver/measure/doubts.hpp"
+#include "mpm_solver/measure/ending_flags.hpp"
 
 #include <cmath>
 
@@ -65,7 +65,7 @@ Flag overlap_work(const Ending& ending) {
                 " % of the released energy (5 % can be trusted), and the rest of the scheme took " +
                 three_digits(100.0 * (ending.numerical_share + ending.correction_share)) +
                 " %: the two cancel in the energy, not in the runout, which may be a tenth too "
-                "long and hangs on where the points lie; compare with 16 points per cell (4 per "
+                "long and depends on where the points lie; compare with 16 points per cell (4 per "
                 "direction)",
             "/mpm/overlap_correction/rate"};
 }
@@ -84,22 +84,22 @@ Flag share_of_settling(const Ending& ending) {
 
 }  // namespace
 
-std::vector<Flag> doubts_of(const Ending& ending) {
-    std::vector<Flag> doubts;
+std::vector<Flag> flags_of_ending(const Ending& ending) {
+    std::vector<Flag> flags;
     if (ending.softer && ending.mach > largest_mach)
-        doubts.push_back({"high_mach", Severity::warning,
-                          "the flow reached Mach " + words::text_of(ending.mach, 2) +
-                              " in soil that is softer than the scene's (at most 0.1 can be "
-                              "trusted): the flow compresses it; give a larger "
-                              "/mpm/stiffness_scale",
-                          "/mpm/stiffness_scale"});
-    if (ending.moving) doubts.push_back(still_moving(ending));
+        flags.push_back({"high_mach", Severity::warning,
+                         "the flow reached Mach " + words::text_of(ending.mach, 2) +
+                             " in soil that is softer than the scene's (at most 0.1 can be "
+                             "trusted): the flow compresses it; give a larger "
+                             "/mpm/stiffness_scale",
+                         "/mpm/stiffness_scale"});
+    if (ending.moving) flags.push_back(still_moving(ending));
     const bool much = !(std::abs(ending.numerical_share) <= largest_numerical_share);
     const bool stands = ending.stood && !ending.moving && std::isfinite(ending.numerical_share);
     if (much && stands) {
-        doubts.push_back(share_of_settling(ending));
+        flags.push_back(share_of_settling(ending));
     } else if (much) {
-        doubts.push_back(
+        flags.push_back(
             {"numerical_share", Severity::questionable,
              "the scheme " + std::string(ending.numerical_share > 0.0 ? "took " : "made ") +
                  three_digits(100.0 * std::abs(ending.numerical_share)) +
@@ -111,22 +111,22 @@ std::vector<Flag> doubts_of(const Ending& ending) {
              "/mpm"});
     }
     if (!(ending.volume_ratio >= least_volume_ratio && ending.volume_ratio <= most_volume_ratio)) {
-        doubts.push_back({"volume_ratio", Severity::questionable,
-                          "the mobile soil has " + three_digits(ending.volume_ratio) +
-                              " of its initial volume (0.8 to 1.3 can be trusted): depth and "
-                              "length of the deposit are wrong; " +
-                              or_tension(ending,
-                                         "look for spray in the last frame, set /mpm/gap_room, "
-                                         "try smaller cells or a smaller /mpm/cfl"),
-                          "/mpm"});
+        flags.push_back({"volume_ratio", Severity::questionable,
+                         "the mobile soil has " + three_digits(ending.volume_ratio) +
+                             " of its initial volume (0.8 to 1.3 can be trusted): depth and "
+                             "length of the deposit are wrong; " +
+                             or_tension(ending,
+                                        "look for spray in the last frame, set /mpm/gap_room, "
+                                        "try smaller cells or a smaller /mpm/cfl"),
+                         "/mpm"});
     }
-    if (!(ending.overlap <= told_overlap)) doubts.push_back(overlap(ending));
+    if (!(ending.overlap <= told_overlap)) flags.push_back(overlap(ending));
     if (!(ending.correction_share <= largest_correction_share))
-        doubts.push_back(overlap_work(ending));
+        flags.push_back(overlap_work(ending));
     if (ending.deposit_depth > 0.0 &&
         ending.deposit_depth < deposit_cells_wanted * ending.cell_size)
-        doubts.push_back(thin_deposit(ending));
-    return doubts;
+        flags.push_back(thin_deposit(ending));
+    return flags;
 }
 
 }  // namespace breach::mpm

@@ -1,8 +1,9 @@
-#include "services/orchestrator/programs/command.hpp"
+#include "core/command/command.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,7 +16,7 @@
 
 #include "core/fault/fault.hpp"
 
-namespace breach::orchestrator {
+namespace breach::command {
 
 using Clock = std::chrono::steady_clock;
 
@@ -81,26 +82,35 @@ void drain(Pipe& pipe, short happened, std::string& text) {
     text.append(buffer.data(), static_cast<std::size_t>(size));
 }
 
-/// Its status when it has ended by itself until then, or was killed with what it started: one that
-/// has closed its output may go on for ever.
-int end_of(pid_t pid, Clock::time_point deadline) {
-    constexpr auto pause = std::chrono::milliseconds(2);
+struct End {
     int status = 0;
+    rusage spent{};
+};
+
+/// When it has ended by itself until then, or was killed with what it started: one that has closed
+/// its output may go on for ever.
+End end_of(pid_t pid, Clock::time_point deadline) {
+    constexpr auto pause = std::chrono::milliseconds(2);
+    End end;
     while (true) {
-        const pid_t ended = waitpid(pid, &status, WNOHANG);
-        if (ended == pid) return status;
+        const pid_t ended = wait4(pid, &end.status, WNOHANG, &end.spent);
+        if (ended == pid) return end;
         if (Clock::now() >= deadline) break;
         std::this_thread::sleep_for(pause);
     }
     kill(-pid, SIGKILL);
-    waitpid(pid, &status, 0);
-    return status;
+    wait4(pid, &end.status, 0, &end.spent);
+    return end;
+}
+
+double seconds(const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 }  // namespace
 
-CommandResult run_command(std::vector<std::string> words, const std::string& input,
-                          std::chrono::milliseconds longest) {
+Result run(std::vector<std::string> words, const std::string& input,
+           std::chrono::milliseconds longest) {
     assert(input.size() <= 60000);
     Pipe in, out, err;
     const pid_t pid = start(words, in, out, err);
@@ -112,7 +122,7 @@ CommandResult run_command(std::vector<std::string> words, const std::string& inp
     }
     in.shut(1);
 
-    CommandResult result;
+    Result result;
     const auto deadline = Clock::now() + longest;
     while (out.ends[0] >= 0 || err.ends[0] >= 0) {
         const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
@@ -123,9 +133,10 @@ CommandResult run_command(std::vector<std::string> words, const std::string& inp
         drain(err, wanted[1].revents, result.err);
     }
     const bool silent = out.ends[0] < 0 && err.ends[0] < 0;
-    const int status = end_of(pid, silent ? deadline : Clock::now());
+    const auto [status, spent] = end_of(pid, silent ? deadline : Clock::now());
     if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+    result.cpu_seconds = seconds(spent.ru_utime) + seconds(spent.ru_stime);
     return result;
 }
 
-}  // namespace breach::orchestrator
+}  // namespace breach::command

@@ -6,20 +6,21 @@
 #include <string>
 #include <vector>
 
-namespace breach::orchestrator {
+namespace breach::command {
 
 /// A phase that is asked about itself (--plan, --version) has answered by then.
 constexpr auto longest_answer = std::chrono::seconds(20);
 
-struct CommandResult {
+struct Result {
     std::optional<int> exit_code;  ///< empty: it was killed, or took too long and was killed
     std::string out;
     std::string err;
+    double cpu_seconds = 0.0;
 };
 
 /// `words`: the program, found on PATH when it has no slash, and its arguments. `input`: at most
 /// 60,000 bytes (it goes into the pipe at once). Throws IoError when the program cannot be started.
-CommandResult run_command(std::vector<std::string> words, const std::string& input,
-                          std::chrono::milliseconds longest);
+Result run(std::vector<std::string> words, const std::string& input,
+           std::chrono::milliseconds longest);
 
-}  // namespace breach::orchestrator
+}  // namespace breach::command

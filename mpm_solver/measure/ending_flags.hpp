@@ -10,7 +10,7 @@
 namespace breach::mpm {
 
 /// Energy that the scheme made or took, over the energy released. Runs with the usual settings lie
-/// within a few per cent; the overlap correction with 4 points per cell, which docs/mpm_convergence.md
+/// within a few per cent; the overlap correction with 4 points per cell, which docs/verification/mpm_convergence.md
 /// advises against, reaches 22 %. Beyond a fifth the scheme decides how far the soil runs.
 constexpr double largest_numerical_share = 0.20;
 
@@ -22,17 +22,17 @@ constexpr double most_volume_ratio = 1.3;
 
 /// Volume-weighted share of the mobile soil that lies on soil: it is missing from the deposit, most of
 /// it in front. Runs with 0.01 to 0.07 went 3 to 17 % less far than those with next to none, one of
-/// them 3 % farther (docs/mpm_convergence.md).
+/// them 3 % farther (docs/verification/mpm_convergence.md).
 constexpr double told_overlap = 0.01;
 constexpr double largest_overlap = 0.05;
 
 /// Energy that the overlap correction put in, over the energy released. It stands for soil that lies on
 /// soil, and mends more than it spoils; but with 9 points per cell it puts in 5 to 9 %, goes on in
-/// soil at rest, and a template's dam ran a tenth too far. 16 points take 1 to 4 % (docs/mpm_convergence.md).
+/// soil at rest, and a template's dam ran a tenth too far. 16 points take 1 to 4 % (docs/verification/mpm_convergence.md).
 constexpr double largest_correction_share = 0.05;
 
 /// Cells across the mean depth of what lies beyond the toe. The Mochikoshi dam with residual
-/// strengths from the start ran 68, 140, 180 and 176 m on 1.6, 2.7, 5.2 and 11 (docs/mpm_convergence.md).
+/// strengths from the start ran 68, 140, 180 and 176 m on 1.6, 2.7, 5.2 and 11 (docs/verification/mpm_convergence.md).
 constexpr double deposit_cells_wanted = 5.0;
 
 /// What makes soil that stands, stand: a bank of 5 m with c 300 kPa fell apart without the first, and a
@@ -44,7 +44,7 @@ constexpr double usual_damping_ratio = 0.1;
 /// every weakly compressible method.
 constexpr double largest_mach = 0.1;
 
-/// How a run ended, as far as doubts go.
+/// How a run ended, as far as flags go.
 struct Ending {
     double time;                        ///< [s]
     std::optional<std::string> moving;  ///< why the soil is not at rest; empty: it is
@@ -63,6 +63,6 @@ struct Ending {
     bool softer;           ///< soil is softer than in the scene, for longer steps
 };
 
-std::vector<fault::Flag> doubts_of(const Ending& ending);
+std::vector<fault::Flag> flags_of_ending(const Ending& ending);
 
 }  // namespace breach::mpm

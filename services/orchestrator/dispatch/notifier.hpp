@@ -1,4 +1,4 @@
-// What other threads ring the dispatcher's with, and leave for it until it looks.
+// How other threads wake the dispatcher, and the mailboxes in which they leave results for it.
 #pragma once
 
 #include <sys/eventfd.h>
@@ -10,15 +10,15 @@
 
 namespace breach::orchestrator {
 
-/// Wakes the dispatcher's thread out of its poll; may be rung by any thread.
-class Bell {
+/// Wakes the dispatcher's thread out of its poll; any thread may call it.
+class Notifier {
   public:
-    Bell() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
-    ~Bell() { close(descriptor_); }
-    Bell(const Bell&) = delete;
-    Bell& operator=(const Bell&) = delete;
-    void ring() const { eventfd_write(descriptor_, 1); }
-    void silence() const {
+    Notifier() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+    ~Notifier() { close(descriptor_); }
+    Notifier(const Notifier&) = delete;
+    Notifier& operator=(const Notifier&) = delete;
+    void notify() const { eventfd_write(descriptor_, 1); }
+    void clear() const {
         eventfd_t count = 0;
         eventfd_read(descriptor_, &count);
     }
@@ -31,14 +31,14 @@ class Bell {
 template <class Letter>
 class Mailbox {
   public:
-    explicit Mailbox(const Bell& bell) : bell_(bell) {}
+    explicit Mailbox(const Notifier& notifier) : notifier_(notifier) {}
     /// Any thread may.
     void put(Letter letter) {
         {
             const std::lock_guard lock(mutex_);
             letters_.push_back(std::move(letter));
         }
-        bell_.ring();
+        notifier_.notify();
     }
     std::vector<Letter> take() {
         const std::lock_guard lock(mutex_);
@@ -46,7 +46,7 @@ class Mailbox {
     }
 
   private:
-    const Bell& bell_;
+    const Notifier& notifier_;
     std::mutex mutex_;
     std::vector<Letter> letters_;
 };

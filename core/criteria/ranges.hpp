@@ -1,0 +1,20 @@
+// Whether a condition can come true at all, from the ranges that its fields keep to.
+#pragma once
+
+#include <functional>
+#include <limits>
+
+#include "core/criteria/expression.hpp"
+
+namespace breach::criteria {
+
+struct Range {
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+};
+
+/// False only where no values within the ranges make it true.
+bool can_be_true(const Expression& condition,
+                 const std::function<Range(const std::string& field)>& range_of);
+
+}  // namespace breach::criteria

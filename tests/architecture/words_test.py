@@ -1,0 +1,207 @@
+"""What a person reads is in plain English (CONTRIBUTING.md, Style): few words, short sentences, the field's terms.
+
+    words_test.py              every rule; exit 1 where one is broken
+    words_test.py --count      words per page"""
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+
+root = pathlib.Path(os.environ.get("BREACH_ROOT", pathlib.Path(__file__).resolve().parents[2]))
+
+MOST_WORDS = 66700  # of all pages together
+MOST_WORDS_OF = {"README.md": 900, "CONTRIBUTING.md": 900, "CHANGELOG.md": 600}
+MOST_WORDS_OF_A_ROOM = 150
+MOST_TERMS = 60
+LONGEST_LINE = 160
+LONGEST_SENTENCE = 40
+MEDIAN_SENTENCE = 18
+
+# Pages and folders that keep the rules of lines, sentences and words.
+PLAIN = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/README.md", "docs/reference", "docs/how-to/reverse_proxy.md",
+         "docs/how-to/install_package.md", "docs/how-to/backup.md", "docs/how-to/slurm.md", "services/orchestrator"]
+ROOMS = ["services/orchestrator/README.md"]
+TEMPLATES = "workflows/verification/pages/"
+NOT_FOR_READERS = ("tests/fuzz/corpus/", TEMPLATES)
+
+# A word of ours and the field's term that replaces it. Code (`draws`) and quoted names are exempt.
+BANNED = {
+    r"doors?": "interface, entry point, input",
+    r"wish(es|ed)?": "request, option",
+    r"bells?": "notification",
+    r"errands?": "task, call",
+    r"doubt(s|ed)?": "flag, warning, uncertainty",
+    r"(is|are|was|were|be) told": "the report states, the command prints",
+    r"(is|are) asked of": "requester",
+    r"(comes?|came) to nothing": "did not fire, had no effect",
+    r"(is|was|were) let go|lets? go(?! of)": "since the transfer, released",
+    r"holds? up(?! to)": "delays, supports",
+    r"as it (lies|stands)": "unchanged, in place",
+    r"hangs? on": "depends on",
+    r"takes? for|taken for": "reads as, is mistaken for",
+    r"tell(s|ing)? apart|told apart": "distinguishes, exceeds the noise",
+    r"for ever": "permanently",
+    r"whatever": "independent of, any",
+    r"mend(s|ed|ing)?": "correct, repair",
+    r"bears": "supports, withstands",
+    r"what (became|becomes) of": "state of, result of",
+}
+# One word per idea: the twin and the word.
+TWINS = {
+    r"draws|(an?|each|one|per|every|last|previous|new) draw(?! (the|it|them|a)\b)": "repeat",
+    r"redrawn": "repeated",
+}
+MESSAGES = ["core", "element_bench", "fem_solver", "lem_tool", "mpm_solver", "services", "transfer_tool"]
+DESCRIPTIONS = ["workflows/schema/scene.schema.json", "workflows/schema/study.schema.json", "workflows/schema/element_test.schema.json",
+                "services/orchestrator/http/openapi.json"]
+# Where a banned word is the right one: (file, text around it).
+EXCEPTIONS = [
+    ("services/orchestrator/study/read_study.cpp", "a blind check draws one setting"),
+    ("services/orchestrator/study/read_study.cpp", "give /accuracy/draws and /accuracy/draws_of"),
+    ("services/orchestrator/study/sampled_variants.cpp", "an uncertainty study draws lattices itself"),
+]
+
+
+def tracked(*patterns):
+    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *patterns], capture_output=True, text=True)
+    if listed.returncode == 0:
+        return [name for name in listed.stdout.split("\0") if name and (root / name).is_file()]
+    return [str(f.relative_to(root)) for pattern in patterns for f in root.rglob(pattern) if f.is_file()]
+
+
+def is_generated(text):
+    return re.search(r"^(Generated|Written) by `", text, re.M) is not None
+
+
+def number_of_words(text):
+    return sum(any(each.isalnum() for each in word) for word in text.split())
+
+
+def prose(text):
+    """Paragraphs and items of lists: without code, tables, headings and the targets of links."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    paragraphs, now = [], []
+    for line in [*text.splitlines(), ""]:
+        starts = re.match(r"\s*(?:[-*]|\d+\.) ", line)
+        ends = not line.strip() or line.startswith(("#", "|", "    ", "![", "<"))
+        if (starts or ends) and now:
+            paragraphs.append(" ".join(now))
+            now = []
+        if not ends or (starts and line.strip()):
+            now.append(re.sub(r"^\s*(?:[-*]|\d+\.) ", "", line).strip())
+    plain = [re.sub(r"`[^`]*`", "CODE", re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", each)).replace("*", "") for each in paragraphs]
+    return [each for each in plain if each]
+
+
+def sentences(text):
+    for paragraph in prose(text):
+        for each in re.split(r"(?<=[.!?:])\s+(?=[A-Z\"(0-9])", paragraph):
+            if number_of_words(each) > 2:
+                yield each
+
+
+def without_code(text):
+    blocks = re.sub(r"^    .*$", "", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), flags=re.M)
+    return re.sub(r"`[^`\n]*`|\"[^\"\n]*\"|\]\([^)]*\)", "", blocks)
+
+
+def faults_of_words(place, text, rules):
+    for pattern, better in rules.items():
+        for found in re.finditer(rf"\b(?:{pattern})\b", text, re.I):
+            around = re.sub(r"\s+", " ", text[max(0, found.start() - 30):found.end() + 30]).strip()
+            yield f"{place}: \"{found[0]}\" ({better}): ... {around} ..."
+
+
+def is_plain(name):
+    return any(name == each or name.startswith(each + "/") for each in PLAIN)
+
+
+def faults_of_pages():
+    total = 0
+    for name in tracked("*.md"):
+        if name.startswith(NOT_FOR_READERS):
+            continue
+        text = (root / name).read_text()
+        if is_generated(text):
+            continue
+        words = number_of_words(text)
+        total += words
+        if words > MOST_WORDS_OF.get(name, words):
+            yield f"{name}: {words} words, at most {MOST_WORDS_OF[name]}"
+        if name in ROOMS and words > MOST_WORDS_OF_A_ROOM:
+            yield f"{name}: {words} words, at most {MOST_WORDS_OF_A_ROOM}: users' pages are in docs"
+        if not is_plain(name):
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
+            if len(line) > LONGEST_LINE and not line.startswith("|"):
+                yield f"{name}:{number}: a line of {len(line)} characters, at most {LONGEST_LINE}"
+        lengths = [(number_of_words(each), each) for each in sentences(text)]
+        for length, each in lengths:
+            if length > LONGEST_SENTENCE:
+                yield f"{name}: a sentence of {length} words, at most {LONGEST_SENTENCE}: {each[:80]} ..."
+        if lengths and statistics.median(length for length, _ in lengths) > MEDIAN_SENTENCE:
+            yield f"{name}: sentences of {statistics.median(length for length, _ in lengths)} words (median), at most {MEDIAN_SENTENCE}"
+        yield from faults_of_words(name, without_code(text), BANNED | TWINS)
+    if total > MOST_WORDS:
+        yield f"{total} words in all pages, at most {MOST_WORDS}: shorten a page, or generate it"
+    glossary = (root / "docs/reference/glossary").with_suffix(".md")
+    if glossary.exists():
+        text = glossary.read_text()
+        terms = max(len(re.findall(r"^\| (?!---)", text, re.M)) - len(re.findall(r"^\| ?---", text, re.M)), len(re.findall(r"^(?:- )?\*\*", text, re.M)))
+        if terms > MOST_TERMS:
+            yield f"{glossary.relative_to(root)}: {terms} terms, at most {MOST_TERMS}"
+
+
+def descriptions(document, path=""):
+    if isinstance(document, dict):
+        for name, each in document.items():
+            if name in ("description", "summary", "title") and isinstance(each, str):
+                yield path, each
+            else:
+                yield from descriptions(each, f"{path}/{name}")
+    elif isinstance(document, list):
+        for number, each in enumerate(document):
+            yield from descriptions(each, f"{path}/{number}")
+
+
+def faults_of_descriptions():
+    for name in DESCRIPTIONS:
+        for path, text in descriptions(json.loads((root / name).read_text())):
+            yield from faults_of_words(f"{name}: {path}", without_code(text), BANNED | TWINS)
+
+
+def literals(text):
+    """(line, literal) of what a program says: adjacent ones joined, one word alone is a name."""
+    code = re.sub(r"(?m)^\s*(//.*|#include.*)$|(?<=[;{},)])\s*//.*$", "", text)
+    for found in re.finditer(r'"(?:[^"\\\n]|\\.)*"(?:\s*"(?:[^"\\\n]|\\.)*")*', code):
+        literal = "".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', found[0]))
+        if " " in literal.strip():
+            yield re.sub(r'\\"[^"]*?\\"', "", literal.replace("\\n", " "))
+
+
+def faults_of_messages():
+    for name in tracked("*.cpp", "*.hpp"):
+        if name.split("/", 1)[0] not in MESSAGES:
+            continue
+        for literal in literals((root / name).read_text()):
+            if not literal.startswith((".", "<")) and ".verdict{" not in literal and not any(name == file and part in literal for file, part in EXCEPTIONS):
+                yield from faults_of_words(name, literal, BANNED | TWINS)
+
+
+def main():
+    if "--count" in sys.argv:
+        for name in tracked("*.md"):
+            if not name.startswith(NOT_FOR_READERS):
+                text = (root / name).read_text()
+                print(f"{number_of_words(text):6} {'generated ' if is_generated(text) else ''}{name}")
+        return 0
+    faults = [*faults_of_pages(), *faults_of_descriptions(), *faults_of_messages()]
+    print("\n".join(faults) or "plain")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
