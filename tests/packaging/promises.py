@@ -93,14 +93,14 @@ def commands():
 
 
 def database(file):
-    """The columns that docs/reference/files.md names."""
+    """The columns that docs/reference/files.md names; of sweep_means, which has too many to name, all."""
     rows = (root / "docs/reference/files.md").read_text().partition("| table or view |")[2].partition("\n\n")[0].splitlines()[2:]
     found = {}
     with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as connection:
         for row in rows:
             for table in re.findall(r"`(\w+)`", row.split("|")[1]):
                 columns = [each[1] for each in connection.execute(f"PRAGMA table_info({table})")]
-                found[table] = [each for each in columns if f"`{each}`" in row]
+                found[table] = [each for each in columns if f"`{each}`" in row or table == "sweep_means"]
     return found
 
 
@@ -193,9 +193,12 @@ def merged(old, new):
 
 def as_text(promises, depth=0):
     """JSON with a line for each thing that is promised."""
-    if depth == 4 or not isinstance(promises, dict) or isinstance(promises.get("optional"), bool):
+    if isinstance(promises, list):
+        return json.dumps(sorted(promises))
+    if not isinstance(promises, dict) or isinstance(promises.get("optional"), bool):
         return json.dumps(promises)
-    return "{\n" + ",\n".join(f"{' ' * (depth + 1)}{json.dumps(name)}: {as_text(each, depth + 1)}" for name, each in promises.items()) + "\n" + " " * depth + "}"
+    indent = " " * depth
+    return "{\n" + ",\n".join(f"{indent} {json.dumps(name)}: {as_text(each, depth + 1)}" for name, each in sorted(promises.items())) + f"\n{indent}}}"
 
 
 def main():
