@@ -166,6 +166,11 @@ def looser(old, new):
     return new["optional"] and not old["optional"] or not set(new.get("types", ())) <= set(old.get("types", new.get("types", ())))
 
 
+def is_asked_for(name, entry, old):
+    """Whether a new entry must be given where it could not be given before; another alternative of an entry need not."""
+    return entry.get("optional") is False and not name.endswith("]") and (name.startswith("?") or name.rpartition("/")[0] in old)
+
+
 def broken(old, new, where=()):
     """What of `old` is no longer so."""
     if isinstance(old, list):
@@ -180,6 +185,9 @@ def broken(old, new, where=()):
                 yield from broken(each, new[name], (*where, name))
             else:
                 yield " ".join((*where, name)) + " is gone"
+        for name, each in new.items():
+            if name not in old and "answers" not in where and isinstance(each, dict) and is_asked_for(name, each, old):
+                yield " ".join((*where, name)) + " is new and required"
 
 
 def merged(old, new):
