@@ -35,7 +35,6 @@ int guarded(const std::function<int()>& work) {
 
 int main(int argc, char** argv) {
     CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
-    app.set_help_all_flag("--help-all", "Print the help of all subcommands and exit");
     app.set_version_flag("--version", std::string("breachline ") + breach::version());
     app.require_subcommand(1);
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);

@@ -133,8 +133,9 @@ class DebianPackage(unittest.TestCase):
             self.assertIn(f"{program} {self.version}", page.splitlines()[1])
             for section in (".SH NAME", ".SH SYNOPSIS", ".SH OPTIONS", "--version"):
                 self.assertIn(section, page, program)
-            for option in {"breachline": ("--keep-days",), "mpm_solver": ("--until-rest",), "breach": ("submit", "--server")}.get(program, ()):
-                self.assertIn(option, page)
+            self.assertNotIn(str(build), page, "a default of this machine")
+            for word in {"mpm_solver": ("--until-rest",), "breach": ("submit", "--server"), "breachline": ("serve",)}.get(program, ()):
+                self.assertIn(word, page)
 
     def test_each_program_says_the_version_and_the_commit(self):
         said = {each: call(self.bin / each, "--version").stdout.splitlines()[0].split()[-1] for each in programs}

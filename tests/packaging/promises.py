@@ -93,15 +93,14 @@ def commands():
 
 
 def database(file):
-    """The columns of the tables and views that the page on the database names."""
-    page = next(text for each in sorted(root.glob("*/**/*.md")) if "| table or view |" in (text := each.read_text()))
-    rows = page.partition("| table or view |")[2].partition("\n\n")[0].splitlines()[2:]
+    """The columns that docs/reference/files.md names; of sweep_means, which has too many to name, all."""
+    rows = (root / "docs/reference/files.md").read_text().partition("| table or view |")[2].partition("\n\n")[0].splitlines()[2:]
     found = {}
     with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as connection:
         for row in rows:
             for table in re.findall(r"`(\w+)`", row.split("|")[1]):
                 columns = [each[1] for each in connection.execute(f"PRAGMA table_info({table})")]
-                found[table] = [each for each in columns if f"`{each}`" in row]
+                found[table] = [each for each in columns if f"`{each}`" in row or table == "sweep_means"]
     return found
 
 
@@ -167,6 +166,11 @@ def looser(old, new):
     return new["optional"] and not old["optional"] or not set(new.get("types", ())) <= set(old.get("types", new.get("types", ())))
 
 
+def is_asked_for(name, entry, old):
+    """Whether a new entry must be given where it could not be given before; another alternative of an entry need not."""
+    return entry.get("optional") is False and not name.endswith("]") and (name.startswith("?") or name.rpartition("/")[0] in old)
+
+
 def broken(old, new, where=()):
     """What of `old` is no longer so."""
     if isinstance(old, list):
@@ -181,6 +185,9 @@ def broken(old, new, where=()):
                 yield from broken(each, new[name], (*where, name))
             else:
                 yield " ".join((*where, name)) + " is gone"
+        for name, each in new.items():
+            if name not in old and "answers" not in where and isinstance(each, dict) and is_asked_for(name, each, old):
+                yield " ".join((*where, name)) + " is new and required"
 
 
 def merged(old, new):
@@ -194,9 +201,12 @@ def merged(old, new):
 
 def as_text(promises, depth=0):
     """JSON with a line for each thing that is promised."""
-    if depth == 4 or not isinstance(promises, dict) or isinstance(promises.get("optional"), bool):
+    if isinstance(promises, list):
+        return json.dumps(sorted(promises))
+    if not isinstance(promises, dict) or isinstance(promises.get("optional"), bool):
         return json.dumps(promises)
-    return "{\n" + ",\n".join(f"{' ' * (depth + 1)}{json.dumps(name)}: {as_text(each, depth + 1)}" for name, each in promises.items()) + "\n" + " " * depth + "}"
+    indent = " " * depth
+    return "{\n" + ",\n".join(f"{indent} {json.dumps(name)}: {as_text(each, depth + 1)}" for name, each in sorted(promises.items())) + f"\n{indent}}}"
 
 
 def main():
