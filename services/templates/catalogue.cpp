@@ -254,6 +254,8 @@ const char* topic_of(const std::string& name) {
                                                            {"residual_ratio", "soils"},
                                                            {"peak_ratio", "soils"},
                                                            {"clay_strength", "soils"},
+                                                           {"slimes_ratio", "soils"},
+                                                           {"piezometer_depth", "water"},
                                                            {"freeboard", "water"},
                                                            {"beach_length", "water"},
                                                            {"beach_slope", "water"},
