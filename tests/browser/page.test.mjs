@@ -961,7 +961,7 @@ test("words of the page lead to their line in the glossary", async () => {
     await open_run(api.add_run({ ...two_variants, name: "worded" }, { began: Date.now() - 20000, pace: 1, flagged: some_flagged, entangles: 2.1 }).id);
     await until("a flag that is a link", async () => (await page.locator("#reasons a.term").count()) > 0);
     const links = await page.locator("a.term").evaluateAll((all) => all.map((link) => [link.textContent, link.hash, link.title]));
-    for (const word of ["t_T", "overlap", "numerical share", "draws", "entangled", "window", "rest"]) assert.ok(links.some(([text]) => text.includes(word)), `${word} in ${links}`);
+    for (const word of ["t_T", "overlap", "numerical share", "repeats", "entangled", "window", "rest"]) assert.ok(links.some(([text]) => text.includes(word)), `${word} in ${links}`);
     assert.deepEqual(links.filter(([, , title]) => title === ""), [], "each says its line");
     await page.click("#reasons a.term");
     await until("the glossary", () => page.isVisible("#glossary"));
