@@ -160,7 +160,7 @@ def compare(service, run, folder):
     link = '<a href="report_files/[^>]*>[^<]*</a>'
     hold("the report over REST is another", service.text(f"/v1/runs/{run}/report") == re.sub(f" {link}(, {link})*", "", page))
     if ran:
-        hold("the report is about another runout", f"Here: the largest runout of all ({'t_T = ' if farthest['transfer_time'] else ''}" in page)
+        hold("the report is about another runout", f"Governing case: the largest runout of all ({'t_T = ' if farthest['transfer_time'] else ''}" in page)
     heading = plain(re.search(r'<section id="verdict".*?</section>', page, re.S).group(0))
     hold(f"the report's verdict is not \"{verdict['words']}\": {heading[:90]}", f"checks: {verdict['words']}" in heading)
     for reason in verdict["reasons"]:

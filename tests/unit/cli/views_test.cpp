@@ -115,7 +115,7 @@ TEST(MeanTable, TellsScatterAndWhatIsMissing) {
          "runout_largest_deviation": 1, "runout_error": 1.116, "missing_draws": "d2: failed", "questionable_draws": "d3"}]})");
     const std::string text = as_mean_table(answer);
     EXPECT_TRUE(text.starts_with("t_T [s]  state    repeats  mean runout [m]    +-")) << text;
-    EXPECT_NE(text.find("0.5      partial  2 of 3             12.5  0.25"), std::string::npos)
+    EXPECT_NE(text.find("0.5      partial  2 of 3              12.5  0.25"), std::string::npos)
         << text;
     EXPECT_NE(text.find("1.116  missing repeats: d2: failed; questionable repeats: d3\n"),
               std::string::npos)
