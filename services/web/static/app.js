@@ -236,7 +236,9 @@ set_theme(themes.includes(stored) ? stored : "auto");
 function open_words() {
     const word = open_word();
     by_id("glossary").hidden = !word;
-    if (word) show_glossary(word[1]);
+    if (!word) return;
+    by_id("run").hidden = true;
+    show_glossary(word[1]);
 }
 
 function open_database() {
