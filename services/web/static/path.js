@@ -3,7 +3,7 @@ import { by_id, element, set_text } from "./dom.js";
 
 const steps = [
     { name: "section", title: "Section", help: "Take a template, an example or your own file; a file can be dropped anywhere here." },
-    { name: "soils", title: "Soils", help: "What each soil weighs and bears. Amber: outside the plausible range. A preset brings its published source along." },
+    { name: "soils", title: "Soils", help: "Density, strength and stiffness of each soil. Amber: outside the plausible range. A preset brings its published source along." },
     { name: "water", title: "Water and earthquake", help: "The phreatic line of each computation, and the motion of an earthquake." },
     { name: "question", title: "Question", help: "What is to be known. The settings of each computation stand below." },
     { name: "check", title: "Check", help: "Name the run, look at the drawing and the warnings, submit." },

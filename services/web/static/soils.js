@@ -1,4 +1,4 @@
-// The soils of a scene as a table: what each weighs and bears, with units and plausible ranges, and presets with their source.
+// The soils of a scene as a table: density, strength and stiffness of each, with units and plausible ranges, and presets with their source.
 import { read_example } from "./api.js";
 import { element, mirror, set_text } from "./dom.js";
 import { Scalar } from "./form_fields.js";
