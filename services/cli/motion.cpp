@@ -70,8 +70,10 @@ std::vector<Measured> records_in(const MotionOptions& options, const Console& co
     return found;
 }
 
-/// The record's name as variants may be called, with its peak: "el_centro_30".
-std::string variant_named(const std::filesystem::path& file, std::optional<double> pga_g) {
+/// The record's name as variants may be called, with its peak: "el_centro_30"; numbered where another
+/// record has this name.
+std::string variant_named(const std::filesystem::path& file, std::optional<double> pga_g,
+                          const json& others) {
     std::string name;
     for (const char letter : file.stem().string()) {
         const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
@@ -79,7 +81,12 @@ std::string variant_named(const std::filesystem::path& file, std::optional<doubl
     }
     name.erase(0, name.find_first_not_of('_'));
     const std::string peak = pga_g ? "_" + std::to_string(std::lround(100.0 * *pga_g)) : "";
-    return shortened(name, 32 - peak.size()) + peak;
+    for (int number = 1;; ++number) {
+        const std::string end = (number > 1 ? "_" + std::to_string(number) : "") + peak;
+        const std::string whole = shortened(name, 32 - end.size()) + end;
+        const auto has_it = [&](const json& other) { return other.at("name") == whole; };
+        if (std::ranges::none_of(others, has_it)) return whole;
+    }
 }
 
 /// A study that shakes the scene by each record, at each peak, and transfers in the middle of its window.
@@ -89,7 +96,8 @@ json study_of(const std::vector<Measured>& records, const MotionOptions& options
         const auto file = std::filesystem::absolute(each.file).lexically_normal().string();
         json overrides{"/fem/motion/file=" + file};
         if (pga_g) overrides.push_back("/fem/motion/scale_to_pga_g=" + cell(json(*pga_g)));
-        variants.push_back({{"name", variant_named(each.file, pga_g)}, {"overrides", overrides}});
+        variants.push_back(
+            {{"name", variant_named(each.file, pga_g, variants)}, {"overrides", overrides}});
     };
     for (const Measured& each : records) {
         if (options.pga_g.empty()) add(each, std::nullopt);

@@ -1,6 +1,7 @@
 """A study of several motions, by real programs on coarse elements: what the service finds is what its FEMs say, and the command
 line, the export, the report and Python show it."""
 import json
+import shutil
 import pathlib
 import subprocess
 import sys
@@ -30,7 +31,21 @@ def study(folder):
     return file
 
 
+def long_names(folder):
+    """Records whose names agree as far as a variant's name goes are told apart."""
+    records = folder / "records"
+    records.mkdir()
+    record = next((root / "workflows/motions").glob("*.csv"))
+    for end in ("east", "north", "up"):
+        shutil.copy(record, records / f"a_station_with_a_very_long_name_of_1978_{end}.csv")
+    done = subprocess.run([programs / "breach", "motion", records, "--scene", root / "workflows/scenes/mochikoshi.json", "--pga-g", "0.1,0.3"],
+                          capture_output=True, text=True)
+    names = [each["name"] for each in json.loads(done.stdout)["variants"]]
+    check("six names, each once and at most 32 letters long", len(set(names)) == 6 and max(map(len, names)) <= 32, names)
+
+
 def main(folder):
+    long_names(folder)
     service = Service(folder / "data", "--slots", "2")
     try:
         run = service.submit(study(folder))
