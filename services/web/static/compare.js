@@ -46,8 +46,9 @@ class Side {
     async seek(time) {
         const at = this.source.at_time(time);
         if (at < 0) return;
-        const snapshot = await this.source.fetch(this.source.frames[at].name);
-        if (!snapshot) return;
+        const frame = this.wanted_frame = this.source.frames[at];
+        const snapshot = await this.source.fetch(frame.name);
+        if (!snapshot || this.wanted_frame !== frame) return; // a later one may have come first
         this.snapshot = snapshot;
         this.is_last = at === this.source.frames.length - 1;
     }
