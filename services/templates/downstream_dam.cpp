@@ -13,7 +13,7 @@ struct Stage {
     double upstream_edge, downstream_edge, toe;  ///< x
 };
 
-void check(const Values& values, double at_end) {
+void check(const Values& values, double at_end, double heel_level, double starter) {
     Refusal refusal(values);
     if (values.whole("raises") > 0)
         refusal.unless(values["starter_height"] <= 0.95 * values["height"], "starter_height",
@@ -26,13 +26,7 @@ void check(const Values& values, double at_end) {
     refusal.unless(at_end >= 0.3 * values["height"], valley ? "valley_slope" : "beach_slope",
                    "tailings at the model's end would be " + metres(at_end) + " thick",
                    "make it flatter, lower freeboard, or shorten beach_length or pond_length");
-    refusal.speak();
-}
-
-void check_ground(const Values& values, double starter, double heel_level) {
-    Refusal refusal(values);
-    refusal.unless(heel_level < 0.5 * starter, "valley_slope",
-                   "the ground rises to the upper half of the starter dam", "make it flatter");
+    check_heel(refusal, heel_level, starter);
     refusal.speak();
 }
 
@@ -60,8 +54,7 @@ Outline downstream_dam(const Values& values) {
     const auto surface = [&](double x) { return contact.y() - fall * (contact.x() - x); };
     const double edge = contact.x() - values["beach_length"];
     const double left = std::min(edge - values["pond_length"], heel - 0.1 * H);
-    check(values, surface(left) - terrain.at(left));
-    check_ground(values, stages.front().height, terrain.at(heel));
+    check(values, surface(left) - terrain.at(left), terrain.at(heel), starter);
 
     Outline outline;
     outline.parts.push_back({"starter_dam",
@@ -97,11 +90,7 @@ Outline downstream_dam(const Values& values) {
     outline.left = left;
     const double axis = last.upstream_edge + 0.5 * width;
     part_slimes(values, contact, heel, outline);
-    const double exit = values.is_on("drain") ? axis : 0.0;
-    Seepage flow{{edge, surface(edge)}, {exit, terrain.at(exit)}};
-    flow.measured = measured_level(values, {last.upstream_edge, H}, flow.from, flow.exit);
-    outline.phreatic =
-        phreatic_line(flow, left, values["foundation_extent"], outline.ground, terrain);
+    add_water(values, {edge, surface(edge)}, values.is_on("drain") ? axis : 0.0, outline);
     return outline;
 }
 

@@ -33,8 +33,7 @@ Outline heap(const Values& values) {
     ring.push_back({left, 0.0});
     outline.parts = {{"heap", "soil", ring}};
     outline.wet = "heap";
-    outline.phreatic = phreatic_line({{left, water}, {0.0, 0.0}}, left, values["foundation_extent"],
-                                     outline.ground, Terrain(values));
+    add_water(values, {left, water}, 0.0, outline);
     return outline;
 }
 

@@ -2,10 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/geometry/polyline.hpp"
 
 namespace breach::templates {
+
+namespace {
+
+struct Seepage {
+    Vec2 from, exit;
+    std::optional<Vec2> measured;
+};
 
 Line phreatic_line(const Seepage& flow, double left, double right, const Line& ground,
                    const Terrain& terrain) {
@@ -42,9 +50,11 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     return line;
 }
 
+/// The level in the piezometer below the crest, where the template asks for one; refused above the
+/// water at `from` or below that at `exit`.
 std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, const Vec2& from,
                                    const Vec2& exit) {
-    const double depth = values["piezometer_depth"];
+    const double depth = values.or_none("piezometer_depth");
     if (depth == 0.0) return std::nullopt;
     const Vec2 level{crest.x(), crest.y() - depth};
     Refusal refusal(values);
@@ -58,6 +68,22 @@ std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, cons
                        metres(crest.y() - exit.y()));
     refusal.speak();
     return level;
+}
+
+}  // namespace
+
+void add_water(const Values& values, const Vec2& from, double exit, Outline& outline) {
+    const Terrain terrain(values);
+    const Vec2 end{exit, terrain.at(exit)};
+    const Vec2 crest{outline.crest_from, outline.crest.y()};
+    outline.phreatic =
+        phreatic_line({from, end, measured_level(values, crest, from, end)}, outline.left,
+                      values["foundation_extent"], outline.ground, terrain);
+}
+
+void check_heel(Refusal& refusal, double heel_level, double starter) {
+    refusal.unless(heel_level < 0.5 * starter, "valley_slope",
+                   "the ground rises to the upper half of the starter dam", "make it flatter");
 }
 
 void part_slimes(const Values& values, const Vec2& contact, double heel, Outline& outline) {

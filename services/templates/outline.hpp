@@ -2,7 +2,6 @@
 // the toe lies at (0, 0) on the foundation's surface.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,22 +39,13 @@ struct Terrain {
     double rise, fall;  ///< metres per metre
 };
 
-/// Steady flow through a dam: Dupuit's parabola (h^2 linear in x), or straight through the level
-/// that was measured.
-struct Seepage {
-    Vec2 from, exit;
-    std::optional<Vec2> measured = std::nullopt;
-};
+/// Gives a whole outline its phreatic line: level from the left end to `from`, then Dupuit's parabola
+/// (h^2 linear in x), or straight through the piezometer's level where one is given, to the
+/// foundation's surface at x = `exit`; nowhere above the ground, beyond its exit on the foundation.
+void add_water(const Values& values, const Vec2& from, double exit, Outline& outline);
 
-/// The phreatic line: level from `left` on, then the flow's, nowhere above the ground, beyond its
-/// exit on the foundation's surface.
-Line phreatic_line(const Seepage& flow, double left, double right, const Line& ground,
-                   const Terrain& terrain);
-
-/// The level in the piezometer below the crest, where the template asks for one; refused above the
-/// water at `from` or below that at `exit`.
-std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, const Vec2& from,
-                                   const Vec2& exit);
+/// Refused where the ground rises into the upper half of the starter dam.
+void check_heel(Refusal& refusal, double heel_level, double starter);
 
 /// Divides the tailings into beach and slimes, where slimes are asked for.
 void part_slimes(const Values& values, const Vec2& contact, double heel, Outline& outline);

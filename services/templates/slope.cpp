@@ -18,8 +18,7 @@ Outline slope(const Values& values) {
     outline.crest = {crest, H};
     outline.crest_from = left + 0.02 * (crest - left);
     outline.left = left;
-    outline.phreatic = phreatic_line({{left, H - depth}, {0.0, 0.0}}, left,
-                                     values["foundation_extent"], outline.ground, Terrain(values));
+    add_water(values, {left, H - depth}, 0.0, outline);
     return outline;
 }
 

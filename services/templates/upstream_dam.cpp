@@ -81,8 +81,7 @@ void check_beach(const Values& values, const Dyke& last, double at_heel, double 
 void check_ground(const Values& values, const std::vector<Dyke>& dykes) {
     Refusal refusal(values);
     const Terrain terrain(values);
-    refusal.unless(dykes[0].heel_level < 0.5 * dykes[0].top, "valley_slope",
-                   "the ground rises to the upper half of the starter dam", "make it flatter");
+    check_heel(refusal, dykes[0].heel_level, dykes[0].top);
     for (std::size_t k = 1; k < dykes.size(); ++k)
         refusal.unless(terrain.at(dykes[k].heel) < dykes[k].base - values["cell_size"],
                        "valley_slope",
@@ -149,10 +148,7 @@ Outline upstream_dam(const Values& values) {
     outline.crest_from = last.upstream_edge;
     outline.left = left;
     part_slimes(values, contact, std::ranges::min(dykes, {}, &Dyke::heel).heel, outline);
-    Seepage flow{{edge, surface(edge)}, {exit, terrain.at(exit)}};
-    flow.measured = measured_level(values, {last.upstream_edge, last.top}, flow.from, flow.exit);
-    outline.phreatic =
-        phreatic_line(flow, left, values["foundation_extent"], outline.ground, terrain);
+    add_water(values, {edge, surface(edge)}, exit, outline);
     return outline;
 }
 
