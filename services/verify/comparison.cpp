@@ -208,12 +208,10 @@ std::vector<Outcome> compare(const std::vector<Topic>& catalogue, const Settings
 
 std::string versions_of(const Settings& settings) {
     std::string versions;
-    const fs::path folder = settings.output / "versions";
     for (const phases::Phase& each : phases::all) {
-        fs::remove_all(folder);
-        fs::create_directories(folder);
         const command::Result told =
-            run_program({(settings.programs / each.program).string(), "--version"}, folder);
+            command::run({(settings.programs / each.program).string(), "--version"}, "",
+                         command::longest_answer);
         if (told.exit_code != 0)
             throw fault::IoError((settings.programs / each.program).string() + ": cannot be run");
         std::istringstream said(told.out);
@@ -222,7 +220,6 @@ std::string versions_of(const Settings& settings) {
         std::getline(said, numerics);
         versions += (versions.empty() ? "" : ", ") + version + " (" + numerics + ")";
     }
-    fs::remove_all(folder);
     return versions;
 }
 

@@ -2,15 +2,14 @@
 
     words_test.py              every rule; exit 1 where one is broken
     words_test.py --count      words per page"""
+import fnmatch
 import json
-import os
-import pathlib
 import re
 import statistics
-import subprocess
 import sys
 
-root = pathlib.Path(os.environ.get("BREACH_ROOT", pathlib.Path(__file__).resolve().parents[2]))
+import documents
+from documents import root
 
 MOST_WORDS = 45000  # of all pages together
 MOST_WORDS_OF = {"README.md": 900, "CONTRIBUTING.md": 900, "CHANGELOG.md": 600}
@@ -62,10 +61,8 @@ EXCEPTIONS = [
 
 
 def tracked(*patterns):
-    listed = subprocess.run(["git", "-C", str(root), "ls-files", "-z", *patterns], capture_output=True, text=True)
-    if listed.returncode == 0:
-        return [name for name in listed.stdout.split("\0") if name and (root / name).is_file()]
-    return [str(f.relative_to(root)) for pattern in patterns for f in root.rglob(pattern) if f.is_file()]
+    return [str(file.relative_to(root)) for file in documents.tracked()
+            if file.is_file() and any(fnmatch.fnmatch(file.name, pattern) for pattern in patterns)]
 
 
 def is_generated(text):
