@@ -56,7 +56,7 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& fi
                "give the acceleration, or take it as recorded");
 }
 
-/// One value throughout is no record, whatever its unit. Zeros are a motion: core/motion remarks it.
+/// One value throughout is no record, whatever its unit. Zeros are a motion: core/motion warns of it.
 bool moves(const motion::Series& series, Findings& findings) {
     const auto [low, high] = std::ranges::minmax(series.values);
     if (low != high || low == 0.0) return true;
@@ -103,7 +103,7 @@ void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Fi
     if (!fem.damping_frequency) return;
     const motion::Band band = motion::band(acceleration);
     const double low = 0.5 * band.low, high = 2.0 * band.high;
-    if (!(high > 0.0)) return;  // no motion at all: core/motion remarks it
+    if (!(high > 0.0)) return;  // no motion at all: core/motion warns of it
     if (*fem.damping_frequency >= low && *fem.damping_frequency <= high) return;
     refuse(findings, "/fem/damping/frequency_Hz",
            "is " + text(*fem.damping_frequency) + " Hz, and the motion has its power from " +

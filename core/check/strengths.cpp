@@ -319,8 +319,8 @@ void warn_about_residuals(const Region& region, const std::string& name,
 }
 
 /// A cohesion that would be a friction angle, and the other way round.
-void doubt_swapped(const scene::Material& soil, Findings& findings) {
-    const auto doubt = [&](double c_Pa, double phi_rad, const char* entry) {
+void warn_about_swapped(const scene::Material& soil, Findings& findings) {
+    const auto look = [&](double c_Pa, double phi_rad, const char* entry) {
         const double c = c_Pa / 1e3, phi = phi_rad * 180.0 / std::numbers::pi;
         if (c < 20.0 || c > 45.0 || phi < 1.0 || phi > 12.0) return;
         const std::string angle = words::text_of(phi, 3), cohesion = words::text_of(c, 3);
@@ -329,8 +329,8 @@ void doubt_swapped(const scene::Material& soil, Findings& findings) {
                  " look swapped: write \"c_kPa\": " + angle + ", \"phi_deg\": " + cohesion);
     };
     if (const auto own = materials::limit_strength(soil.law))
-        doubt(own->c, std::atan(own->tan_phi), "/law/phi_deg");
-    if (const auto& own = soil.limit_strength) doubt(own->c, own->phi, "/limit_strength/phi_deg");
+        look(own->c, std::atan(own->tan_phi), "/law/phi_deg");
+    if (const auto& own = soil.limit_strength) look(own->c, own->phi, "/limit_strength/phi_deg");
 }
 
 bool is_whole(const scene::Scene& scene) {
@@ -387,7 +387,7 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
     }
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         const scene::Material& soil = scene.materials[m];
-        if (!places_of[m].empty()) doubt_swapped(soil, findings);
+        if (!places_of[m].empty()) warn_about_swapped(soil, findings);
         if (!soil.strength || !soil.strength->residual || places_of[m].empty()) continue;
         const double largest =
             std::ranges::max_element(places_of[m], {}, &Place::sigma_v0)->sigma_v0;

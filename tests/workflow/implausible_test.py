@@ -1,5 +1,5 @@
 """What is possible and hardly meant is said everywhere: in the plan, in the log, in result.json. What is impossible ends
-with exit code 65, and both name the slip of the unit. A motion's own numbers are told."""
+with exit code 65, and both name the slip of the unit. The warning about a motion states the motion's own numbers."""
 import math
 import pathlib
 import tempfile

@@ -32,7 +32,7 @@ def study(folder):
 
 
 def long_names(folder):
-    """Records whose names agree as far as a variant's name goes are told apart."""
+    """Each variant has a name of its own where records share a long one."""
     records = folder / "records"
     records.mkdir()
     record = next((root / "workflows/motions").glob("*.csv"))

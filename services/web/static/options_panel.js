@@ -34,8 +34,8 @@ class Options {
 }
 
 export class OptionsPanel {
-    /// pane: where the made text goes; refuse(fault): what is not about an option; closed(): no options are shown any more; shaped(study): the
-    /// made study with what is asked of it.
+    /// pane: where the made text goes; refuse(fault): what is not about an option; closed(): no options are shown any more;
+    /// shaped(study): the made study without the parts that the question does not need.
     constructor(pane, refuse, closed, shaped) {
         Object.assign(this, { pane, refuse, closed, shaped, opened: 0, source: null });
     }
