@@ -291,8 +291,10 @@ def spans(condition, scene, lines):
 
 
 def fired(trigger, scene):
-    """(transfer time or None, whether the condition was met) of a FEM. Snapshots are taken at every line."""
+    """(transfer time or None, whether the condition was met) of a FEM."""
     lines = [round(k * known.step, 6) for k in range(1, round(known.fem(scene)[2] / known.step) + 1)]
+    interval = trigger["snapshot_interval_s"]
+    snapshots = [time for time in lines if abs(time / interval - round(time / interval)) < 1e-6]
     hold = trigger.get("hold_s", 0) - 1e-9
 
     def lasting(condition):
@@ -302,19 +304,22 @@ def fired(trigger, scene):
     lower = next((begin for begin, _ in lasting(condition)), None)
     if lower is None:  # it may still have been true when the FEM ended
         return None, any(end == lines[-1] for _, end in spans(condition, scene, lines))
+
+    latest = 0.05 * known.end + 1e-9  # a snapshot so much later than the time wanted is no answer
+
     if trigger["kind"] == "criterion":
-        return next(t for t in lines if t >= lower + hold), True
+        wanted = next(t for t in lines if t >= lower + hold)
+        return next((t for t in snapshots if wanted <= t <= wanted + latest), None), True
     upper = next((begin for begin, end in lasting(trigger["upper"]) if end >= lower), None)
     if upper is not None and upper <= lower:
         return None, True  # no window
-    end = lines[-1] if upper is None else upper
+    between = [t for t in snapshots if lower <= t and (upper is None or t < upper)]
+    end = snapshots[-1] if upper is None and snapshots else upper  # the FEM's end closes a window without an upper edge
     pick = trigger.get("pick", "midpoint")
-    if pick == "first":
-        return lower, True
-    if pick == "midpoint":
-        return (
-            min((t for t in lines if lower <= t <= end), key=lambda t: (round(abs(t - (lower + end) / 2), 6), t)),
-            True,
-        )  # the earlier of two
-    before = [t for t in lines if lower <= t < end]  # the FEM's end closes a window without an upper edge
-    return (before[-1] if before else None), True
+    if not between:
+        return None, True
+    if pick == "last_before":
+        return next((t for t in reversed(between) if t < end), None), True
+    wanted = lower if pick == "first" else (lower + end) / 2
+    near = between[0] if pick == "first" else min(between, key=lambda t: (round(abs(t - wanted), 6), t))  # the earlier of two
+    return near if near <= wanted + latest else None, True

@@ -105,6 +105,8 @@ def triggered(draw):
         trigger |= {"lower": draw(condition), "upper": draw(condition)}
         pick = draw(st.sampled_from([None, "first", "midpoint", "last_before"]))
         trigger |= {"pick": pick} if pick else {}
+    if "transfer_times" not in study and draw(st.booleans()):
+        trigger["snapshot_interval_s"] = draw(st.sampled_from([0.3, 0.5]))
     if draw(st.booleans()):
         trigger["hold_s"] = draw(st.sampled_from([0.1, 0.2, 0.5]))
     return study | {"triggers": [trigger]}
