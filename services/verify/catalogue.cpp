@@ -47,6 +47,7 @@ class Entry {
             if (!known.contains(key)) blame(key, "is not known", "take it out");
     }
     const json& of() const { return of_; }
+    std::string at(const std::string& key) const { return pointer_ + "/" + key; }
 
   private:
     const json& of_;
@@ -84,29 +85,62 @@ Level level_from(Entry entry) {
             entry.of().value("set", std::vector<std::string>())};
 }
 
+using Commands = std::vector<std::vector<std::string>>;
+
+/// The case's own commands, else one run of its program, else the commands of the file; each with the case's `set`.
+Commands commands_of(const json& of, const json& file) {
+    Commands commands = of.value("commands", Commands());
+    if (commands.empty() && !of.contains("program")) commands = file.value("commands", Commands());
+    if (commands.empty())
+        commands = {{of.value("program", file.value("program", "")), "{input}", "--output",
+                     "{output}", "--progress", "none"}};
+    for (const std::string& each : of.value("set", std::vector<std::string>()))
+        for (std::vector<std::string>& command : commands)
+            command.insert(command.end(), {"--set", each});
+    return commands;
+}
+
+/// Its exit code stands as the case's quantity.
+Refusal refusal_from(Entry entry, std::vector<Quantity>& quantities) {
+    entry.only({"exit", "says"});
+    Refusal made{static_cast<int>(entry.number("exit", "give the exit code")), {}};
+    std::string what = "exit code; says";
+    for (const auto& [item, pointer] : entry.list("says")) {
+        made.says.push_back(item);
+        what += " \"" + made.says.back() + "\"";
+    }
+    quantities.push_back({.what = what,
+                          .place = {},
+                          .right = static_cast<double>(made.exit_code),
+                          .allowed = 0.5,
+                          .relative = false,
+                          .because = "the right answer is a refusal"});
+    return made;
+}
+
 Case case_from(Entry entry, const json& file, const fs::path& folder,
                std::vector<fault::Fault>& faults) {
-    entry.only({"id", "question", "source", "kind", "scene", "set", "commands", "levels", "slow",
-                "quantities"});
+    entry.only({"id", "question", "source", "kind", "scene", "set", "program", "commands", "levels",
+                "slow", "quantities", "refused"});
     const json& of = entry.of();
     Case made{.id = entry.text("id", "name it"),
               .question = entry.text("question", "say what is asked"),
               .source = entry.text("source", "say where the right value is from"),
               .kind = entry.text("kind", "closed form, published or program"),
               .scene = {},
-              .commands = of.value("commands", std::vector<std::vector<std::string>>()),
+              .commands = commands_of(of, file),
               .levels = {},
               .slow = of.value("slow", false),
               .quantities = {}};
     if (of.contains("scene")) made.scene = folder / of.at("scene").get<std::string>();
     if (!made.scene.empty() && !fs::exists(made.scene))
         entry.blame("scene", "is no file: " + made.scene.string(), "put it beside the catalogue");
-    if (made.commands.empty()) {
-        std::vector<std::string> command{
-            file.value("program", ""), "{input}", "--output", "{output}", "--progress", "none"};
-        for (const std::string& each : of.value("set", std::vector<std::string>()))
-            command.insert(command.end(), {"--set", each});
-        made.commands.push_back(std::move(command));
+    if (of.contains("refused")) {
+        made.refusal =
+            refusal_from({of.at("refused"), entry.at("refused"), faults}, made.quantities);
+        if (of.contains("quantities") || of.contains("levels"))
+            entry.blame("refused", "stands beside quantities or levels", "give one of them");
+        return made;
     }
     for (const auto& [item, pointer] : entry.list("quantities")) {
         made.quantities.push_back(quantity_from({item, pointer, faults}));
@@ -130,10 +164,9 @@ Topic topic_in(const fs::path& path) {
         throw fault::BadInput(path.string(), {{"", "is not a JSON object", "write one"}});
     std::vector<fault::Fault> faults;
     Entry entry(file, "", faults);
-    entry.only({"title", "phase", "text", "program", "cases"});
+    entry.only({"title", "text", "program", "commands", "cases"});
     Topic made{.id = path.stem().string(),
                .title = entry.text("title", "name it"),
-               .phase = entry.text("phase", "LEM, FEM, transfer, MPM or chain"),
                .text = file.value("text", ""),
                .cases = {}};
     try {

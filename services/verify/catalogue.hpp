@@ -35,6 +35,12 @@ struct Level {
     std::vector<std::string> set;
 };
 
+/// The right answer of a case that must be refused or stopped.
+struct Refusal {
+    int exit_code;
+    std::vector<std::string> says;  ///< words of its message
+};
+
 struct Case {
     std::string id;
     std::string question;
@@ -45,12 +51,12 @@ struct Case {
     std::vector<Level> levels;  ///< from coarse to fine; empty: one run as the scene is
     bool slow = false;          ///< left out of --quick
     std::vector<Quantity> quantities;
+    std::optional<Refusal> refusal = {};  ///< its exit code is the one quantity
 };
 
 struct Topic {
     std::string id;  ///< name of its file
     std::string title;
-    std::string phase;
     std::string text;
     std::vector<Case> cases;
 };

@@ -137,9 +137,24 @@ Found order_in(const fs::path& folder, const Case& of, const Quantity& quantity)
     return {&quantity, (n * xy - x * y) / (n * xx - x * x), ""};
 }
 
-/// Why it broke, or nothing.
-std::string run_commands(const Case& of, const std::vector<std::string>& set,
-                         const fs::path& folder, const Settings& settings, double& cpu_seconds) {
+/// The exit code, as long as the message says what it must.
+Found refusal_in(const fs::path& folder, const Case& of, int exit_code) {
+    const Quantity* quantity = &of.quantities.front();
+    std::ifstream stream(folder / "log.txt");
+    const std::string log{std::istreambuf_iterator<char>(stream), {}};
+    for (const std::string& each : of.refusal->says)
+        if (log.find(each) == std::string::npos)
+            return {quantity, {}, "does not say \"" + each + "\""};
+    return {quantity, exit_code};
+}
+
+struct Ran {
+    std::string broke = {};            ///< why, or nothing
+    std::optional<int> exit_code = 0;  ///< of the command that ended it
+};
+
+Ran run_commands(const Case& of, const std::vector<std::string>& set, const fs::path& folder,
+                 const Settings& settings, double& cpu_seconds) {
     fs::create_directories(folder);
     for (std::vector<std::string> words : of.commands) {
         for (const std::string& each : set) words.insert(words.end(), {"--set", each});
@@ -150,27 +165,32 @@ std::string run_commands(const Case& of, const std::vector<std::string>& set,
         words.front() = (settings.programs / program).string();
         const command::Result ran = run_program(std::move(words), folder);
         cpu_seconds += ran.cpu_seconds;
-        if (!ran.exit_code) return program + " was stopped: " + (folder / "log.txt").string();
-        if (*ran.exit_code != 0)
-            return program + " ended with exit code " + std::to_string(*ran.exit_code) + ": " +
-                   (folder / "log.txt").string();
+        if (ran.exit_code == 0) continue;
+        const std::string how = ran.exit_code
+                                    ? " ended with exit code " + std::to_string(*ran.exit_code)
+                                    : " was stopped";
+        return {program + how + ": " + (folder / "log.txt").string(), ran.exit_code};
     }
-    return "";
+    return {};
 }
 
 Outcome outcome_of(const Case& of, const Settings& settings) {
     const fs::path folder = settings.output / "cases" / of.id;
     fs::remove_all(folder);
     Outcome outcome{&of};
-    std::string broke;
-    if (of.levels.empty()) broke = run_commands(of, {}, folder, settings, outcome.cpu_seconds);
-    for (std::size_t k = 0; k < of.levels.size() && broke.empty(); ++k)
-        broke = run_commands(of, of.levels[k].set, folder / std::to_string(k), settings,
-                             outcome.cpu_seconds);
+    Ran ran;
+    if (of.levels.empty()) ran = run_commands(of, {}, folder, settings, outcome.cpu_seconds);
+    for (std::size_t k = 0; k < of.levels.size() && ran.broke.empty(); ++k)
+        ran = run_commands(of, of.levels[k].set, folder / std::to_string(k), settings,
+                           outcome.cpu_seconds);
+    if (of.refusal && ran.exit_code) {
+        outcome.found.push_back(refusal_in(folder, of, *ran.exit_code));
+        return outcome;
+    }
     for (const Quantity& each : of.quantities)
-        outcome.found.push_back(!broke.empty() ? Found{&each, {}, broke}
-                                : each.limit   ? order_in(folder, of, each)
-                                               : found_in(folder, each));
+        outcome.found.push_back(!ran.broke.empty() ? Found{&each, {}, ran.broke}
+                                : each.limit       ? order_in(folder, of, each)
+                                                   : found_in(folder, each));
     return outcome;
 }
 

@@ -272,44 +272,54 @@ def differences(wanted, run, results, extended=False):
 # Triggers ------------------------------------------------------------------------------------------------------------------------
 
 
-def truth(condition, whole, time):
-    """Of "FIELD > NUMBER"."""
+def spans(condition, scene, lines):
+    """(first line, last line) of each time in which "FIELD > NUMBER" is true."""
+    whole = known.fem(scene)[0]
     field, limit = condition.split(" > ")
-    return {"time": time, "crest_displacement": known.crest(whole, time)}[field] > float(limit)
+    value = {
+        "time": lambda time: time,
+        "crest_displacement": lambda time: known.crest(whole, time),
+        "kinetic_energy": lambda time: known.energy(whole, time),
+    }[field]
+    found = []
+    for k, time in enumerate(lines):
+        if value(time) <= float(limit):
+            continue
+        begun = k and found and found[-1][1] == lines[k - 1]
+        found[-1:] = [(found[-1][0], time)] if begun else [*found[-1:], (time, time)]
+    return found
 
 
 def fired(trigger, scene):
-    """(transfer time or None, whether the condition was met) of a FEM. Fields here only grow, snapshots are taken at every line."""
-    whole, _, when = known.fem(scene)
-    lines = [round(k * known.step, 6) for k in range(1, round(when / known.step) + 1)]
-    hold = trigger.get("hold_s", 0)
+    """(transfer time or None, whether the condition was met) of a FEM."""
+    lines = [round(k * known.step, 6) for k in range(1, round(known.fem(scene)[2] / known.step) + 1)]
+    interval = trigger["snapshot_interval_s"]
+    snapshots = [time for time in lines if abs(time / interval - round(time / interval)) < 1e-6]
+    hold = trigger.get("hold_s", 0) - 1e-9
 
-    def became_true(condition):
-        return next((t for t in lines if truth(condition, whole, t)), None)
+    def lasting(condition):
+        return [(begin, end) for begin, end in spans(condition, scene, lines) if end - begin >= hold]
 
-    def held(since):
-        """The line on which it has been true for the hold."""
-        return None if since is None else next((t for t in lines if t >= since + hold - 1e-9), None)
+    condition = trigger["when"] if trigger["kind"] == "criterion" else trigger["lower"]
+    lower = next((begin for begin, _ in lasting(condition)), None)
+    if lower is None:  # it may still have been true when the FEM ended
+        return None, any(end == lines[-1] for _, end in spans(condition, scene, lines))
+
+    latest = 0.05 * known.end + 1e-9  # a snapshot so much later than the time wanted is no answer
 
     if trigger["kind"] == "criterion":
-        since = became_true(trigger["when"])
-        return held(since), since is not None
-    since = became_true(trigger["lower"])
-    lower, upper = since, became_true(trigger["upper"])
-    if held(lower) is None:
-        return None, since is not None
-    if held(upper) is None:
-        upper = None
+        wanted = next(t for t in lines if t >= lower + hold)
+        return next((t for t in snapshots if wanted <= t <= wanted + latest), None), True
+    upper = next((begin for begin, end in lasting(trigger["upper"]) if end >= lower), None)
     if upper is not None and upper <= lower:
         return None, True  # no window
-    end = lines[-1] if upper is None else upper
+    between = [t for t in snapshots if lower <= t and (upper is None or t < upper)]
+    end = snapshots[-1] if upper is None and snapshots else upper  # the FEM's end closes a window without an upper edge
     pick = trigger.get("pick", "midpoint")
-    if pick == "first":
-        return lower, True
-    if pick == "midpoint":
-        return (
-            min((t for t in lines if lower <= t <= end), key=lambda t: (round(abs(t - (lower + end) / 2), 6), t)),
-            True,
-        )  # the earlier of two
-    before = [t for t in lines if lower <= t < end]  # the FEM's end closes a window without an upper edge
-    return (before[-1] if before else None), True
+    if not between:
+        return None, True
+    if pick == "last_before":
+        return next((t for t in reversed(between) if t < end), None), True
+    wanted = lower if pick == "first" else (lower + end) / 2
+    near = between[0] if pick == "first" else min(between, key=lambda t: (round(abs(t - wanted), 6), t))  # the earlier of two
+    return near if near <= wanted + latest else None, True

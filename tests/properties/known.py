@@ -69,6 +69,11 @@ def crest(whole, time):
     return round((0.25 + whole / 22) * time, 6)
 
 
+def energy(whole, time):
+    """Its kinetic energy: another number in every three steps, so that conditions come, go and come again."""
+    return number(0, 2, "energy", whole, round(time / step) // 3)
+
+
 def transfer(scene):
     """A number that stands for what the transfer adds; None: it breaks down."""
     neighbours = at(scene, "/transfer/neighbours", 40)

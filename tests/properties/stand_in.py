@@ -51,7 +51,16 @@ def fem(scene, folder):
         for k in range(1, round(when / known.step) + 1):
             time = round(k * known.step, 6)
             lines.write(
-                json.dumps({"step": k, "time": time, "dt": known.step, "crest_displacement": known.crest(whole, time)}) + "\n"
+                json.dumps(
+                    {
+                        "step": k,
+                        "time": time,
+                        "dt": known.step,
+                        "crest_displacement": known.crest(whole, time),
+                        "kinetic_energy": known.energy(whole, time),
+                    }
+                )
+                + "\n"
             )
     if how == "breakdown":
         end_with(folder, 70, f"no convergence at {when:g} s")

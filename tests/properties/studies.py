@@ -96,7 +96,7 @@ def triggered(draw):
     if study.get("draws", 1) > 2:
         study["draws"] = 2
     condition = st.builds(
-        "{} > {}".format, st.sampled_from(["crest_displacement", "time"]), st.sampled_from([0.25, 0.45, 0.75, 1.25, 1.75, 2.5])
+        "{} > {}".format, st.sampled_from(["crest_displacement", "time", "kinetic_energy"]), st.sampled_from([0.25, 0.45, 0.75, 1.25, 1.75, 2.5])
     )
     trigger = {"kind": draw(st.sampled_from(["criterion", "window", "window"])), "name": "t", "snapshot_interval_s": known.step}
     if trigger["kind"] == "criterion":
@@ -105,6 +105,8 @@ def triggered(draw):
         trigger |= {"lower": draw(condition), "upper": draw(condition)}
         pick = draw(st.sampled_from([None, "first", "midpoint", "last_before"]))
         trigger |= {"pick": pick} if pick else {}
+    if "transfer_times" not in study and draw(st.booleans()):
+        trigger["snapshot_interval_s"] = draw(st.sampled_from([0.3, 0.5]))
     if draw(st.booleans()):
         trigger["hold_s"] = draw(st.sampled_from([0.1, 0.2, 0.5]))
     return study | {"triggers": [trigger]}

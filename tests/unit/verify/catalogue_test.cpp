@@ -30,7 +30,7 @@ json topic(const json& quantities) {
                    {"kind", "closed form"},
                    {"commands", json::array({json::array({"program", "{output}"})})},
                    {"quantities", quantities}};
-    return {{"title", "T"}, {"phase", "LEM"}, {"cases", json::array({one})}};
+    return {{"title", "T"}, {"cases", json::array({one})}};
 }
 
 /// A catalogue of one file, and a program that writes these files into its output.
@@ -108,6 +108,38 @@ TEST(Comparison, AProgramThatFailsIsARow) {
     EXPECT_FALSE(outcomes[0].found[0].passed());
     EXPECT_NE(outcomes[0].found[0].problem.find("exit code 70"), std::string::npos);
     EXPECT_NE(as_markdown(topics, outcomes, {}, "figures").find("**failed**"), std::string::npos);
+}
+
+TEST(Comparison, ARefusalIsRightByItsExitCodeAndItsWords) {
+    json file = topic(json::array());
+    file["cases"][0].erase("quantities");
+    file["cases"][0]["refused"] = {{"exit", 65}, {"says", {"/mpm/duration"}}};
+    const auto passes = [&](const std::string& script) {
+        const Bench bench(file, script);
+        const auto topics = bench.catalogue();
+        return bench.outcomes(topics)[0].found[0].passed();
+    };
+    EXPECT_TRUE(passes("echo /mpm/duration: is 0 >&2; exit 65"));
+    EXPECT_FALSE(passes("echo /mpm/cell_size: is 0 >&2; exit 65"));
+    EXPECT_FALSE(passes("echo /mpm/duration: is 0 >&2; exit 70"));
+    EXPECT_FALSE(passes("echo /mpm/duration: is 0 >&2; exit 0"));
+
+    file["cases"][0]["refused"]["says"] = json::array();
+    EXPECT_EQ(pointer_of_refusal(file), "/cases/0/refused/says");
+    file["cases"][0]["refused"]["says"] = {"x"};
+    file["cases"][0]["quantities"] = json::array({quantity(1.0)});
+    EXPECT_EQ(pointer_of_refusal(file), "/cases/0/refused");
+}
+
+TEST(Comparison, OnlyTheCasesOwnProgramRunsWhereTheFileHasCommands) {
+    json file = topic(json::array({quantity(1.0)}));
+    file["commands"] = {{"program", "{output}", "of the file"}};
+    file["cases"][0].erase("commands");
+    EXPECT_EQ(Bench(file).catalogue()[0].cases[0].commands[0].back(), "of the file");
+    file["cases"][0]["set"] = {"/a=1"};
+    EXPECT_EQ(Bench(file).catalogue()[0].cases[0].commands[0].back(), "/a=1");
+    file["cases"][0]["program"] = "own";
+    EXPECT_EQ(Bench(file).catalogue()[0].cases[0].commands[0].front(), "own");
 }
 
 TEST(Comparison, ANumberThatIsNotThereFails) {
