@@ -53,7 +53,7 @@ export class Gauges {
             this.plots[quantity].show({ series });
             this.plots[quantity].mark_now(this.now);
         }
-        set_text(by_id("gauges-note"), seen.length === 0 ? "The gauges have not told anything yet."
+        set_text(by_id("gauges-note"), seen.length === 0 ? "No gauge has a value yet."
             : "Means over a cell each way, of the mobile soil: its depth, and its horizontal velocity by mass. Where there is none, both are 0. " +
               `Recorded to ${seconds(x.at(-1))}.`);
     }

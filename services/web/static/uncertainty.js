@@ -277,7 +277,7 @@ const weight_of = ({ rank_correlation: rank, first_order: explained }) => (Numbe
 function draw_importance({ importance, count, of }, bounds) {
     const told = importance.some(({ rank_correlation: rank, first_order: explained }) => Number.isFinite(rank) || Number.isFinite(explained));
     by_id("uncertainty-importance").hidden = !told;
-    set_text(by_id("uncertainty-importance-note"), told ? `${count} of ${of} samples. Pale: an interval has 0 in it, so the parameter is not told from one that does nothing.${bounds}`
+    set_text(by_id("uncertainty-importance-note"), told ? `${count} of ${of} samples. Pale: the interval contains 0, so the parameter may have no effect.${bounds}`
         : `${count} samples do not tell which parameter decides.`);
     if (!told) return;
     const ordered = [...importance].sort((a, b) => weight_of(b) - weight_of(a));
