@@ -230,7 +230,8 @@ void report_end(Course& course) {
                                  course.fem.strain_threshold);
     course.watch.read(course.model, course.motion, course.beginning, last);
     if (auto near = upstream_wall(course.fem, course.model, course.motion, course.beginning,
-                                  last.failure_surfaces > 0.0, course.excess_pressure_max))
+                                  last.failure_surfaces > 0.0, course.crest_node,
+                                  course.excess_pressure_max))
         session.flag(std::move(*near));
     double depth = last.liquefaction_depth;
     for (const Reading& each : course.history) depth = std::max(depth, each.liquefaction_depth);

@@ -43,6 +43,10 @@ geometry::Box mobile_extent(const Scene& scene, const Mpm& mpm);
 /// Its height [m]; 0: none.
 double mobile_height(const Scene& scene, const Mpm& mpm);
 
+/// Heights of the dam that the soil goes on upstream of the crest, from where a longer section changed
+/// Mochikoshi's runout by less than 5 % (docs/verification/mochikoshi_authors.md; its 317 m are 10.8).
+inline constexpr double enough_heights_upstream = 10.5;
+
 struct Resolved {
     std::vector<fault::Fault> faults;
     std::vector<fault::Flag> flags;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 #include "fem_solver/model/stages.hpp"
 
@@ -19,6 +20,7 @@ constexpr double sloping = 0.1;  // of the height, from side to side
 struct UpstreamEnd {
     double x, height;  ///< [m]
     double side;       ///< 1: downstream is +x; 0: level ground
+    double relief;     ///< from one side's ground to the other's [m]
     double distance(const Vec2& at) const { return side * (at.x() - x); }
 };
 
@@ -39,8 +41,10 @@ UpstreamEnd upstream_end(const Model& model, const std::vector<bool>& lonely) {
         if (high.x() - x.x() <= at_side) right = std::max(right, x.y());
     }
     const double height = high.y() - low.y();
-    if (std::abs(left - right) <= sloping * height) return {low.x(), height, 0.0};
-    return left > right ? UpstreamEnd{low.x(), height, 1.0} : UpstreamEnd{high.x(), height, -1.0};
+    const double relief = std::abs(left - right);
+    if (relief <= sloping * height) return {low.x(), height, 0.0, relief};
+    return left > right ? UpstreamEnd{low.x(), height, 1.0, relief}
+                        : UpstreamEnd{high.x(), height, -1.0, relief};
 }
 
 /// What of the failing mass lies nearest to the end.
@@ -99,7 +103,7 @@ Nearest nearest_failing(const scene::Fem& fem, const Model& model, const Motion&
 
 std::optional<fault::Flag> upstream_wall(const scene::Fem& fem, const Model& model,
                                          const Motion& motion, const Beginning& beginning,
-                                         bool surface_cuts_through,
+                                         bool surface_cuts_through, std::size_t crest_node,
                                          std::span<const double> excess_max) {
     const std::vector<bool> lonely = lonely_nodes(model);
     const UpstreamEnd end = upstream_end(model, lonely);
@@ -110,13 +114,23 @@ std::optional<fault::Flag> upstream_wall(const scene::Fem& fem, const Model& mod
     const double allowed = near * end.height;
     if (!(nearest.distance < allowed)) return std::nullopt;
     const auto metres = [](double value) { return words::text_of(value, 4) + " m"; };
+    const std::string fact = "The failing mass comes to within " + metres(nearest.distance) +
+                             " of the section's upstream end at x = " + metres(end.x) + " (" +
+                             nearest.what + " at x = " + metres(nearest.where.x()) +
+                             ", y = " + metres(nearest.where.y()) +
+                             "), nearer than the section is high (" + metres(end.height) + ")";
+    const double heights = end.distance(model.mesh.nodes[crest_node]) / end.relief;
+    if (heights >= scene::enough_heights_upstream)
+        return fault::Flag{"upstream_wall", fault::Severity::warning,
+                           fact + ". The soil goes on " + words::text_of(heights, 2) +
+                               " heights upstream of the crest; from " +
+                               words::text_of(scene::enough_heights_upstream, 3) +
+                               " on, a longer section changed Mochikoshi's runout by less than 5 %",
+                           "/section/regions"};
     return fault::Flag{
         "upstream_wall", fault::Severity::questionable,
-        "The failing mass comes to within " + metres(nearest.distance) +
-            " of the section's upstream end at x = " + metres(end.x) + " (" + nearest.what +
-            " at x = " + metres(nearest.where.x()) + ", y = " + metres(nearest.where.y()) +
-            "), nearer than the section is high (" + metres(end.height) +
-            "). The boundary there takes part in the failure and cuts its volume off. Draw the "
+        fact +
+            ". The boundary there takes part in the failure and cuts its volume off. Draw the "
             "section at least " +
             metres(allowed - nearest.distance) +
             " longer upstream, to x = " + metres(end.x - end.side * (allowed - nearest.distance)),

@@ -14,7 +14,7 @@ namespace breach::fem {
 /// excess_max: [nodes of the body] largest excess pore pressure; empty in dry soil [Pa]
 std::optional<fault::Flag> upstream_wall(const scene::Fem& fem, const Model& model,
                                          const Motion& motion, const Beginning& beginning,
-                                         bool surface_cuts_through,
+                                         bool surface_cuts_through, std::size_t crest_node,
                                          std::span<const double> excess_max);
 
 }  // namespace breach::fem

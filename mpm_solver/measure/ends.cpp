@@ -115,9 +115,6 @@ double crest_edge(const std::vector<double>& places, const std::vector<double>& 
     return places[k];
 }
 
-/// Of tailings upstream of the crest: docs/verification/mochikoshi_authors.md. Its 317 m are 10.8 heights.
-constexpr double enough_heights = 10.5;
-
 /// Soil that has left lowers the surface.
 std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowView& view,
                                          const Depths& depths) {
@@ -142,10 +139,11 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
                         "symmetry stands; where soil goes on upstream, draw it, or the runout is "
                         "too short",
                     "/section/regions"};
-    if (pond >= enough_heights * H)
+    if (pond >= scene::enough_heights_upstream * H)
         return Flag{"upstream_wall", Severity::warning,
                     fact + "; the soil goes on " + text_of(pond / H, 2) +
-                        " heights upstream of the crest, and from " + text_of(enough_heights, 2) +
+                        " heights upstream of the crest, and from " +
+                        text_of(scene::enough_heights_upstream, 3) +
                         " on Mochikoshi's runout changed by less than 5 %",
                     "/section/regions"};
     return Flag{
@@ -153,8 +151,8 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
         fact +
             ": the section is too short, soil that would have followed is missing, and "
             "the runout is too short (unsafe); draw the section and begin domain_x " +
-            text_of(std::ceil(enough_heights * H - pond)) + " m farther upstream: from " +
-            text_of(enough_heights, 2) +
+            text_of(std::ceil(scene::enough_heights_upstream * H - pond)) +
+            " m farther upstream: from " + text_of(scene::enough_heights_upstream, 3) +
             " heights upstream of the crest on Mochikoshi's runout changed by less than 5 %",
         "/section/regions"};
 }
