@@ -228,7 +228,8 @@ Families first_families(const scene::Scene& scene, const Model& model, int threa
     if (lem.circle && lem.search) given["given_circle"] = facts_of(circle.circles);
     if (!lem.search) return circle;
     Families found = search_families(scene, model, *lem.search, threads);
-    if (!found.circles.found.critical) refuse_search(scene, found.circles.found.tally);
+    if (!found.circles.found.critical)
+        refuse_search(scene, found.circles.model, found.circles.found.tally);
     return found;
 }
 

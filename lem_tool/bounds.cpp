@@ -74,7 +74,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
              [](const Strata&, scene::Lem& each) { each.search->minimum_depth = 0.0; }});
     scene::Lem wide = lem;
     widen(strata, wide);
-    if (search.entry[0] < search.entry[1] && search.exit[0] < search.exit[1])
+    if (search.entry[0] < search.entry[1] || search.exit[0] < search.exit[1])
         bounds.push_back({"/lem/search/entry", "outside the ranges of entry and exit",
                           "Write \"entry\": " + range_text(wide.search->entry) +
                               ", \"exit\": " + range_text(wide.search->exit),
@@ -199,17 +199,19 @@ std::vector<fault::Flag> flags_of_crack(const scene::Lem& lem, const State& stat
     const double zone = facts.at("tension_zone");
     const double taken = facts.at("share").get<double>() * given;
     const double whole = circles.factor_with_whole_crack;
-    if (given <= 1.05 * zone && whole <= circles.factor() * (1.0 + telling_rise)) return {};
+    if (whole <= circles.factor() * (1.0 + telling_rise)) return {};
+    const std::string remedy = taken > 0.01 * given ? text("Write \"depth\": %.3g", taken)
+                                                    : std::string("Delete /lem/tension_crack");
     const std::string at_whole =
         std::isfinite(whole) ? text("it would be %.3f", whole) : std::string("there is no surface");
     return {{"deep_crack", fault::Severity::warning,
              text("the tension crack%s is %.3g m deep, and soil as at the surface's upper end "
                   "stands open to %.3g m, 2 c / gamma tan(45 + phi / 2). Soil below that presses "
                   "on the mass, which a deeper crack leaves out: the surface ends %.3g m deep in "
-                  "the crack, where Bishop's factor is least, %.3f; at the whole depth %s. Write "
-                  "\"depth\": %.3g, or give the soil its cohesion",
+                  "the crack, where Bishop's factor is least, %.3f; at the whole depth %s. %s, or "
+                  "give the soil its cohesion",
                   state.name.c_str(), given, zone, taken, circles.factor(), at_whole.c_str(),
-                  std::max(zone, taken)),
+                  remedy.c_str()),
              "/lem/tension_crack"}};
 }
 

@@ -17,7 +17,7 @@ nlohmann::json facts_of(const Tally& tally);
 Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& slices);
 
 /// Throws BadInput: a search found no surface.
-[[noreturn]] void refuse_search(const scene::Scene& scene, const Tally& tally);
+[[noreturn]] void refuse_search(const scene::Scene& scene, const Model& model, const Tally& tally);
 
 /// The search, which must find something. Throws BadInput otherwise.
 SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads);

@@ -74,7 +74,8 @@ void add_stages(const scene::Scene& scene, const Model& sound, const Families& u
         model.soils = liquefied(sound, layers, count);
         const Families found =
             count == 0 ? unliquefied : search_families(scene, model, *scene.lem->search, threads);
-        if (!found.circles.found.critical) refuse_search(scene, found.circles.found.tally);
+        if (!found.circles.found.critical)
+            refuse_search(scene, found.circles.model, found.circles.found.tally);
         json stage = answer(scene, found);
         stage["layers_liquefied"] = count;
         if (count > 0)

@@ -102,7 +102,7 @@ class Variations {
                                       ? search_families(scene, model, *scene.lem->search, threads)
                                       : given_family(scene, model);
         const Searched& least = families.least();
-        if (!least.found.critical) refuse_search(scene, least.found.tally);
+        if (!least.found.critical) refuse_search(scene, least.model, least.found.tally);
         base_ = *least.found.critical;
         floor_ = least.floor;
         crack_share_ = least.model.strata.crack.share;

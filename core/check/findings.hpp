@@ -17,6 +17,10 @@ inline void warn(Findings& findings, std::string code, std::string pointer, std:
         {std::move(code), fault::Severity::warning, std::move(message), std::move(pointer)});
 }
 
+/// Refuses a range of x that lies beside the section; false then.
+bool check_beside(const scene::Scene& scene, double from, double to, const std::string& pointer,
+                  Findings& findings);
+
 /// At least one region has a polygon.
 bool has_soil(const scene::Scene& scene);
 

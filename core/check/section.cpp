@@ -65,4 +65,19 @@ double largest_element_size(const scene::Scene& scene) {
     return largest;
 }
 
+std::string reach_of_ground(const scene::Scene& scene) {
+    const geometry::Box box = extent(scene.section);
+    return "the section's ground reaches from x = " + text(box.low.x()) + " to " +
+           metres(box.high.x());
+}
+
+bool check_beside(const scene::Scene& scene, double from, double to, const std::string& pointer,
+                  Findings& findings) {
+    const geometry::Box box = extent(scene.section);
+    if (to >= box.low.x() && from <= box.high.x()) return true;
+    refuse(findings, pointer, "lies beside the section: x from " + text(from) + " to " + metres(to),
+           reach_of_ground(scene) + ": give a range on it");
+    return false;
+}
+
 }  // namespace breach::check

@@ -31,6 +31,9 @@ std::string text(double value);
 std::string text(const Vec2& point);
 std::string metres(double value);
 
+/// "the section's ground reaches from x = 0 to 60 m"
+std::string reach_of_ground(const scene::Scene& scene);
+
 std::string region_pointer(std::size_t region, const std::string& below = "");
 
 /// The region's material; none when the scene does not have it.

@@ -48,15 +48,7 @@ bool check_slices(const scene::Scene& scene, Findings& findings) {
 bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                  const std::string& pointer, Findings& findings) {
     if (range[0] > range[1]) return false;  // core/scene has refused it
-    const geometry::Box box = extent(scene.section);
-    const std::string ground = "the section's ground reaches from x = " + text(box.low.x()) +
-                               " to " + metres(box.high.x());
-    if (range[1] < box.low.x() || range[0] > box.high.x()) {
-        refuse(findings, pointer,
-               "lies beside the section: x from " + text(range[0]) + " to " + metres(range[1]),
-               ground + ": give a range on it");
-        return false;
-    }
+    if (!check_beside(scene, range[0], range[1], pointer, findings)) return false;
     if (const geometry::Levels over = ground_over(scene.section, range[0], range[1]);
         over.highest < over.lowest) {
         refuse(findings, pointer,
@@ -64,11 +56,12 @@ bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                "give a range with ground below it");
         return false;
     }
+    const geometry::Box box = extent(scene.section);
     const double near = 1e-9 * (box.high.x() - box.low.x());
     if (range[0] < box.low.x() - near || range[1] > box.high.x() + near)
         warn(findings, "beyond_ground", pointer,
              "part of [" + text(range[0]) + ", " + text(range[1]) + "] has no ground below it; " +
-                 ground);
+                 reach_of_ground(scene));
     return true;
 }
 

@@ -199,15 +199,25 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
     }
 }
 
+void check_surcharges(const scene::Scene& scene, const std::vector<scene::Surcharge>& loads,
+                      const std::string& pointer, Findings& findings) {
+    for (std::size_t k = 0; k < loads.size(); ++k)
+        check_beside(scene, loads[k].from, loads[k].to, pointer + "/surcharge/" + std::to_string(k),
+                     findings);
+}
+
 }  // namespace
 
 void check_stages(const scene::Scene& scene, Findings& findings) {
+    check_surcharges(scene, scene.fem->surcharge, "/fem", findings);
     if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
     check_undrained(scene, findings);
     for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
-        const std::string pointer = "/fem/stages/" + std::to_string(i) + "/S";
-        check_softening(scene, scene.fem->stages[i], pointer, findings);
-        check_drained_softening(scene, scene.fem->stages[i], pointer, findings);
+        const scene::Stage& stage = scene.fem->stages[i];
+        const std::string pointer = "/fem/stages/" + std::to_string(i);
+        check_softening(scene, stage, pointer + "/S", findings);
+        check_drained_softening(scene, stage, pointer + "/S", findings);
+        if (stage.surcharge) check_surcharges(scene, *stage.surcharge, pointer, findings);
     }
     check_changes(scene, findings);
     warn_about_blows(*scene.fem, findings);

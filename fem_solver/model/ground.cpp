@@ -1,6 +1,7 @@
 #include "fem_solver/model/ground.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -53,11 +54,33 @@ Sides sides_of(const Model& model) {
     return sides;
 }
 
+/// A part of an edge, in shares of its length from node a to node b.
+struct Part {
+    double from = 0.0, to = 0.0;
+
+    double length() const { return to - from; }
+    /// Shares of a load that is even over the part.
+    double on_b() const { return 0.5 * (from + to) * length(); }
+    double on_a() const { return length() - on_b(); }
+};
+
+/// Of an edge whose nodes lie at a and b, what lies in [from, to]. Rounding leaves no slivers.
+Part part_within(double a, double b, double from, double to) {
+    constexpr double rounding = 1e-6;
+    const auto share = [&](double x) {
+        const double s = std::clamp((x - a) / (b - a), 0.0, 1.0);
+        return s < rounding ? 0.0 : s > 1.0 - rounding ? 1.0 : s;
+    };
+    const Part part{std::min(share(from), share(to)), std::max(share(from), share(to))};
+    return std::max(a, b) <= from || std::min(a, b) >= to ? Part{} : part;
+}
+
 /// A column beside the section stands for the ground at its side.
-bool lies_on(const scene::Surcharge& load, double a, double b, const Sides& sides) {
+Part part_under(const scene::Surcharge& load, double a, double b, const Sides& sides) {
     const double middle = 0.5 * (a + b), x = std::clamp(middle, sides.left, sides.right);
-    const double slack = x == middle ? 0.0 : 1e-6 * std::abs(a - b);
-    return x >= load.from - slack && x <= load.to + slack;
+    if (x == middle) return a == b ? Part{} : part_within(a, b, load.from, load.to);
+    const double slack = 1e-6 * std::abs(a - b);
+    return x >= load.from - slack && x <= load.to + slack ? Part{0.0, 1.0} : Part{};
 }
 
 }  // namespace
@@ -79,21 +102,50 @@ std::vector<GroundEdge> ground_edges(const Model& model) {
 }
 
 std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model) {
-    std::vector<bool> on(model.mesh.nodes.size(), false);
-    for (const std::size_t i : nodes_on(model.mesh, load.from, load.to)) on[i] = true;
+    const Vec2 along = (load.to - load.from).normalized();
+    const double length = (load.to - load.from).norm();
+    const double tolerance = 1e-6 * quality_of(model.mesh).shortest_edge;
     std::size_t found = 0;
     for (const auto& [edge, e] : outer_edges(model)) {
-        if (!on[edge.a] || !on[edge.b]) continue;
+        const Vec2 a = model.mesh.nodes[edge.a] - load.from,
+                   b = model.mesh.nodes[edge.b] - load.from;
+        const auto off = [&](const Vec2& x) {
+            return std::abs(along.x() * x.y() - along.y() * x.x());
+        };
+        if (off(a) > tolerance || off(b) > tolerance) continue;
+        const Part part = part_within(along.dot(a), along.dot(b), 0.0, length);
+        if (part.length() == 0.0) continue;
         ++found;
-        for (const std::int32_t node : {edge.a, edge.b})
+        const auto press = [&](std::int32_t node, double share) {
             model.external_force.segment<2>(2 * static_cast<Eigen::Index>(node)) -=
-                0.5 * load.pressure * edge.outwards;
+                share * load.pressure * edge.outwards;
+        };
+        press(edge.a, part.on_a());
+        press(edge.b, part.on_b());
     }
     return found;
 }
 
+/// Of free water above a point of the ground; below 0: the point is dry [m].
+static double depth_of_water(const scene::GroundWater& water, const Vec2& x) {
+    return level_at(water.line, x.x()) - x.y();
+}
+
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x) {
-    return water.density * gravity * std::max(0.0, level_at(water.line, x.x()) - x.y());
+    return water.density * gravity * std::max(0.0, depth_of_water(water, x));
+}
+
+/// What the two nodes of an edge carry of the water on it, per area [Pa].
+static std::array<double, 2> carried(const scene::GroundWater& water, double gravity,
+                                     const Vec2& x_a, const Vec2& x_b) {
+    const double p_a = pond_pressure(water, gravity, x_a);
+    const double p_b = pond_pressure(water, gravity, x_b);
+    const double a = depth_of_water(water, x_a), b = depth_of_water(water, x_b);
+    if (a * b >= 0.0) return {(2.0 * p_a + p_b) / 6.0, (p_a + 2.0 * p_b) / 6.0};
+    const double wet = std::max(a, b) / std::abs(a - b);  // of the edge's length
+    const double on_dry = std::max(p_a, p_b) * wet * wet / 6.0;
+    const double on_wet = 0.5 * std::max(p_a, p_b) * wet - on_dry;
+    return a > b ? std::array{on_wet, on_dry} : std::array{on_dry, on_wet};
 }
 
 void add_ground_loads(const ModelDecisions& decided, Model& model) {
@@ -108,16 +160,14 @@ void add_ground_loads(const ModelDecisions& decided, Model& model) {
     for (const auto& [a, b, outwards] : ground_edges(model)) {
         const Vec2 &x_a = model.mesh.nodes[a], &x_b = model.mesh.nodes[b];
         if (water) {
-            const double p_a = pond_pressure(*water, gravity, x_a);
-            const double p_b = pond_pressure(*water, gravity, x_b);
-            add(a, -(2.0 * p_a + p_b) / 6.0 * outwards);
-            add(b, -(p_a + 2.0 * p_b) / 6.0 * outwards);
+            const auto [on_a, on_b] = carried(*water, gravity, x_a, x_b);
+            add(a, -on_a * outwards);
+            add(b, -on_b * outwards);
         }
         for (const scene::Surcharge& load : surcharge) {
-            if (!lies_on(load, x_a.x(), x_b.x(), sides)) continue;
-            const Vec2 force(0.0, -0.5 * load.pressure * outwards.y());
-            add(a, force);
-            add(b, force);
+            const Part part = part_under(load, x_a.x(), x_b.x(), sides);
+            add(a, Vec2(0.0, -part.on_a() * load.pressure * outwards.y()));
+            add(b, Vec2(0.0, -part.on_b() * load.pressure * outwards.y()));
         }
     }
 }

@@ -151,7 +151,7 @@ void press(const scene::Fem& fem, std::size_t stage, Model& model) {
                            "' presses on no outer edge of the soil that is there in "
                            "stage " +
                            std::to_string(stage),
-                       "let its segment run along a whole side of elements, ends included"}});
+                       "let its segment run along the soil's outer edge"}});
     }
 }
 

@@ -15,7 +15,4 @@ TaskPlan at_time(TaskPlan open, double time);
 std::optional<std::size_t> place_of_fem(const std::vector<TaskPlan>& plan, const std::string& label,
                                         const std::string& variant);
 
-/// From a database; also as version 0.1.0 wrote it.
-std::vector<TaskPlan> read_firing_plan(const nlohmann::json& document);
-
 }  // namespace breach::orchestrator

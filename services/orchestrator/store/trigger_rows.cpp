@@ -77,7 +77,7 @@ struct FemOfPlan {
 
 std::vector<TaskPlan> firing_plan_of(Connection& database, const std::string& run) {
     const auto plan = database.text("SELECT tasks FROM firing_plans WHERE run=?", {run});
-    return plan ? read_firing_plan(json::parse(*plan)) : std::vector<TaskPlan>{};
+    return plan ? json::parse(*plan).get<std::vector<TaskPlan>>() : std::vector<TaskPlan>{};
 }
 
 void Transaction::add_triggers(const NewRun& run) {

@@ -349,52 +349,11 @@ TEST(Graph, OneMoreTransferIsTheTasksThatTheStudyWouldHaveMadeForThatTime) {
     const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
     // Kept as text in the database, and read again.
     std::vector<TaskPlan> added =
-        read_firing_plan(json::parse(json(graph.one_more_transfer).dump()));
+        json::parse(json(graph.one_more_transfer).dump()).get<std::vector<TaskPlan>>();
     for (TaskPlan& each : added)
         if (each.parent) each = at_time(std::move(each), 0.5);
     EXPECT_EQ(rows_of(added), rows_of(graph.tasks));
     EXPECT_EQ(rows_of(added).size(), 5u);  // two transfers, three runouts
-}
-
-TEST(Graph, FiringPlanOfADatabaseOfVersion010IsReadAsWhatItMeant) {
-    const json old{{{"phase", "transfer_tool"},
-                    {"label", "transfer_-1.000000_light"},
-                    {"parent", "fem_light"},
-                    {"release", "file_exists"},
-                    {"input", "snapshot_-1.000000.vtkhdf"},
-                    {"overrides", {"/gravity=9.8"}},
-                    {"variant", "light"},
-                    {"cores", 2},
-                    {"memory_MB", 300},
-                    {"recipe", "abc"}},
-                   {{"phase", "mpm_solver"},
-                    {"label", "mpm_-1.000000_light"},
-                    {"parent", "transfer_-1.000000_light"},
-                    {"release", "parent_succeeded"},
-                    {"input", "particles.vtkhdf"},
-                    {"overrides", json::array()},
-                    {"variant", "light"},
-                    {"cores", 1},
-                    {"memory_MB", 0},
-                    {"recipe", ""}}};
-    const std::vector<TaskPlan> plan = read_firing_plan(old);
-    ASSERT_EQ(plan.size(), 3u);
-    EXPECT_EQ(plan[0].label, "fem_light");
-    EXPECT_FALSE(plan[0].parent);
-    const TaskPlan transfer = at_time(plan[1], 0.25);
-    EXPECT_EQ(transfer.label, "transfer_0.250000_light");
-    EXPECT_EQ(transfer.input, "snapshot_0.250000.vtkhdf");
-    EXPECT_EQ(transfer.transfer_time, 0.25);
-    EXPECT_EQ(transfer.parent, 0u);
-    EXPECT_EQ(transfer.overrides, std::vector<std::string>{"/gravity=9.8"});
-    EXPECT_EQ(transfer.resources.cores, 2);
-    EXPECT_EQ(transfer.resources.memory_mb, 300);
-    EXPECT_EQ(transfer.recipe, "abc");
-    const TaskPlan mpm = at_time(plan[2], 0.25);
-    EXPECT_EQ(mpm.label, "mpm_0.250000_light");
-    EXPECT_EQ(mpm.input, "particles.vtkhdf");
-    EXPECT_EQ(mpm.parent, 1u);
-    EXPECT_EQ(mpm.release, Release::parent_succeeded);
 }
 
 TEST(Recipe, FollowsTheNumericsThatThePhaseSays) {

@@ -38,6 +38,71 @@ json force(const Vec2& at, double right_kN, double down_kN) {
         {"name", "weight"}, {"at", {at.x(), at.y()}}, {"right_kN", right_kN}, {"down_kN", down_kN}};
 }
 
+/// Force, and its moment about the origin along x and y, of all nodes [N, N m].
+struct Sum {
+    Vec2 force = Vec2::Zero();
+    double of_down_along_x = 0.0, of_right_along_y = 0.0;
+};
+
+Sum sum_of_loads(const json& scene) {
+    bench::Run run(scene);
+    const Model& model = run.go().model;
+    Sum sum;
+    for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i) {
+        const Vec2 f = model.external_force.segment<2>(static_cast<Eigen::Index>(2 * i));
+        sum.force += f;
+        sum.of_down_along_x += f.y() * model.mesh.nodes[i].x();
+        sum.of_right_along_y += f.x() * model.mesh.nodes[i].y();
+    }
+    return sum;
+}
+
+/// Elements of 2 m.
+json coarse(const json& load, double gravity = 0.0) {
+    return bench::scene_of({.width = 8.0,
+                            .height = 8.0,
+                            .columns = 4,
+                            .rows = 4,
+                            .gravity = gravity,
+                            .stages = json::array({static_stage("load", load)})});
+}
+
+TEST(Loads, ThatEndWithinAnElementCountAsDrawn) {
+    for (const auto& [from, to] :
+         {std::pair(3.0, 5.0), std::pair(0.1, 0.9), std::pair(-1.0, 7.0)}) {
+        const double left = std::max(from, 0.0), force = 100e3 * (to - left);
+        const Sum sum = sum_of_loads(
+            coarse({{"surcharge", {{{"from", from}, {"to", to}, {"pressure_kPa", 100}}}}}));
+        EXPECT_NEAR(sum.force.y(), -force, 1e-6);
+        EXPECT_NEAR(sum.of_down_along_x, -force * 0.5 * (left + to), 1e-6);
+    }
+    const Sum beside = sum_of_loads(
+        coarse({{"pressures",
+                 {{{"name", "side"}, {"from", {8, 1}}, {"to", {8, 6}}, {"pressure_kPa", 100}}}}}));
+    EXPECT_NEAR(beside.force.x(), -500e3, 1e-6);
+    EXPECT_NEAR(beside.of_right_along_y, -500e3 * 3.5, 1e-5);
+}
+
+TEST(Loads, OfAPondEndAtItsShore) {
+    const auto under = [](double level) {
+        json scene = coarse(json::object(), 10.0);
+        const json corners{{0, 0}, {8, 0}, {8, 2}, {0, 6}};
+        json& region = scene["section"]["regions"][0];
+        region["polygon"] = {{0, 0}, {8, 0}, {8, 2}, {0, 6}, {0, 0}};
+        region["mesh"]["corners"] = corners;
+        scene["fem"]["supports"][0]["to"] = {0, 6};
+        scene["fem"]["supports"][1]["to"] = {8, 2};
+        scene["fem"]["crest"] = {0, 6};
+        scene["materials"]["soil"].update({{"void_ratio", 0.8}, {"permeability", {1e-6, 1e-6}}});
+        scene["fem"]["water"] = {{"line", {{0, level}}}, {"density", 1000}};
+        return sum_of_loads(scene).force;
+    };
+    // The shore lies at x = 3, the pond is 2.5 m deep at x = 8.
+    const Vec2 pond = under(4.5) - under(0.0);
+    EXPECT_NEAR(pond.y(), -10e3 * 0.5 * 5.0 * 2.5, 1e-3);
+    EXPECT_NEAR(pond.x(), -10e3 * 0.5 * 2.5 * 2.5, 1e-3);
+}
+
 TEST(NodeForces, EqualLoadsOnTheTopNodesSettleAColumnAsAPressure) {
     constexpr double H = 6.0;
     const json weights{force({0, H}, 0, 12.5), force({0.5, H}, 0, 25), force({1, H}, 0, 12.5)};

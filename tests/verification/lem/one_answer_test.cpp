@@ -253,6 +253,12 @@ TEST(TensionCrack, NeverMakesASlopeSafer) {
             const fault::Flag* flag = found.flag("deep_crack", "/lem/tension_crack");
             ASSERT_NE(flag, nullptr);
             EXPECT_NE(flag->message.find("open to 0.92"), std::string::npos) << flag->message;
+            const std::string remedy =
+                flag->message.substr(flag->message.find("Write \"depth\": ") + 15);
+            const Analysed mended =
+                analysed(cracked({{"depth", std::stod(remedy)}, {"filled", filled}}));
+            EXPECT_EQ(mended.flag("deep_crack", "/lem/tension_crack"), nullptr) << remedy;
+            EXPECT_NEAR(mended.bishop(), found.bishop(), 0.01);
         }
     }
 }
