@@ -83,6 +83,10 @@ double lowest_of(const json& facts) {
     return spencer.is_null() ? F : std::min(F, spencer.at("factor_of_safety").get<double>());
 }
 
+bool asks_for_polyline(const scene::Lem& lem) {
+    return lem.non_circular && lem.non_circular->vertices > 0;
+}
+
 /// The least of the surfaces along weak layers; null: there is none.
 json least_composite(const std::vector<Searched>& composites) {
     json least;
@@ -177,25 +181,48 @@ Families given_family(const scene::Scene& scene, const Model& model) {
     return families;
 }
 
+/// From the least circle, with the vertices that the scene asks for or the usual ones.
+static json polyline_of(const scene::Scene& scene, const Families& families) {
+    const Searched& start = families.least();
+    scene::Scene bent = scene;
+    if (!asks_for_polyline(*scene.lem))
+        bent.lem->non_circular = scene::NonCircular{{}, usual_vertices};
+    return optimised_polyline(bent, start.model, start.found.critical->surface);
+}
+
 json answer(const scene::Scene& scene, const Families& families, const json& given) {
     const scene::Lem& lem = *scene.lem;
     json parts = given;
     parts["bishop"] = facts_of(families.circles);
     if (!families.composites.empty()) parts["composite"] = least_composite(families.composites);
-    const bool asked = lem.non_circular && lem.non_circular->vertices > 0;
     // An arc meets a thin weak layer at one angle only, a wedge with those of least resistance.
-    if (asked || !families.composites.empty()) {
-        const Searched& start = families.least();
-        scene::Scene bent = scene;
-        if (!asked) bent.lem->non_circular = scene::NonCircular{{}, usual_vertices};
-        parts["non_circular"] =
-            optimised_polyline(bent, start.model, start.found.critical->surface);
-    }
+    if (asks_for_polyline(lem) || !families.composites.empty())
+        parts["non_circular"] = polyline_of(scene, families);
     const auto all = candidates_of(parts, lem.m_alpha.least);
     const Candidate& least = least_of(all);
     json result = front_of(least, parts.at(name_of(least.surface)));
     result.update(parts);
     return result;
+}
+
+std::vector<fault::Flag> flags_of_weak_layer(const scene::Scene& scene, const Families& families,
+                                             const json& answer) {
+    const Model& model = families.circles.model;
+    if (asks_for_polyline(*scene.lem) || !families.composites.empty() ||
+        !has_thick_weak_layer(model, *scene.lem->search))
+        return {};
+    const double reported = answer.at("factor_of_safety");
+    const json parts{{"non_circular", polyline_of(scene, families)}};
+    for (const Candidate& each : candidates_of(parts, scene.lem->m_alpha.least)) {
+        if (!each.invalid.empty() || each.factor >= reported * (1.0 - telling_difference)) continue;
+        char words[256];
+        std::snprintf(words, sizeof words,
+                      "factor_of_safety is %.3f, and a surface of straight pieces through the weak "
+                      "layer has %.3f (Spencer). Write \"non_circular\": {\"vertices\": %d}",
+                      reported, each.factor, usual_vertices);
+        return {{"surfaces_disagree", fault::Severity::questionable, words, "/lem/non_circular"}};
+    }
+    return {};
 }
 
 std::vector<fault::Flag> flags_of_answer(const json& answer, const scene::Lem& lem) {

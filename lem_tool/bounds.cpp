@@ -74,7 +74,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
              [](const Strata&, scene::Lem& each) { each.search->minimum_depth = 0.0; }});
     scene::Lem wide = lem;
     widen(strata, wide);
-    if (search.entry[0] < search.entry[1] || search.exit[0] < search.exit[1])
+    if (search.entry != wide.search->entry || search.exit != wide.search->exit)
         bounds.push_back({"/lem/search/entry", "outside the ranges of entry and exit",
                           "Write \"entry\": " + range_text(wide.search->entry) +
                               ", \"exit\": " + range_text(wide.search->exit),
@@ -225,6 +225,7 @@ void add_flags_of_state(const scene::Scene& scene, const State& state, int threa
     add(flags_of_answer(state.answer, *scene.lem));
     add(flags_of_crack(*scene.lem, state));
     if (scene.lem->search) {
+        if (state.name.empty()) add(flags_of_weak_layer(scene, state.families, state.answer));
         add(flags_of_edges(state.model.strata, *scene.lem->search, state));
         add(flags_of_bounds(scene, state, threads, flags));
     }

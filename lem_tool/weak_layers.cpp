@@ -28,6 +28,8 @@ struct Chain {
     Path bottom;
     double thickness = 0.0;  ///< greatest, within the search's ranges [m]
     double depth = 0.0;      ///< greatest, of the bottom below ground [m]
+
+    bool is_thin() const { return thickness < thin * depth; }
 };
 
 class WeakBands {
@@ -129,7 +131,7 @@ Path higher(const Path& one, const Path& other) {
     return path;
 }
 
-std::vector<Path> weak_lines(const Model& model, const scene::SlipSearch& ranges) {
+static std::vector<Chain> chains_in(const Model& model, const scene::SlipSearch& ranges) {
     const Strata& strata = model.strata;
     const double near = 1e-6 * (strata.right() - strata.left());
     const double from = std::min(ranges.entry[0], ranges.exit[0]);
@@ -157,11 +159,21 @@ std::vector<Path> weak_lines(const Model& model, const scene::SlipSearch& ranges
             }
         }
     }
+    std::erase_if(chains, [](const Chain& each) { return each.thickness <= 0.0; });
+    return chains;
+}
+
+std::vector<Path> weak_lines(const Model& model, const scene::SlipSearch& ranges) {
     std::vector<Path> lines;
-    for (const Chain& chain : chains)
-        if (chain.thickness > 0.0 && chain.thickness < thin * chain.depth)
-            lines.push_back(to_both_sides(chain.bottom, strata.left(), strata.right()));
+    for (const Chain& chain : chains_in(model, ranges))
+        if (chain.is_thin())
+            lines.push_back(to_both_sides(chain.bottom, model.strata.left(), model.strata.right()));
     return lines;
+}
+
+bool has_thick_weak_layer(const Model& model, const scene::SlipSearch& ranges) {
+    return std::ranges::any_of(chains_in(model, ranges),
+                               [](const Chain& each) { return !each.is_thin(); });
 }
 
 Model over_floor(const scene::Scene& scene, const Model& model, const Path& floor) {

@@ -13,6 +13,9 @@ using Path = std::vector<scene::Vec2>;
 /// a tenth of its depth, within the search's ranges; from side to side of the section.
 std::vector<Path> weak_lines(const Model& model, const scene::SlipSearch& ranges);
 
+/// There is a weaker layer that is thicker than that.
+bool has_thick_weak_layer(const Model& model, const scene::SlipSearch& ranges);
+
 /// The higher of the two lines; the other where one is empty.
 Path higher(const Path& one, const Path& other);
 

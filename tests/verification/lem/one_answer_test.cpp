@@ -227,6 +227,25 @@ TEST(ThinWeakLayer, IsInNoneOfTheShippedScenes) {
     }
 }
 
+/// A bank of 15 m, 1 : 2, on a layer of 2 m that is weaker than what lies above and below it.
+TEST(WeakLayer, TooThickForACompositeSurfaceIsQuestionedByAPolyline) {
+    json scene = small::scene(
+        {{"fill", small::soil(19, 5, 35)}, {"seam", small::soil(18, 0, 10)}},
+        json::array({small::region("fill", "fill", {{0, 0}, {50, 0}, {20, 15}, {0, 15}}),
+                     small::region("seam", "seam", {{0, -2}, {90, -2}, {90, 0}, {0, 0}}),
+                     small::region("base", "fill", {{0, -12}, {90, -12}, {90, -2}, {0, -2}})}),
+        {{"search", {{"entry", {2, 25}}, {"exit", {45, 85}}}}});
+    const Analysed circle = analysed(scene);
+    const fault::Flag* flag = circle.flag("surfaces_disagree", "/lem/non_circular");
+    ASSERT_NE(flag, nullptr);
+    EXPECT_EQ(flag->severity, fault::Severity::questionable);
+    scene["lem"]["non_circular"] = {{"vertices", 13}};
+    const Analysed asked = analysed(scene);
+    EXPECT_EQ(asked.flag("surfaces_disagree", "/lem/non_circular"), nullptr);
+    EXPECT_LT(asked.answer.at("factor_of_safety"),
+              0.97 * circle.answer.at("factor_of_safety").get<double>());
+}
+
 /// 10 m high, 1 : 1.5, c 5 kPa, phi 30: 1.309 without a crack; tension zone 0.93 m.
 json cracked(const json& crack) {
     json text = small::scene(
