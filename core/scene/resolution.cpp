@@ -126,6 +126,40 @@ void judge_cells(const Scene& scene, Resolved& resolved) {
          "/mpm/cell_size"});
 }
 
+/// Under this stress [Pa].
+bool is_weaker(const Material& a, const Material& b, double stress) {
+    const auto one = materials::limit_strength(a.law), other = materials::limit_strength(b.law);
+    return one && other &&
+           one->c + stress * one->tan_phi < 0.95 * (other->c + stress * other->tan_phi);
+}
+
+/// Layers that do not count for the runout, on which it may slide all the same.
+void judge_weak_layers(const Scene& scene, Resolved& resolved) {
+    const double h = scene.mpm->cell_size, H = mobile_height(scene, *scene.mpm);
+    for (const Region& layer : scene.section.regions) {
+        if (layer.polygon.empty() || is_mobile(layer, *scene.mpm)) continue;
+        const bool carries_stronger =
+            std::ranges::any_of(scene.section.regions, [&](const Region& each) {
+                if (each.polygon.empty() || !is_mobile(each, *scene.mpm)) return false;
+                const Material& soil = scene.materials.at(each.material);
+                return is_weaker(scene.materials.at(layer.material), soil,
+                                 0.5 * soil.density * scene.gravity * H) &&
+                       geometry::touch(layer.polygon, each.polygon);
+            });
+        const auto thickness = geometry::thickness_below(least_cells * h, layer.polygon, {});
+        if (!carries_stronger || !thickness) continue;
+        resolved.flags.push_back(
+            {"coarse_cells",
+             *thickness < h ? fault::Severity::questionable : fault::Severity::warning,
+             "only " + text_of(*thickness / h) + " cells of " + text_of(h) + " m across region \"" +
+                 layer.name + "\", " + text_of(*thickness) +
+                 " m, which is weaker than the soil that it carries: a slide along it is not seen "
+                 "or comes short; take cells of at most " +
+                 rounded_down(*thickness / least_cells) + " m",
+             "/mpm/cell_size"});
+    }
+}
+
 void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     const std::string pointer = "/materials/" + soil.name + "/nonlocal_length";
     if (!materials::softening(soil.law)) {
@@ -347,7 +381,10 @@ Resolved resolution_of(const Scene& scene) {
     Resolved resolved;
     const auto known = [&](const Region& r) { return r.material < scene.materials.size(); };
     if (!std::ranges::all_of(scene.section.regions, known)) return resolved;
-    if (scene.mpm) judge_cells(scene, resolved);
+    if (scene.mpm) {
+        judge_cells(scene, resolved);
+        judge_weak_layers(scene, resolved);
+    }
     if (scene.mpm) judge_bands(scene, resolved);
     if (scene.mpm) judge_beds(scene, resolved);
     judge_elements(scene, resolved);

@@ -57,6 +57,24 @@ TEST(Cells, AcrossTheThinnestMobileRegionAreWarnedAboutBelowEight) {
         << read(document).warnings[0].message;
 }
 
+TEST(Cells, AcrossAWeakLayerThatDoesNotCountForTheRunoutAreWarnedAboutBelowTwo) {
+    json document = dyke();
+    document["section"]["regions"].push_back(
+        {{"name", "seam"},
+         {"material", "mud"},
+         {"polygon", {{40, -0.3}, {60, -0.3}, {60, 0}, {40, 0}, {40, -0.3}}},
+         {"mesh", {{"type", "unstructured"}}}});
+    document.erase("fem");
+    document["mpm"]["domain_y"] = {-2, 40};
+    document["mpm"]["floor"]["level"] = -2;
+    document["mpm"]["runout"]["regions"] = {"dyke"};
+    EXPECT_EQ(codes(document), Codes{"coarse_cells questionable /mpm/cell_size"});
+    document["mpm"]["cell_size"] = 0.25;
+    EXPECT_EQ(codes(document), Codes{"coarse_cells warning /mpm/cell_size"});
+    document["materials"]["mud"]["law"]["phi_deg"] = 31;  // no longer weaker than the dyke
+    EXPECT_EQ(codes(document), Codes{});
+}
+
 TEST(Cells, FewerThanTwoAreRefusedWithTheSizeThatWouldDoUnlessTheSceneSaysSo) {
     json document = dyke();
     document["mpm"]["cell_size"] = 5;

@@ -270,7 +270,9 @@ TEST(TensionCrack, NeverMakesASlopeSafer) {
             EXPECT_GE(crack.at("factor_of_safety_whole"), found.bishop());
             EXPECT_NEAR(crack.at("tension_zone"), 10.0 / 18.64 * std::sqrt(3.0), 0.01);
             const fault::Flag* flag = found.flag("deep_crack", "/lem/tension_crack");
-            ASSERT_NE(flag, nullptr);
+            const bool is_raised = crack.at("factor_of_safety_whole") > 1.01 * found.bishop();
+            ASSERT_EQ(flag != nullptr, is_raised);
+            if (!is_raised) continue;
             EXPECT_NE(flag->message.find("open to 0.92"), std::string::npos) << flag->message;
             const std::string remedy =
                 flag->message.substr(flag->message.find("Write \"depth\": ") + 15);
