@@ -45,12 +45,16 @@ json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
     geometry::Outlines all = outlines_of(soils);
+    const double section_end = geometry::extent(all).low.x();
     all.push_back(&terrain);
     const geometry::Box box = geometry::extent(all);
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
     const double floor = down(box.low.y() - 2.0 * cell);
-    const json domain_x{down(box.low.x()), up(box.high.x())};
+    // The wall touches the section's upstream end: through a gap the soil would flow against it.
+    const bool goes_on = box.low.x() < section_end - 2.0 * cell;
+    const double left = goes_on ? down(box.low.x()) : rounded(section_end);
+    const json domain_x{left, rounded(left + up(box.high.x() - left))};
     const json friction{{{"from", domain_x[0]}, {"to", domain_x[1]}, {"coefficient", 0.5}}};
     json mpm{{"cell_size", cell},
              {"domain_x", domain_x},
@@ -70,8 +74,14 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
 
 json as_json(const Vec2& place) { return {rounded(place.x()), rounded(place.y())}; }
 
-Document document_of(const std::string& name, const json& materials, const std::vector<Soil>& soils,
+const json& materials_in(const json& document) {
+    const bool holds = document.is_object() && document.contains("materials");
+    return holds ? document.at("materials") : document;
+}
+
+Document document_of(const std::string& name, const json& given, const std::vector<Soil>& soils,
                      const Lines& lines, double share) {
+    const json& materials = materials_in(given);
     Document document;
     document.guessed = json::array();
     const auto guess = [&](const std::string& pointer, const json& value, const std::string& from) {
@@ -111,6 +121,13 @@ Document document_of(const std::string& name, const json& materials, const std::
         document.scene["mpm"] = mpm_of(soils, lines.terrain, toe, share * size);
         guess("/mpm/cell_size", share * size,
               share == 1.0 ? "the element size" : "the thinnest layer, which needs two cells");
+        const auto is_nonlocal = [](const json& each) { return each.contains("nonlocal_length"); };
+        if (std::ranges::any_of(materials, is_nonlocal)) {
+            json& length = document.scene["mpm"]["softening_length"];
+            length = given.value("/mpm/softening_length"_json_pointer, json(share * size));
+            guess("/mpm/softening_length", length,
+                  "the scene of the materials, else the cell size");
+        }
         for (const char* entry : {"domain_x", "domain_y"})
             guess(std::string("/mpm/") + entry, document.scene["mpm"][entry],
                   "section and terrain, with two cells below and above");

@@ -19,9 +19,12 @@ struct Document {
     std::optional<Slope> slope;
 };
 
-/// /section always; /lem where the ground has a slope; /mpm where a terrain was drawn, its cells this
+/// The materials of a scene, or of a document that is nothing but materials.
+const nlohmann::json& materials_in(const nlohmann::json& document);
+
+/// given: what materials_in reads. /section always; /lem where the ground has a slope; /mpm where a terrain was drawn, its cells this
 /// share of an element.
-Document document_of(const std::string& name, const nlohmann::json& materials,
+Document document_of(const std::string& name, const nlohmann::json& given,
                      const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);
 
 nlohmann::json as_json(const Vec2& place);

@@ -22,11 +22,6 @@ namespace {
 constexpr double longest_section = 10'000.0, shortest_section = 1.0;  // m
 constexpr std::size_t most_faults = 200;
 
-const json& materials_in(const json& document) {
-    const bool holds = document.is_object() && document.contains("materials");
-    return holds ? document.at("materials") : document;
-}
-
 std::set<std::string> names_in(const json& materials) {
     std::set<std::string> names;
     if (materials.is_object())
@@ -449,12 +444,13 @@ class Import {
         const auto is_coarse = [](const Fault& each) { return each.pointer == "/mpm/cell_size"; };
         constexpr double finest = 0.125;
         for (double share = 1.0;; share *= 0.5) {
-            Document document = document_of(scene_name(request_), materials_, soils, lines_, share);
+            Document document =
+                document_of(scene_name(request_), request_.materials, soils, lines_, share);
             check::Checked read = checked(document.scene);
             const auto coarse = std::ranges::find_if(read.faults, is_coarse);
             if (coarse == read.faults.end()) return {std::move(document), std::move(read)};
             if (share > finest) continue;
-            document = document_of(scene_name(request_), materials_, soils, lines_);
+            document = document_of(scene_name(request_), request_.materials, soils, lines_);
             document.scene["mpm"]["allow_coarse_cells"] = true;
             document.remarks.push_back("/mpm/cell_size " + coarse->cause +
                                        ": runouts will be questionable; merge thin layers, or give "

@@ -1,8 +1,8 @@
-"""Runs the commands of a page in docs/tutorials as they stand, against a real service: tutorials_test.py PAGE [--show].
+"""Runs the commands of a page in docs/tutorials or docs/how-to as they stand, against a real service: tutorials_test.py PAGE [--show].
 
 Blocks fenced with sh are commands. They run in one shell, in a folder that looks like the source tree. A block fenced with text shows
 what the commands before it print: the words of its first line must be in their output. Exits with 77 where the page needs a program
-that is not installed."""
+that is not installed. Prints the number of commands from nothing to the report, and their time."""
 import json
 import os
 import pathlib
@@ -21,10 +21,12 @@ mark = "@@ commands"
 # Installing, building and serving: tests/workflow/quickstart_test runs the first, this test serves by itself.
 run_elsewhere = {"./deploy/quickstart", "build/release/bin/breachline serve --data var/quickstart"}
 needed = {"cluster": ("slurmctld", "slurmd", "sbatch", "munged")}
+most_commands = {"own_dam": 8, "import_drawing": 5}  # to the report
 
 
 def blocks_of(page):
-    text = (root / f"docs/tutorials/{page}.md").read_text()
+    [file] = (root / "docs").glob(f"*/{page}.md")
+    text = file.read_text()
     return [(kind, body) for kind, body in block.findall(text) if not set(body.strip().splitlines()) <= run_elsewhere]
 
 
@@ -36,9 +38,10 @@ def looks_like_the_source_tree(here):
 
 
 def outputs_of(page, blocks, here, url):
-    """What each block of commands printed, both streams together; nothing for a block of text."""
-    script = "".join(f"echo '{mark}'\n{body}" if kind == "sh" else f"echo '{mark}'\n" for kind, body in blocks)
-    environment = {**os.environ, "PATH": f"{os.environ['PATH']}:/usr/sbin:/sbin", "BREACH_SERVER": url}
+    """What each block of commands printed, both streams together, nothing for a block of text; and when each began and the last ended."""
+    stamp = f'echo "{mark} $EPOCHREALTIME"\n'
+    script = "".join(stamp + (body if kind == "sh" else "") for kind, body in blocks) + stamp
+    environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}:/usr/sbin:/sbin", "BREACH_SERVER": url}
     shell = subprocess.Popen(["bash", "-e", "-c", script], cwd=here, env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, text=True, start_new_session=True)
     try:
@@ -48,11 +51,24 @@ def outputs_of(page, blocks, here, url):
             os.killpg(shell.pid, signal.SIGTERM)  # what a page started and did not stop
         except ProcessLookupError:
             pass
-    outputs = printed.split(f"{mark}\n")[1:]
+    _, *parts = re.split(rf"{mark} (\d+[.,]\d+)\n", printed)
+    times, outputs = [float(each.replace(",", ".")) for each in parts[::2]], parts[1::2]
     if "--show" in sys.argv:
         print(printed)
-    check(f"the commands of {page}.md run", shell.returncode == 0, f"{shell.returncode} in\n{blocks[len(outputs) - 1][1]}\n{printed[-3000:]}")
-    return outputs
+    _, reached = blocks[min(len(outputs), len(blocks)) - 1]
+    check(f"the commands of {page}.md run", shell.returncode == 0, f"{shell.returncode} in\n{reached}\n{printed[-3000:]}")
+    return outputs, times
+
+
+def check_report(page, blocks, times):
+    """A report is written by as few commands as the page may have."""
+    last = next((place for place, (kind, body) in enumerate(blocks) if kind == "sh" and re.search("^report ", body, re.MULTILINE)), None)
+    if last is None:
+        check("the page may go without a report", page not in most_commands, page)
+        return
+    lines = [line for kind, body in blocks[:last + 1] if kind == "sh" for line in body.replace("\\\n", "").splitlines()]
+    count = sum(1 for line in lines if line and not line.startswith("#"))
+    check(f"{count} commands and {times[last + 1] - times[0]:.0f} s from nothing to the report", count <= most_commands.get(page, count), lines)
 
 
 def check_shown(blocks, outputs):
@@ -64,6 +80,22 @@ def check_shown(blocks, outputs):
         first = body.splitlines()[0]
         missing = [word for word in re.findall(r"[A-Za-z_]{2,}", first) if word not in printed]
         check(f"the page shows what is printed: {first.strip()}", not missing, (missing, printed[-2000:]))
+
+
+def draw_own_dam(here):
+    """dam.dxf and materials.json: the dam of docs/tutorials/own_dam.md with its water and terrain, as a CAD program would write it."""
+    own = next(line.split() for _, body in blocks_of("own_dam") for line in body.splitlines() if line.startswith("breach new upstream_dam"))
+    subprocess.run([programs / own[0], *own[1:-1], here / "drawn"], check=True, capture_output=True)
+    scene = json.loads((here / "drawn/scene.json").read_text())
+    drawn = [(each["material"], each["polygon"][:-1], 1) for each in scene["section"]["regions"]]
+    drawn += [("PHREATIC", scene["lem"]["water"]["line"], 0), ("TERRAIN", scene["mpm"]["terrain"], 0)]
+    metres = 6
+    groups = [(0, "SECTION"), (2, "HEADER"), (9, "$INSUNITS"), (70, metres), (0, "ENDSEC"), (0, "SECTION"), (2, "ENTITIES")]
+    for layer, line, closed in drawn:
+        groups += [(0, "LWPOLYLINE"), (8, layer), (90, len(line)), (70, closed)]
+        groups += [group for x, y in line for group in ((10, x), (20, y))]
+    (here / "dam.dxf").write_text("".join(f"{code}\n{value}\n" for code, value in [*groups, (0, "ENDSEC"), (0, "EOF")]))
+    shutil.copy(here / "drawn/scene.json", here / "materials.json")
 
 
 def rows(service, run):
@@ -82,6 +114,7 @@ def check_own_dam(service, here):
     section = (here / "my_dam/section.svg").read_text()
     for region in scene["section"]["regions"]:
         check(f"the picture has {region['name']}", f'data-region="{region["name"]}"' in section)
+    check("it stands on clay, above ground that falls", scene["materials"]["clay"] and scene["mpm"]["terrain"][-1][1] < 0)
     report = (here / "my_dam/report.html").read_text()
     check("the report says what is assumed", "assumed: drained strength" in report.replace("&#39;", "'"))
 
@@ -107,8 +140,19 @@ def check_nine_times_in_ten(service, here):
     check("all samples ended with a result", found["samples"]["done"] == found["samples"]["planned"] == 36, found["samples"])
 
 
-checks = {"own_dam": check_own_dam, "earthquake": check_earthquake, "static_liquefaction": check_static_liquefaction,
-          "nine_times_in_ten": check_nine_times_in_ten}
+def check_import_drawing(service, here):
+    [run] = service.call("/v1/runs")["runs"]
+    [row] = service.rows(run["id"])
+    check("the drawn dam stands as built", row["factor_of_safety"] > 1, row)
+    check("and flows past its toe", row["runout_beyond_toe"] > 0, row)
+    check("the grid's wall is where the section ends", "reached_wall" not in run["flag_counts"], run["flag_counts"])
+    report = (here / "my_run.html").read_text()
+    check("the report lists the clay", ">clay<" in report)
+
+
+prepare = {"import_drawing": draw_own_dam}
+checks = {"own_dam": check_own_dam, "import_drawing": check_import_drawing, "earthquake": check_earthquake,
+          "static_liquefaction": check_static_liquefaction, "nine_times_in_ten": check_nine_times_in_ten}
 
 
 def main(page):
@@ -122,9 +166,12 @@ def main(page):
         here = pathlib.Path(folder)
         here.chmod(0o755)  # Slurm walks into it as any user
         looks_like_the_source_tree(here)
+        prepare.get(page, lambda _: None)(here)
         service = Service(here / "var/quickstart")
         try:
-            check_shown(blocks, outputs_of(page, blocks, here, service.url))
+            outputs, times = outputs_of(page, blocks, here, service.url)
+            check_shown(blocks, outputs)
+            check_report(page, blocks, times)
             checks.get(page, lambda *_: None)(service, here)
         finally:
             service.stop()

@@ -115,6 +115,22 @@ void extend(Description& schemas, Description& schema) {
     schema = std::move(whole);
 }
 
+/// examples.json: real calls with their answers, each at its operation.
+void add_examples(Description& paths) {
+    for (const auto& call : Description::parse(examples_text())) {
+        const auto word = [&](const char* entry) { return call.at(entry).get<std::string>(); };
+        const auto add = [&](Description& body, const Description& value) {
+            body["examples"][call.value("name", "example")] = {{"summary", word("call")},
+                                                               {"value", value}};
+        };
+        Description& operation = paths.at(word("path")).at(word("method"));
+        Description& response = operation.at("responses").at(word("status"));
+        add(response.at("content").at(word("media")), call.at("answer"));
+        if (call.contains("body"))
+            add(operation.at("requestBody").at("content").front(), call.at("body"));
+    }
+}
+
 std::string api_description(const Router& router) {
     auto document = Description::parse(openapi_text());
     Description& schemas = document["components"]["schemas"];
@@ -135,6 +151,7 @@ std::string api_description(const Router& router) {
             operation["security"] = json::array({json::object(), {{"bearer", {name_of(right)}}}});
         }
     }
+    add_examples(document["paths"]);
     schemas["SweepRow"] = schema_of_rows(result_columns());
     schemas["SweepMean"] = schema_of_rows(mean_columns());
     return document.dump(1);

@@ -1,4 +1,5 @@
-// The description of this API (OpenAPI 3.1), openapi.json beside this file: part of the program.
+// The description of this API (OpenAPI 3.1) and its examples: openapi.json and examples.json beside this
+// file, part of the program.
 #pragma once
 
 #include <string>
@@ -6,5 +7,6 @@
 namespace breach::orchestrator {
 
 const std::string& openapi_text();
+const std::string& examples_text();
 
 }  // namespace breach::orchestrator

@@ -255,6 +255,7 @@ TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
     const Imported imported = import_section(request);
     ASSERT_EQ(test::told(imported.faults), "");
     EXPECT_EQ(imported.scene.at("mpm").at("runout").at("toe"), json::parse("[80.0,0.0]"));
+    EXPECT_EQ(imported.scene.at("mpm").at("domain_x"), json::parse("[0.0,300.0]"));
     // A centimetre above the base of the section: the soil lies on it all the same.
     request.terrain->bytes = "x,y\n0,0\n50,0.01\n80,-0.01\n300,-6\n";
     const Imported healed = import_section(request);
@@ -263,10 +264,35 @@ TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
     for (const scene::Region& each : scene.section.regions)
         for (const Vec2& vertex : each.polygon)
             EXPECT_GE(vertex.y(), geometry::level_at(scene.mpm->terrain, vertex.x()) - 1e-9);
+    request.terrain->bytes = "x,y\n-0.7,0\n80,0\n300.6,-6\n";
+    const json grid = import_section(request).scene.at("mpm").at("domain_x");
+    EXPECT_EQ(grid, json::parse("[0.0,301.0]")) << "its wall touches the section";
     request.terrain->bytes = "x,y\n0,3\n300,-6\n";
     const Imported cut = import_section(request);
     EXPECT_NE(test::told(cut.faults).find("/mpm/terrain: passes through region"), std::string::npos)
         << test::told(cut.faults);
+}
+
+TEST(Import, MaterialsOfASceneKeepTheLengthThatTheirSofteningHoldsFor) {
+    Request request =
+        test::request(dxf(light("CLAY", test::clay) + light("TAILINGS", test::tailings)));
+    request.terrain = {"terrain.csv", "x,y\n0,0\n80,0\n300,-6\n"};
+    json& tailings = request.materials["tailings"];
+    tailings["law"]["softening"] = {{"epsilon_q_start", 0.01},
+                                    {"epsilon_q_end", 1.0},
+                                    {"c_residual_kPa", 1},
+                                    {"phi_residual_deg", 10}};
+    tailings["nonlocal_length"] = 10.0;
+    const auto length = [&] {
+        const Imported imported = import_section(request);
+        EXPECT_EQ(test::told(imported.faults), "");
+        const json mpm = imported.scene.is_null() ? json::object() : imported.scene.at("mpm");
+        return std::pair(mpm.value("softening_length", 0.0), mpm.value("cell_size", 1.0));
+    };
+    const auto [guessed, cell] = length();
+    EXPECT_EQ(guessed, cell);
+    request.materials = {{"materials", request.materials}, {"mpm", {{"softening_length", 0.7}}}};
+    EXPECT_EQ(length().first, 0.7);
 }
 
 TEST(Import, AGapThatIsOpenToASideIsFoundAlsoUnderLevelGround) {

@@ -1,5 +1,11 @@
 """/openapi.json against the server that serves it: every route of the source is in it and no other, every operation
-answers with a documented status and media type, and every JSON answer fits its schema."""
+answers with a documented status and media type, and every JSON answer fits its schema. Every operation has an example: a real
+call of services/orchestrator/http/examples.json, which is made again with the real phases.
+
+    openapi_test.py --write    makes these calls and writes their answers, shortened, to examples.json
+
+Each call follows those before it. A new one needs method, path, call (the path as it is sent) and status, and its body. An id or
+SHA-256 in it is that of an answer before it."""
 import json
 import os
 import pathlib
@@ -21,6 +27,8 @@ except ImportError:
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 programs = pathlib.Path(os.environ["BREACH_BIN"])
+examples = root / "services/orchestrator/http/examples.json"
+identifier = re.compile(r"[0-9a-z]{26}(-\d+)?|[0-9a-f]{64}")
 
 
 def study(times):
@@ -28,21 +36,48 @@ def study(times):
     return {"format": "breachline-study/1", "name": "described", "scene": scene, "transfer_times": times}
 
 
-class Described(unittest.TestCase):
+def shortened(value, schema, document):
+    """Lists keep their first entries, objects whose entries the schema does not name three, texts their beginning."""
+    kind = "array" if isinstance(value, list) else "object"
+    schema = next((each for each in schema.get("oneOf", ()) if "$ref" in each or each["type"] == kind), schema)
+    while "$ref" in schema:
+        schema = document["components"]["schemas"][schema["$ref"].split("/")[-1]]
+    if isinstance(value, dict):
+        known, others = schema.get("properties", {}), schema.get("additionalProperties") or {}
+        kept = [name for place, name in enumerate(value) if known or place < 3 or name in schema.get("required", ())]
+        return {name: shortened(value[name], known.get(name, others), document) for name in kept}
+    if isinstance(value, list):
+        return [shortened(each, schema.get("items", {}), document) for each in value[:1 if isinstance(value[0], dict) else 3]] if value else []
+    return value if not isinstance(value, str) or len(value) <= 160 else value[:160] + "..."
+
+
+def learn(old, new, known):
+    """Which identifiers of an old answer are which of the new one."""
+    if isinstance(old, dict) and isinstance(new, dict):
+        for name in old.keys() & new.keys():
+            learn(old[name], new[name], known)
+    elif isinstance(old, list) and isinstance(new, list):
+        for pair in zip(old, new):
+            learn(*pair, known)
+    elif isinstance(old, str) and isinstance(new, str) and identifier.fullmatch(new):
+        known.setdefault(old, new)
+
+
+class Api(unittest.TestCase):
+    stand_in = None
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         here = pathlib.Path(cls.folder.name)
         (here / "bin").mkdir()
         for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
-            (here / "bin" / name).symlink_to(programs / "fake_phase")
+            (here / "bin" / name).symlink_to(programs / (cls.stand_in or name))
         cls.service = subprocess.Popen([programs / "breachline", "serve", "--data", here / "data", "--port", "0", "--bin",
                                         here / "bin"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         cls.url = json.loads(cls.service.stdout.readline())["url"]
         cls.document = json.loads(cls.ask("GET", "/openapi.json")[2])
         cls.seen = set()
-        cls.run_id = json.loads(cls.ask("POST", "/v1/runs", study([0.25, 0.5]))[2])["id"]
-        cls.wait()
 
     @classmethod
     def tearDownClass(cls):
@@ -63,13 +98,13 @@ class Described(unittest.TestCase):
             return error.code, error.headers, error.read()
 
     @classmethod
-    def wait(cls, run_id=None):
-        for _ in range(600):
-            run = json.loads(cls.ask("GET", f"/v1/runs/{run_id or cls.run_id}")[2])
-            if run["finished"]:
-                return run
+    def wait(cls):
+        """For the end of all runs."""
+        for _ in range(6000):
+            if all(run["finished"] for run in json.loads(cls.ask("GET", "/v1/runs?limit=500")[2])["runs"]):
+                return
             time.sleep(0.05)
-        raise AssertionError("the run does not end")
+        raise AssertionError("a run does not end")
 
     def check(self, method, template, path, status, body=None, **headers):
         """The answer has this status and is as its operation says."""
@@ -83,6 +118,7 @@ class Described(unittest.TestCase):
         media = answer_headers.get("Content-Type", "").split(";")[0]
         described = response.get("content", {})
         self.assertTrue(media in described or "*/*" in described, f"{method} {path}: {media} is not described")
+        self.media = media if media in described else "*/*"
         if media.endswith("json"):
             self.fits(json.loads(text), described[media]["schema"], f"{method} {path}")
         return text
@@ -91,6 +127,52 @@ class Described(unittest.TestCase):
         resolver = jsonschema.RefResolver.from_schema(self.document)
         faults = list(jsonschema.Draft202012Validator(schema, resolver=resolver).iter_errors(value))
         self.assertFalse(faults, f"{where}: {[f'{list(each.absolute_path)}: {each.message[:200]}' for each in faults[:3]]}")
+
+
+class Examples(Api):
+    def test_1_each_call_is_answered_as_described(self):
+        calls, known = json.loads(examples.read_text()), {}
+        for call in calls:
+            if call["path"] != "/v1/workers":
+                self.wait()
+            text = json.dumps([call["call"], call.get("body")])
+            for old in sorted(known, key=len, reverse=True):
+                text = text.replace(old, known[old])
+            path, body = json.loads(text)
+            raw = isinstance(body, str)
+            answer = self.check(call["method"].upper(), call["path"], path, int(call["status"]), body.encode() if raw else body,
+                                **({"Content-Type": "application/octet-stream"} if raw else {}))
+            if self.media.endswith("json"):
+                answer = json.loads(answer)
+            else:  # arrays follow the first line of frames
+                answer = (answer if self.media.startswith("text") else answer.split(b"\n")[0]).decode()
+            learn(call.get("answer"), answer, known)
+            schema = self.document["paths"][call["path"]][call["method"]]["responses"][call["status"]]["content"][self.media].get("schema", {})
+            call.update(call=path, media=self.media, body=body, answer=shortened(answer, schema, self.document))
+        if "--write" in sys.argv:
+            order = ("method", "path", "call", "status", "name", "media", "body", "answer")
+            lines = [json.dumps({each: call[each] for each in order if call.get(each) is not None}) for call in calls]
+            examples.write_text("[\n " + ",\n ".join(lines).replace(', "body": ', ',\n  "body": ').replace(', "answer": ', ',\n  "answer": ') + "\n]\n")
+
+    def test_2_each_operation_has_an_example_as_it_describes(self):
+        for path, methods in self.document["paths"].items():
+            for method, operation in methods.items():
+                answers = [media for each in operation["responses"].values() for media in each.get("content", {}).values()]
+                for bodies in (answers, list(operation.get("requestBody", {}).get("content", {}).values())):
+                    shown = [(media, each["value"]) for media in bodies for each in media.get("examples", {}).values()]
+                    self.assertTrue(shown or not bodies, f"{method} {path}: http/examples.json has no example of it")
+                    for media, value in shown:
+                        self.fits(value, media.get("schema", {}), f"the example of {method} {path}")
+
+
+class Described(Api):
+    stand_in = "fake_phase"
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.run_id = json.loads(cls.ask("POST", "/v1/runs", study([0.25, 0.5]))[2])["id"]
+        cls.wait()
 
     def read_back(self, document):
         """By a reader of PROV-JSON that is not ours: what is related is what is described."""
@@ -197,7 +279,7 @@ class Described(unittest.TestCase):
         referring = json.loads(post("/v1/runs", "/v1/runs", 202, {**study([0.5]), "scene": "scene:slope"}))["id"]
         self.assertEqual(json.loads(get("/v1/runs/{id}", f"/v1/runs/{referring}"))["scene_from"]["sha256"], kept[0]["sha256"])
         self.check("DELETE", "/v1/scenes/{scene}", "/v1/scenes/slope", 409)
-        self.wait(referring)
+        self.wait()
         self.check("DELETE", "/v1/runs/{id}", f"/v1/runs/{referring}", 202)
         self.check("DELETE", "/v1/scenes/{scene}", "/v1/scenes/slope", 202)
         get("/v1/scenes/{scene}", "/v1/scenes/slope", 404)
@@ -214,11 +296,11 @@ class Described(unittest.TestCase):
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy?asked_error=0.1")
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{accurate}/accuracy?asked_error=0", 400)
         get("/v1/runs/{id}/accuracy", f"/v1/runs/{run}/accuracy", 404)
-        self.wait(accurate)
+        self.wait()
         drawn = {**study([0.5]), "uncertainty": {"samples": 6, "parameters": [
             {"name": "strength", "sets": ["/mpm/cfl"], "distribution": {"type": "uniform", "from": 0.3, "to": 0.5}}]}}
         uncertain = json.loads(post("/v1/runs", "/v1/runs", 202, drawn))["id"]
-        self.wait(uncertain)
+        self.wait()
         route = "/v1/runs/{id}/uncertainty"
         get(route, f"/v1/runs/{uncertain}/uncertainty")
         get(route, f"/v1/runs/{uncertain}/uncertainty?quantity=runout")
@@ -286,4 +368,4 @@ class Described(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], failfast=True)
+    unittest.main(argv=[*sys.argv[:1], *(["Examples.test_1_each_call_is_answered_as_described"] if "--write" in sys.argv else [])], failfast=True)
