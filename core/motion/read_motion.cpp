@@ -286,6 +286,42 @@ std::optional<Unit> unit_of_columns(const std::string& header) {
     return unit_of_column(header.substr(parted + 1));
 }
 
+constexpr const char* comment_remedy =
+    "write e.g. # acceleration in m/s2, or take the comment out where the values are in g; units "
+    "are ";
+
+/// Of a comment or a header above two columns. Two of them must not name different units.
+void take_unit(std::optional<Unit>& unit, const std::string& text, const std::string& name,
+               std::size_t line) {
+    const auto columns = unit_of_columns(trimmed(text));
+    const Named named = columns ? Named{columns, ""} : unit_in_comment(text);
+    if (!named.unknown.empty())
+        reject(name, line, "names no unit that is known: " + in_quotes(trimmed(text)),
+               comment_remedy + std::string(known_units));
+    if (!named.unit) return;
+    if (unit && !(*unit == *named.unit))
+        reject(name, line, "names another unit than a line before it: " + in_quotes(trimmed(text)),
+               "leave the unit of the values only");
+    unit = named.unit;
+}
+
+/// "time acceleration(m/s2)": the first word is no number, and begins as none.
+bool is_header(const std::string& line) {
+    const std::vector<std::string> words = words_of(line);
+    return words.size() > 1 && std::isalpha(static_cast<unsigned char>(line.front())) != 0 &&
+           std::ranges::none_of(words,
+                                [](const auto& word) { return number_from(word).has_value(); });
+}
+
+void take_unit_of_header(std::optional<Unit>& unit, const std::string& text,
+                         const std::string& name, std::size_t line) {
+    take_unit(unit, text, name, line);
+    if (!unit)
+        reject(name, line, "is a header that names no known unit: " + in_quotes(text),
+               "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, "
+               "velocity_m_s, velocity_cm_s)");
+}
+
 enum class Form { peer, csv, two_columns };
 
 /// What the first lines look like; where they do not tell, the file's ending says it.
@@ -343,12 +379,19 @@ Recording read_two_columns(std::istream& in, const std::string& name) {
     Lines lines{in, name};
     Samples samples;
     Values values;
+    std::optional<Unit> unit;
+    bool headed = false;
     for (std::string line; lines.next(line);) {
-        if (line.empty() || line.front() == '#') continue;
-        add_sample(samples, values.of(line), name, lines.number);
+        if (line.empty()) continue;
+        if (line.front() == '#')
+            take_unit(unit, line.substr(1), name, lines.number);
+        else if (samples.time.empty() && !headed && (headed = is_header(line)))
+            take_unit_of_header(unit, line, name, lines.number);
+        else
+            add_sample(samples, values.of(line), name, lines.number);
     }
-    return {Quantity::acceleration, series_from(samples, standard_gravity, name, lines.number),
-            name};
+    const Unit of_values = unit.value_or(Unit{Quantity::acceleration, standard_gravity});
+    return {of_values.quantity, series_from(samples, of_values.factor, name, lines.number), name};
 }
 
 Recording read_csv(std::istream& in, const std::string& name) {

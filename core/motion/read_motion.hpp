@@ -26,8 +26,9 @@ Recording read_motion(const std::filesystem::path& file);
 /// unit. Then values, any number per line.
 Recording read_peer(std::istream& in, const std::string& name);
 
-/// Time [s] and acceleration [g] per line, blanks, tabs, a semicolon or a comma between; lines
-/// starting with # are skipped. Times may be rounded or cut off after their last digit.
+/// Time [s] and acceleration [g] per line, blanks, tabs, a semicolon or a comma between. Another unit
+/// is that which lines starting with #, or one header, name (units.hpp). Times may be rounded or cut
+/// off after their last digit.
 Recording read_two_columns(std::istream& in, const std::string& name);
 
 /// A header `time_s,acceleration_g` (or acceleration_m_s2, velocity_cm_s: units.hpp), then rows as

@@ -73,6 +73,62 @@ TEST(TwoColumns, AreTimeAndAccelerationInG) {
     EXPECT_EQ(fault_of(read_two_columns, "0.01 1\n0.02 1\n"), "line 1: the first time is not zero");
 }
 
+TEST(TwoColumns, HaveTheUnitThatACommentNames) {
+    const std::string rows = "0 1\n0.01 2\n";
+    const auto read = [&](const std::string& comment) {
+        std::istringstream in(comment + "\n" + rows);
+        const Recording r = read_two_columns(in, "file");
+        return std::pair(0.5 * r.series.values.at(1), r.quantity);
+    };
+    const std::pair<const char*, double> accelerations[] = {
+        {"# time [s] acceleration [m/s2]", 1.0},
+        {"# time [s], acceleration [m/s²]", 1.0},
+        {"# acceleration in cm/s2\n# dt 0.01", 0.01},
+        {"# acceleration in cm/s2, g = 981 cm/s2", 0.01},
+        {"# time_s,acceleration_m_s2", 1.0},
+        {"# t [s]  a [m/s^2]", 1.0},
+        {"# units: gal", 0.01},
+        {"# Units: s, m/s2", 1.0},
+        {"# acc. (cm/sec/sec), PGA in g", 0.01},
+        {"# acceleration in 0.01 g", 0.0980665},
+        {"# cm/s2", 0.01},
+        {"# acceleration in m/s2 scaled to a PGA of 0.3 g", 1.0},
+        {"time acceleration(m/s2)", 1.0},
+        // as ever
+        {"# made up", standard_gravity},
+        {"# time [s] acceleration [g]", standard_gravity},
+        {"# Units: sec, g", standard_gravity},
+        {"# PGA 0.3 g, PGV 25.6 cm/s, Arias intensity 1.33 m/s", standard_gravity},
+        {"# PGV in cm/s: 25; M 6.5 at 12 km, depth in m", standard_gravity},
+        {"# acceleration in the direction of the valley", standard_gravity},
+        {"# acceleration (corrected), Vs30 (m/s): 760", standard_gravity},
+        {"# acceleration_x in g", standard_gravity},
+        {"# record scaled to 0.3 g", standard_gravity},
+        {"# t a", standard_gravity},
+        {"# time (s); acceleration (g), g = 9.81 m/s2", standard_gravity},
+    };
+    for (const auto& [comment, factor] : accelerations) {
+        SCOPED_TRACE(comment);
+        const auto [value, quantity] = read(comment);
+        EXPECT_DOUBLE_EQ(value, factor);
+        EXPECT_EQ(quantity, Quantity::acceleration);
+    }
+    EXPECT_EQ(read("# time (s) velocity (cm/s)"), std::pair(0.01, Quantity::velocity));
+    for (const char* comment :
+         {"# acceleration in mg", "# acceleration [mg]", "# acceleration (counts)",
+          "# units: counts", "# Units: SI", "# acceleration in % g", "# time [ms] acceleration [g]",
+          "# time_ms,acceleration_g", "# acceleration_mg", "# acceleration in hundredths of g",
+          "# acceleration in g scaled by 10", "# acceleration in cm/s",
+          "# converted: cm/s2 and g, acceleration in g and m/s2"}) {
+        EXPECT_EQ(fault_of(read_two_columns, "# a\n" + std::string(comment) + "\n" + rows),
+                  "line 2: names no unit that is known: \"" + std::string(comment).substr(2) + '"');
+    }
+    EXPECT_EQ(fault_of(read_two_columns, "# acceleration in g\n# record in gal\n" + rows),
+              "line 2: names another unit than a line before it: \"record in gal\"");
+    EXPECT_EQ(fault_of(read_two_columns, "time acceleration\n" + rows),
+              "line 1: is a header that names no known unit: \"time acceleration\"");
+}
+
 TEST(Csv, CarriesItsUnitInTheHeader) {
     const std::string rows = "0,1\n0.5,2\n";
     const auto second = [&](const std::string& head) {
@@ -155,6 +211,7 @@ TEST(Unit, IsAWholeWordOfTheHeader) {
         {"ACCELERATION IN UNITS OF IN/S2", 0.0254},
         {"ACCELERATION IN UNITS OF FT/SEC2", 0.3048},
         {"ACCELERATION AT 12 M DEPTH IN G", 9.80665},
+        {"ACCELERATION IN UNITS OF G FILTER POINTS HP=0.5", 9.80665},
         {"COMMUNITY HALL, ACCELERATION IN UNITS OF GAL", 0.01},
     };
     for (const auto& [text, factor] : accelerations) {
@@ -169,15 +226,31 @@ TEST(Unit, IsAWholeWordOfTheHeader) {
 }
 
 TEST(Unit, ThatIsNoneOfTheListIsRefused) {
-    for (const char* text :
-         {"ACCELERATION TIME SERIES IN UNITS OF MG", "ACCELERATION TIME SERIES IN UNITS OF MILLI G",
-          "ACCELERATION TIME SERIES IN UNITS OF % G", "ACCELERATION IN UNITS OF GRAINS",
-          "ACCELERATION IN UNITS OF G 1/10", "ACCELERATION IN UNITS OF G (X 10)",
-          "ACCELERATION IN UNITS OF G/0", "ACCELERATION IN UNITS OF G/TEN",
-          "ACCELERATION IN UNITS OF CM/S", "ACCELERATION IN UNITS OF KM/S2",
-          "ACCELERATION IN UNITS OF CM/S3", "VELOCITY IN UNITS OF G", "ACCELERATION",
-          "ACCELERATION IN 0.1 G", "ACCELERATION IN G AND CM/S2", "ACCELERATION COUNTS",
-          "ACCELERATION IN G, VELOCITY IN CM/S"})
+    for (const char* text : {"ACCELERATION TIME SERIES IN UNITS OF MG",
+                             "ACCELERATION TIME SERIES IN UNITS OF MILLI G",
+                             "ACCELERATION TIME SERIES IN UNITS OF % G",
+                             "ACCELERATION IN UNITS OF GRAINS",
+                             "ACCELERATION IN UNITS OF G 1/10",
+                             "ACCELERATION IN UNITS OF G (X 10)",
+                             "ACCELERATION IN UNITS OF G/0",
+                             "ACCELERATION IN UNITS OF G/TEN",
+                             "ACCELERATION IN UNITS OF CM/S",
+                             "ACCELERATION IN UNITS OF KM/S2",
+                             "ACCELERATION IN UNITS OF CM/S3",
+                             "VELOCITY IN UNITS OF G",
+                             "ACCELERATION",
+                             "ACCELERATION IN 0.1 G",
+                             "ACCELERATION IN G AND CM/S2",
+                             "ACCELERATION COUNTS",
+                             "ACCELERATION IN G, VELOCITY IN CM/S",
+                             "ACCELERATION IN UNITS OF G HUNDREDTHS",
+                             "ACCELERATION IN UNITS OF G TENTHS",
+                             "ACCELERATION IN UNITS OF G SCALED BY 10",
+                             "ACCELERATION IN UNITS OF G, SCALED BY 10",
+                             "ACCELERATION IN UNITS OF G MULTIPLIED BY 10",
+                             "ACCELERATION IN UNITS OF G DOZENS",
+                             "ACCELERATION IN HUNDREDTHS OF G",
+                             "ACCELERATION IN TEN G"})
         EXPECT_EQ(unit_of(text).first, 0.0) << text;
 }
 
