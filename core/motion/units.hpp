@@ -1,4 +1,4 @@
-// Units of a motion as a header or a column's name gives them: whole words of a closed list.
+// Units of a motion in a header or a column's name: whole words of a closed list.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct Unit {
     double factor;  ///< to SI
 };
 
-/// Of a line such as "ACCELERATION TIME SERIES IN UNITS OF CM/S/S": the unit behind "UNITS OF",
+/// From a line such as "ACCELERATION TIME SERIES IN UNITS OF CM/S/S": the unit behind "UNITS OF",
 /// otherwise the only unit in it. A unit may have a scale ("G/10", "0.01 G"). Where the line names
 /// quantities, the unit must be one of theirs. Nothing for any other line.
 std::optional<Unit> unit_in_header(const std::string& header);
@@ -23,7 +23,7 @@ std::optional<Unit> unit_of_column(const std::string& name);
 /// "time_s", "Time (sec)", "t"
 bool is_time_column(const std::string& name);
 
-/// What a remedy lists.
+/// The units that a remedy lists.
 inline constexpr const char* known_units =
     "G, GAL, CM/S2, M/S2, MM/S2, IN/S2 or FT/S2 for an acceleration; CM/S, M/S, MM/S, IN/S or FT/S "
     "for a velocity; a scale as in G/10";
