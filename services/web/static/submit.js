@@ -92,7 +92,7 @@ export class SubmitDialog {
         this.pane.take(text);
     }
 
-    /// By whom and whatever.
+    /// Called after every change of the text.
     changed(text) {
         this.show_text(text);
         this.show_mended();

@@ -33,7 +33,7 @@ Line jittered(Line ring, std::mt19937& random, double by) {
     return ring;
 }
 
-/// Which regions meet at a vertex, over all vertices: what a conforming mesh hangs on.
+/// Which regions meet at each vertex: a conforming mesh depends on it.
 std::multiset<std::set<std::string>> meetings(const std::vector<Soil>& soils) {
     std::map<std::pair<double, double>, std::set<std::string>> at;
     for (const Soil& each : soils)

@@ -1,4 +1,4 @@
-// The protocol of a call that walks: whatever a law answers, a call comes to an end.
+// The protocol of a call that walks: a call ends for any answer of the law.
 #include <gtest/gtest.h>
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The default scheme along a strain path: what comes out does not hang on how the path is cut into
+// The default scheme along a strain path: results do not depend on how the path is cut into
 // calls, nor its reversals on the tolerance.
 #include <gtest/gtest.h>
 

@@ -100,7 +100,7 @@ TEST(Convergence, WithoutAnOrderTheFinestIsOffByTheIndexForTwoGrids) {
     EXPECT_FALSE(convergence_of(two).gci);
 }
 
-/// A course that rests on no sizes tells the same of the finest rung whatever they are.
+/// If a course uses no sizes, its error of the finest rung does not depend on them.
 TEST(Convergence, SizesDoNotMatterWhereTheCourseRestsOnNone) {
     const auto with_middle = [](double middle, const std::array<double, 3>& values) {
         return convergence_of(
@@ -130,8 +130,8 @@ TEST(Convergence, TwoRungsHaveNoOrder) {
 }
 
 TEST(Convergence, ADifferenceBelowTheNoiseIsNotToldAsAnOrder) {
-    // Differences 3 and 1; the mean of 4 runs that scatter by 1, of 9 degrees of freedom, is told
-    // apart from 2.262 / sqrt 2 on (Student's 97.5 % by any table).
+    // Differences 3 and 1; the mean of 4 runs that scatter by 1, with 9 degrees of freedom, is
+    // distinguished from 2.262 / sqrt 2 on (Student's 97.5 % by any table).
     const auto with_noise = [](double deviation) {
         return convergence_of(std::array{rung(4, 14.0, deviation, 4), rung(2, 11.0, deviation, 4),
                                          rung(1, 10.0, deviation, 4)});

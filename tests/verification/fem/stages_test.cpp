@@ -1,5 +1,5 @@
 // Stages that change the body, against closed forms of an elastic column: a lift, an excavation, a
-// surcharge, a support that lets go; and what cannot be.
+// surcharge, the removal of a support; and stages that are refused.
 #include <cmath>
 
 #include "core/exchange/excess_pressure.hpp"

@@ -1,4 +1,4 @@
-// Which fields come over exactly, whatever the mesh.
+// Fields that are transferred exactly on any mesh.
 #include <gtest/gtest.h>
 
 #include "tests/verification/transfer/meshes.hpp"
