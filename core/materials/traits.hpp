@@ -20,7 +20,7 @@ struct Traits {
     bool frictional;   ///< its strength depends on the effective stress
     bool c_and_phi;    ///< its strength is given by two entries; see strength_entries
     bool symmetric_tangent;     ///< the tangent that statics near collapse needs is symmetric
-    bool tells_plastic_strain;  ///< knows which part of a strain is plastic; otherwise all of it counts
+    bool tells_plastic_strain;  ///< knows which part of a strain is plastic; else all of it counts
 };
 
 /// Where a law's strength can be changed; null where it has no such entry.

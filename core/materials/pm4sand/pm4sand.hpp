@@ -145,7 +145,7 @@ struct Counts {
     int evaluations = 0;
     int sub_steps = 0;
     int rejected = 0;
-    int forced = 0;     ///< sub-steps accepted at the smallest size although their error is too large
+    int forced = 0;     ///< sub-steps accepted at the smallest size with too large an error
     int projected = 0;  ///< stress taken back to the bounding surface
     int softened = 0;   ///< multiplier's denominator at or below its floor
     int stalled = 0;    ///< mean stress held at its floor
