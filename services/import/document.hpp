@@ -1,4 +1,4 @@
-// Healed soils and lines as a scene document, with what had to be guessed.
+// Healed soils and lines as a scene document, with the guessed entries.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -19,7 +19,7 @@ struct Document {
     std::optional<Slope> slope;
 };
 
-/// /section always; /lem where the ground has a slope; /mpm where a terrain was drawn, its cells this
+/// Always /section; /lem if the ground has a slope; /mpm if a terrain was drawn, with cells of this
 /// share of an element.
 Document document_of(const std::string& name, const nlohmann::json& materials,
                      const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);

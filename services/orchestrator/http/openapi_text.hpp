@@ -1,4 +1,4 @@
-// The description of this API (OpenAPI 3.1), openapi.json beside this file: part of the program.
+// The description of this API (OpenAPI 3.1), openapi.json beside this file: built into the program.
 #pragma once
 
 #include <string>
