@@ -15,7 +15,7 @@ struct Cut {
                        ///< less than another one [m]
     double nearest;    ///< places of the cut nearer than this to a vertex are moved to it [m]
     double
-        thinnest;  ///< a thinner piece is merged with its neighbour on the same side of the line with
+        thinnest;  ///< a thinner piece is merged with a neighbour on the same side of the line with
                    ///< the longest common border, else with one across the line [m]
 };
 
