@@ -130,7 +130,7 @@ class Newton {
     WaterShare water_share(const PorousElement& each, const StepProblem& problem,
                            const Motion& trial) const;
     std::vector<WaterShare> of_water_;  ///< scratch, per saturated element
-    double water_rounding_ = 0.0;   ///< round-off from differences of large numbers in its terms [m3/s]
+    double water_rounding_ = 0.0;   ///< what its terms lose in differences of large numbers [m3/s]
     Eigen::VectorXd share_of_dof_;  ///< only with thick columns: 1 / thickness, per dof [-]
     Eigen::VectorXd share_;         ///< the same per unknown; ones without columns
     Eigen::VectorXd residual_;      ///< right side over the unknowns
