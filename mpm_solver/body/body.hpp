@@ -25,7 +25,7 @@ struct Tally {
     /// Of the points at the end of the step; not finite when any velocity is not [J]
     double kinetic = 0.0;
     double fastest = 0.0;  ///< largest speed of a point [m/s]
-    double strayed = 0.0;  ///< largest distance of a point from its last sorted place, per axis [cells]
+    double strayed = 0.0;  ///< largest distance of a point from its sorted place, per axis [cells]
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::size_t lost = none;  ///< a point that left the grid or is NaN
 };
