@@ -109,7 +109,7 @@ TEST(Heal, WhatIsWiderThanTheToleranceIsAFaultAtItsPlace) {
     EXPECT_TRUE(healed(soils, 0.35).faults.empty());
 }
 
-TEST(Heal, TwiceDrawnVerticesSpikesAndSenseAreMendedAndTold) {
+TEST(Heal, TwiceDrawnVerticesSpikesAndSenseAreHealedAndReported) {
     const Healed result = healed(
         {soil("clay", {{0, 5}, {10, 5}, {10, 5}, {10, 0}, {13, 0}, {10, 0.001}, {10, 0}, {0, 0}})},
         0.05);

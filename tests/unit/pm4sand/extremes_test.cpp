@@ -117,7 +117,7 @@ TEST(Pm4SandExtremes, PressureMayVanishAndComeBack) {
 
 /// In a folded mesh an element may report that its soil has expanded to eight times its volume: M_b
 /// of the formula is then below m, and a projection onto it used to turn alpha without end.
-TEST(Pm4SandExtremes, SoilThatHasOpenedToNothingGoesOn) {
+TEST(Pm4SandExtremes, SoilThatHasExpandedWithoutLimitGoesOn) {
     const Ready law = ready(soil("embankment"));
     std::mt19937 random(1033);
     std::normal_distribution<double> normal;

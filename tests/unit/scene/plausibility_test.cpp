@@ -216,7 +216,7 @@ TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
     }
 }
 
-TEST(Plausibility, AFaultIsToldOfTheDoubtThatExplainsIt) {
+TEST(Plausibility, AFaultMentionsTheWarningThatExplainsIt) {
     // phi in radians below psi in degrees: the fault alone would send the reader to psi.
     const json document = with({"/materials/fill/law/phi_deg", "0.5585", Caught::refused, ""});
     try {

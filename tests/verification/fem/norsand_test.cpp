@@ -142,7 +142,7 @@ TEST(NorSandInTheMesh, AnElementCompressedUndrainedGivesThePointsPath) {
     }
 }
 
-TEST(NorSandInTheMesh, TellsThePeakWhereTheShearStressPassesIt) {
+TEST(NorSandInTheMesh, ReportsThePeakWhereTheShearStressPassesIt) {
     Element element("ssp");
     double past = 0.0, peak_at = 0.0, largest_q = 0.0;
     for (int n = 1; n <= 500; ++n) {
