@@ -1,5 +1,5 @@
-// Finds parameters of PM4Sand whose undrained strengths meet targets while their cyclic strength
-// stays that of a reference soil (the calibration of Sordo et al. made automatic) or meets measured
+// Finds parameters of PM4Sand with undrained strengths that meet targets and a cyclic strength that
+// stays that of a reference soil (automates the calibration of Sordo et al.) or meets measured
 // curves. Deterministic.
 #pragma once
 
@@ -33,7 +33,7 @@ struct CyclicTarget {
     double weight = 1.0;        ///< of its share in the misfit
 };
 
-/// A parameter that may move; found by its name in SandParameters.
+/// A parameter to be varied; identified by its name in SandParameters.
 struct FreeParameter {
     std::string name;
     double least, most;
@@ -41,7 +41,7 @@ struct FreeParameter {
 
 struct CalibrationProblem {
     SandParameters start;
-    std::optional<SandParameters> reference;  ///< of targets that were not measured
+    std::optional<SandParameters> reference;  ///< for targets that were not measured
     std::vector<FreeParameter> free;
     std::vector<StrengthTarget> strength;
     std::vector<CyclicTarget> cyclic;
@@ -103,7 +103,7 @@ struct CalibrationResult {
 };
 
 /// Damped Gauss-Newton in the logarithms of the parameters, then Nelder and Mead's simplex around
-/// its result. `seen` is told of each evaluation (for progress); it may be empty.
+/// its result. Calls `seen` after each evaluation (for progress); it may be empty.
 CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen = {});
 

@@ -480,7 +480,7 @@ Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, do
 
 namespace {
 
-/// How far the stress of a point that has not been strained lies outside what its law bears [Pa].
+/// How far the stress of an unstrained point lies outside the law's yield surface [Pa].
 double outside(const PlainPoint& point) {
     const double excess = std::visit(
         [&](const auto& law) { return materials::yield_excess(law, point.state); }, point.law);

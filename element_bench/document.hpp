@@ -1,5 +1,5 @@
 // An element-test document (workflows/schema/element_test.schema.json) read into plain structs, SI
-// and radians. The only file here that knows its keys.
+// and radians. Only this file knows its keys.
 #pragma once
 
 #include <map>
@@ -16,7 +16,7 @@
 
 namespace breach::element_bench {
 
-/// A law that has not seen a stress yet.
+/// A law in its initial state.
 struct SandLaw {
     SandParameters parameters;
     materials::pm4sand::Options options;
@@ -27,7 +27,7 @@ struct NorSandLaw {
 };
 using TestLaw = std::variant<PlainLaw, SandLaw, NorSandLaw>;
 
-/// What NorSand needs to know of a test.
+/// Parameters of a test for NorSand.
 struct NorSandTest {
     scene::NorSandStart start;
     double S;  ///< additional softening
@@ -74,8 +74,8 @@ struct Bench {
     std::optional<CalibrationProblem> calibration;
 };
 
-/// Reads, completes and checks the document; PM4Sand's defaults are written into it. The scene that
-/// comes back carries the name and the completed text only. Throws BadInput with every fault.
+/// Reads, completes and checks the document; adds PM4Sand's defaults. The returned scene contains
+/// the name and the completed text only. Throws BadInput with every fault.
 scene::Scene read_document(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides);
 
@@ -85,7 +85,7 @@ Bench bench_of(const scene::Scene& scene);
 /// A specimen of the law consolidated to sigma_v [Pa].
 Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, double sigma_v);
 
-/// What is possible and doubtful in the tests: flags of the result.
+/// Flags of the result for possible but implausible entries of the tests.
 std::vector<fault::Flag> warnings_of(const Bench& bench);
 
 }  // namespace breach::element_bench

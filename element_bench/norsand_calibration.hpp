@@ -1,7 +1,7 @@
-// Parameters of NorSand from triaxial compression tests: the critical state line from their ends, M_tc,
-// N and chi_tc from their peaks, the hardening from their curves. What such readings miss (a test stops
-// short of its critical state, D_min is not quite chi_i psi_i) is what they miss of the law's own curves,
-// read in the same way, and is added (indirect inference: Gourieroux, Monfort & Renault 1993).
+// Parameters of NorSand from triaxial compression tests: the critical state line from their ends, M_tc, N
+// and chi_tc from their peaks, the hardening from their curves. Such readings are biased (a test stops
+// short of its critical state, D_min is not quite chi_i psi_i). The bias is measured on the law's own
+// curves, read in the same way, and corrected (indirect inference: Gourieroux, Monfort & Renault 1993).
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace breach::element_bench {
 
-/// What is sought, by number; in a room of its own, for the letters are everybody's.
+/// Indices of the calibrated parameters; in a namespace of their own because of the short names.
 namespace sought {
 enum Name { Gamma, lambda, M_tc, N, chi_tc, H_0, H_psi };
 inline constexpr std::array names{"Gamma", "lambda", "M_tc", "N", "chi_tc", "H_0", "H_psi"};
@@ -26,11 +26,11 @@ using OfEach = std::array<T, sought::names.size()>;
 struct NorSandProblem {
     materials::norsand::Parameters law;  ///< elasticity, S of undrained tests, flow, p_min
     materials::norsand::Options options;
-    OfEach<std::optional<double>> given{};  ///< not sought
+    OfEach<std::optional<double>> given{};  ///< given, so not calibrated
     std::vector<TriaxialTest> tests;
 };
 
-/// assumed: neither given nor held by the tests, a usual value.
+/// assumed: neither given nor determined by the tests, a usual value.
 enum class Origin { fitted, given, assumed };
 constexpr auto words_of(Origin) {
     using enum Origin;
@@ -39,9 +39,9 @@ constexpr auto words_of(Origin) {
 
 struct Estimate {
     double value;
-    std::optional<double> error;  ///< standard error; nothing where tests are too few for one
+    std::optional<double> error;  ///< standard error; nothing: too few tests
     Origin origin;
-    std::vector<std::size_t> tests;  ///< that it was read from
+    std::vector<std::size_t> tests;  ///< tests that determine it
 };
 
 struct TestFit {
@@ -62,7 +62,7 @@ struct NorSandFit {
     std::vector<fault::Flag> flags;
 };
 
-/// `seen` is told of each round and the largest change in it; it may be empty.
+/// Calls `seen` after each round with the largest change; it may be empty.
 NorSandFit calibrate(const NorSandProblem& problem,
                      const std::function<void(int, double)>& seen = {});
 

@@ -11,14 +11,14 @@
 
 namespace breach::element_bench {
 
-/// Puts the columns of every test's file into its entry, as `measured`.
+/// Adds the columns of every test's file to its entry, as `measured`.
 void take_in_triaxial_files(nlohmann::json& entry, const std::filesystem::path& folder,
                             std::vector<fault::Fault>& faults);
 
 /// The problem of a completed entry.
 NorSandProblem norsand_problem_of(const nlohmann::json& entry);
 
-/// The law that was found as a document writes it.
+/// The calibrated law as a document's entry.
 nlohmann::json law_entry_of(const nlohmann::json& entry, const NorSandFit& fit);
 
 }  // namespace breach::element_bench

@@ -1,4 +1,4 @@
-// What `fem_solver calibrate` does with a document that seeks NorSand.
+// `fem_solver calibrate` for documents with NorSand.
 #pragma once
 
 #include "core/exchange/archive.hpp"
@@ -12,7 +12,7 @@ exchange::Archive empty_archive();
 bool seeks_norsand(const scene::Scene& scene);
 process::Plan norsand_calibration_plan(const scene::Scene& scene);
 
-/// result.json (parameters with errors, what each test says) and element_tests.h5: columns named
+/// result.json (parameters with errors, results by test) and element_tests.h5: columns named
 /// `<test>.measured.<column>` and `<test>.computed.<column>`.
 process::Outcome run_norsand_calibration(process::Session& session);
 

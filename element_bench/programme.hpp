@@ -18,7 +18,7 @@ struct Reading {
     double epsilon_v;  ///< compression positive
     double r_u;        ///< 1 - sigma_yy / sigma_yy at the start; excess pore pressure ratio
     double cycles;     ///< cycle count, 0 in monotonic tests
-    std::optional<materials::norsand::State> norsand;  ///< what a point of NorSand remembers
+    std::optional<materials::norsand::State> norsand;  ///< memory of a point of NorSand
 };
 
 struct Record {
@@ -31,7 +31,7 @@ struct Record {
     Counts counts;
 };
 
-/// How strain goes on and how much of it is written down.
+/// Size of the strain increments, and the number of recorded ones.
 struct Pace {
     double step;    ///< strain per call
     int every = 1;  ///< readings every so many calls; 0: only first and last
@@ -40,14 +40,14 @@ struct Pace {
 /// Drives the strain to `target` in equal steps.
 Record monotonic(const Specimen& start, Boundary boundary, double target, const Pace& pace);
 
-/// What ends a cyclic test.
+/// Limits that end a cyclic test.
 struct Limit {
     double strain = 0.03;  ///< single amplitude of the driven strain
     double r_u = 2.0;      ///< excess pore pressure ratio; above 1: never
     int cycles = 200;
 };
 
-/// A cyclic test whose stress turns round at mean +- amplitude [Pa].
+/// A cyclic test with stress reversals at mean +- amplitude [Pa].
 struct CyclicStress {
     double amplitude;
     std::optional<double> mean{};  ///< nothing: the response at the start
@@ -63,7 +63,7 @@ struct CyclicResult {
 
 /// Stress-reversed cycles. N counts as for a sine stress of unit period and never falls: when the
 /// specimen flows and cannot carry the amplitude, N stays at the phase of its last peak. The
-/// reversal lies on the target to 1e-9 of the amplitude.
+/// reversal is at the target to 1e-9 of the amplitude.
 CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const CyclicStress& load,
                            const Limit& limit, const Pace& pace);
 
@@ -75,7 +75,7 @@ struct Loop {
     double amplitude;  ///< strain
     /// [Pa]; nothing where the specimen stopped before the loop's end
     std::optional<double> G_secant;
-    /// energy lost / (4 pi energy stored) [-]; nothing also where no stress is left to store it
+    /// energy lost / (4 pi energy stored) [-]; nothing also without a stress that stores energy
     std::optional<double> damping;
 };
 

@@ -1,5 +1,5 @@
-// One material point in the laboratory: any law behind one pure interface, and the few kinds of boundary
-// that element tests have. No test programme in here.
+// One material point in the laboratory: any law behind one pure interface, and the boundary conditions
+// of element tests. No test programmes here.
 #pragma once
 
 #include <variant>
@@ -45,12 +45,12 @@ struct Specimen {
     double epsilon_yy = 0.0;  ///< vertical strain since the start, compression positive
 };
 
-/// The point where the specimen is of NorSand, or null.
+/// The point of a specimen of NorSand, otherwise null.
 inline const NorSandPoint* norsand_in(const Specimen& specimen) {
     return std::get_if<NorSandPoint>(&specimen.point);
 }
 
-/// What calls of a law with memory cost.
+/// Cost of calls of a law with memory.
 struct Counts {
     materials::pm4sand::Counts sand;
     materials::norsand::Counts norsand;
@@ -80,7 +80,7 @@ struct Trial {
 /// Strains the specimen by d_epsilon [-, tension positive, engineering shear].
 Trial strained(const Specimen& specimen, const Voigt& d_epsilon);
 
-/// What is held while the driven strain goes on.
+/// The stresses and strains held while the driven strain increases.
 enum class Boundary {
     undrained_shear,        ///< gamma driven, epsilon_xx = epsilon_yy = 0
     drained_shear,          ///< gamma driven, epsilon_xx = 0, sigma_yy held
@@ -104,10 +104,10 @@ constexpr auto words_of(Boundary) {
                                       {drained_extension, "drained_extension"}});
 }
 
-/// Which strain a boundary drives.
+/// The strain that a boundary drives.
 enum class Drives { shear, compression, extension };
 Drives drives(Boundary boundary);
-/// Whether epsilon_zz goes with epsilon_xx instead of being none.
+/// Whether epsilon_zz equals epsilon_xx instead of being zero.
 bool is_triaxial(Boundary boundary);
 /// Whether volume is free to change.
 bool is_drained(Boundary boundary);
@@ -116,13 +116,13 @@ bool is_drained(Boundary boundary);
 double driven_strain(const Specimen& specimen, Boundary boundary);
 
 /// Advances the driven strain by `d`; `held` is the stress component that the boundary holds [Pa,
-/// tension positive], if it holds one. Fails when no strain meets it.
+/// tension positive], if it holds one. Fails when no strain gives that stress.
 Trial driven(const Specimen& specimen, Boundary boundary, double d, double held);
 
 /// The stress component that the boundary holds, at the start of a test.
 double held_stress(const Specimen& specimen, Boundary boundary);
 
-/// The stress that answers the driven strain: tau, or half the stress difference of yy and xx [Pa].
+/// The stress conjugate to the driven strain: tau, or half the stress difference of yy and xx [Pa].
 double response(const Specimen& specimen, Boundary boundary);
 
 }  // namespace breach::element_bench

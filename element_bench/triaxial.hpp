@@ -1,5 +1,5 @@
-// Triaxial compression tests: what a laboratory has measured, the law's answer to the same test, and
-// what is read off either of them in one way - the end, whether it is a critical state, the peak.
+// Triaxial compression tests: the measured curve, the law's curve for the same test, and readings of
+// either by one method: the end, whether it is a critical state, the peak.
 #pragma once
 
 #include <optional>
@@ -36,10 +36,10 @@ double void_ratio(const TriaxialTest& test, double epsilon_v);
 /// Excess pore pressure under a constant cell pressure [Pa].
 double excess_pressure(const TriaxialTest& test, double q, double p);
 
-/// The law's answer at the strains that were measured; nothing where it cannot begin from the test's
-/// state or cannot follow the strain.
-/// step: of the strain where drained, over which the driver's lateral strain is a straight line; a
-/// tenth of it where undrained: the peak is sharp, and calls are cheap.
+/// The law's curve at the measured strains; nothing where it cannot begin from the test's state or
+/// cannot follow the strain. step: of the strain where drained, over which the driver's lateral
+/// strain is a straight line; a tenth of it where undrained: the peak is sharp, and calls are
+/// cheap.
 std::optional<TriaxialCurve> computed(const TriaxialTest& test,
                                       const materials::norsand::Ready& law,
                                       const materials::norsand::Options& options,
@@ -50,10 +50,10 @@ struct EndReading {
     double p, q, eta, e;
     double D;          ///< d epsilon_v / d epsilon_q, 0 where undrained
     double eta_error;  ///< standard error of eta, from its scatter
-    /// Hardly any change of volume and stress ratio (drained), of p and q (undrained)
+    /// Volume and stress ratio (drained), or p and q (undrained), are nearly constant
     bool critical;
 };
-/// At the largest stress ratio of a drained test. Elastic strains rest there, so that D is plastic.
+/// At the largest stress ratio of a drained test. Elastic strain rates vanish there: D is plastic.
 struct PeakReading {
     double epsilon_1, eta, D, p, e;
 };
@@ -71,8 +71,8 @@ inline constexpr double critical_log_rate = 2.0;
 /// softens after.
 std::optional<std::size_t> peak_row(const TriaxialTest& test);
 
-/// peak: the row to read the peak at; the measured one for the law's curve, too, so that a peak
-/// which scatter has moved is compared with the same strains.
+/// peak: the row at which to read the peak; the measured one for the law's curve, too, so that a
+/// peak shifted by scatter is compared at the same strains.
 TriaxialReading read_curve(const TriaxialTest& test, const TriaxialCurve& curve,
                            std::optional<std::size_t> peak);
 

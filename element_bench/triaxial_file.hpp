@@ -11,8 +11,8 @@
 
 namespace breach::element_bench {
 
-/// The columns of the file by their names, as it has them (docs/how-to/calibrate_a_sand.md). What is wrong with it goes to
-/// `faults`, with file and line; `pointer` is the entry that names it.
+/// The columns of the file by their original names (docs/how-to/calibrate_a_sand.md). Adds faults to `faults`, with file
+/// and line; `pointer` is the entry that names it.
 nlohmann::json read_triaxial_file(const std::filesystem::path& file, Boundary boundary,
                                   const std::string& pointer, std::vector<fault::Fault>& faults);
 

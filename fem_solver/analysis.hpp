@@ -1,4 +1,4 @@
-// All stages of an analysis in their order, and how it ends.
+// All stages of an analysis in their order, and its end.
 #pragma once
 
 #include "core/process/phase.hpp"
@@ -6,10 +6,10 @@
 
 namespace breach::fem {
 
-/// All stages, or as many as the mesh lives to see: entangled is a regular end, with the last
-/// good state in a snapshot, unless the scene asks to go on. Throws Breakdown when the mesh entangles
-/// in its very first step or the least step does not converge; the last good state is then in a
-/// snapshot and in the checkpoint.
+/// Runs all stages, or until the mesh is entangled: this is a regular end, with the last good state
+/// in a snapshot, unless the scene asks to continue. Throws Breakdown when the mesh entangles in its
+/// very first step or the least step does not converge; the last good state is then in a snapshot and
+/// in the checkpoint.
 process::Outcome analyse(Course& course);
 
 }  // namespace breach::fem

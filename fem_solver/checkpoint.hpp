@@ -1,4 +1,4 @@
-// Everything an analysis needs to go on as if it had never stopped, and its file.
+// The complete state of an analysis, from which it can be resumed exactly, and its file.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace breach::fem {
 
-/// Where the analysis is.
+/// Progress of the analysis.
 struct Position {
     std::int64_t stage = 0;
     double load = 0.0;            ///< static stage: share of gravity in place [-]
@@ -29,10 +29,10 @@ struct Position {
     std::int64_t telemetry_lines = 0;
     bool stage_begun = false;  ///< the stage's laws are in force
     bool moving = false;       ///< a dynamic stage has begun
-    bool at_limit = false;     ///< static stage: what an edge pushes has reached its limit state
+    bool at_limit = false;     ///< static stage: the pressure on an edge is at its limit state
 };
 
-/// What an analysis needs to go on, beside the matrix.
+/// The data beside the matrix that a resumed analysis needs.
 struct Kept {
     Position position;
     Motion motion;
@@ -41,7 +41,7 @@ struct Kept {
                                               ///< the body; empty when dry [Pa]
     Eigen::VectorXd stage_force;  ///< internal force when the static stage began; of a dynamic one
                                   ///< with a ramp what it withholds [N]
-    NewtonCounts counts;          ///< until the matrix was last asked for them
+    NewtonCounts counts;          ///< until the matrix was last needed
     std::vector<Reading> history;
     /// Horizontal acceleration at the crest after each dynamic step.
     std::vector<double> crest_time, crest_acceleration;  ///< [s], [m/s2]
@@ -54,16 +54,16 @@ struct Checkpoint {
 
 exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newton,
                                      const scene::Scene& scene);
-/// Where the archive's analysis was. Throws BadInput when it belongs to another scene.
+/// Progress of the archived analysis. Throws BadInput when it belongs to another scene.
 Position position_in(const exchange::Archive& archive, const scene::Scene& scene,
                      const std::string& file);
-/// model: as the stage of that position has it. Throws BadInput when the archive belongs to another scene or mesh, or lacks something.
+/// model: for the stage of that position. Throws BadInput when the archive belongs to another scene or mesh, or is incomplete.
 Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene& scene,
                            const Model& model, const std::string& file);
 
 /// The flags that the run has raised so far.
 void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive);
-/// Of an archive of before there were any: none. Throws BadInput when they cannot be read.
+/// An archive from before there were flags has none. Throws BadInput when they cannot be read.
 std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";

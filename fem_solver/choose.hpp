@@ -1,5 +1,5 @@
-// What an analysis decides beside its model: how soil begins its laws, when steps are cut, what is
-// written when. Each choice once: the analysis reads the values, the plan prints the lines.
+// Decisions of an analysis beside its model: how soil begins its laws, when steps are cut, what is
+// written when. Each is made once: the analysis reads the values, the plan prints the lines.
 #pragma once
 
 #include "fem_solver/mesh/mesh.hpp"
@@ -7,11 +7,11 @@
 
 namespace breach::fem {
 
-/// From which stresses laws whose points remember begin.
+/// Initial stresses for laws with a memory.
 enum class MemoryStart { as_they_are, at_rest_with_friction };
 
 struct RunDecisions {
-    /// The stage with which such laws begin, the first with the scene's laws; nothing: there is none.
+    /// The stage in which such laws begin, the first with the scene's laws; nothing: there is none.
     process::Decided<std::optional<std::int64_t>> memory;
     process::Decided<MemoryStart> memory_start;
     /// Whether the columns run alone before the mesh moves: snapshots then carry their base's motion.
@@ -24,7 +24,7 @@ struct RunDecisions {
 
 RunDecisions decide_run(const scene::Scene& scene);
 
-/// Everything that the FEM decides about a scene.
+/// All decisions of the FEM about a scene.
 struct Decisions {
     process::Decided<Mesher> mesher;
     ModelDecisions model;
@@ -32,7 +32,7 @@ struct Decisions {
 };
 Decisions decide(const scene::Scene& scene);
 
-/// The lines of the decisions, with what the soils' laws say of themselves.
+/// The lines of the decisions, and those of the soils' laws.
 process::Plan plan_of(const Decisions& decisions, const scene::Scene& scene);
 
 }  // namespace breach::fem

@@ -1,4 +1,4 @@
-// An analysis under way: all that changes from stage to stage and from step to step.
+// An analysis in progress: everything that changes from stage to stage and from step to step.
 #pragma once
 
 #include "core/process/session.hpp"
@@ -11,14 +11,14 @@
 namespace breach::fem {
 
 struct Course : Kept {
-    /// Goes on from the session's checkpoint when it is resumed and there is one.
+    /// Continues from the session's checkpoint when it is resumed and there is one.
     Course(process::Session& its_session, Model its_model);
 
     const scene::Stage& stage() const;
     std::string pointer_of_stage() const;
     double stage_begin() const;  ///< [s]
 
-    /// Puts body, supports, loads and water of the stage in force and sets out to solve it.
+    /// Applies body, supports, loads and water of the stage and creates its solver.
     void make_newton();
     void write_checkpoint();
 

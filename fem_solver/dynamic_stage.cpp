@@ -85,8 +85,8 @@ class StepControl {
 
   private:
     /// The next time that must be met exactly: a wanted snapshot, the end of the stage, or a multiple
-    /// of the stage's time step. The last lets snapshots at such multiples change nothing, whatever
-    /// steps were cut on the way.
+    /// of the stage's time step. So snapshots at such multiples change no result, even where a step
+    /// was cut.
     double next_stop() const {
         const auto& times = course_.decided.snapshot_times.value;
         const auto next = static_cast<std::size_t>(position_.next_snapshot);

@@ -1,13 +1,13 @@
-// What an analysis has come to: facts of result.json, flags, and a few plain words.
+// The results of an analysis: entries of result.json, flags, and a few sentences.
 #pragma once
 
 #include "fem_solver/course.hpp"
 
 namespace breach::fem {
 
-/// What it took, and what it was done with.
+/// Reports its cost and its settings.
 void report_facts(Course& course);
-/// How it ended and what it came to, as facts and in plain words.
+/// Reports its end and its results, as entries and in sentences.
 void report_end(Course& course);
 void print_profile(const Course& course);
 

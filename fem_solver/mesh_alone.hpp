@@ -1,4 +1,4 @@
-// `fem_solver mesh`: the mesh and nothing else, to be looked at before anything runs.
+// `fem_solver mesh`: the mesh alone, for inspection before a run.
 #pragma once
 
 #include "core/process/phase.hpp"

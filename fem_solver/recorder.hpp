@@ -1,4 +1,4 @@
-// What an analysis writes on its way, and when: telemetry, history, snapshots, checkpoints.
+// Writes the outputs of an analysis when they are due: telemetry, history, snapshots, checkpoints.
 #pragma once
 
 #include "fem_solver/course.hpp"
@@ -9,11 +9,11 @@ class Recorder {
   public:
     explicit Recorder(Course& course);
 
-    /// Telemetry and snapshots that are due after a step.
+    /// Writes telemetry and snapshots that are due after a step.
     void take_step(double dt, const NewtonOutcome& outcome);
     void checkpoint();
     void checkpoint_when_due();
-    /// The last snapshot, which answers every request that is still open, and the history.
+    /// Writes the last snapshot, which answers every open request, and the history.
     void finish();
     /// Saves the last good state (the accepted one, not the trial) and ends the run.
     [[noreturn]] void give_up(const std::string& cause);
@@ -29,7 +29,7 @@ class Recorder {
     const std::vector<Column> columns_;  ///< of telemetry and history
     double peak_energy_ = 0.0;           ///< largest kinetic energy of the history [J]
     double checkpoint_written_ = 0.0;    ///< wall clock [s]
-    bool checkpoint_wanted_ = false;     ///< since the last one a wanted snapshot was written
+    bool checkpoint_wanted_ = false;     ///< a requested snapshot was written since the last one
     double last_snapshot_ = -1.0;        ///< its time [s]
 };
 

@@ -5,7 +5,7 @@
 
 namespace breach::fem {
 
-/// Raised when the numbers change for the same input: the cache takes no result of another one.
+/// Raise it when the numbers change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 17;
 
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.

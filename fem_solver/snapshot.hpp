@@ -7,7 +7,7 @@
 
 namespace breach::fem {
 
-/// The body alone: free-field columns stay behind.
+/// Only the body, without free-field columns.
 /// excess_pressure_max: [nodes of the body] Pa, since the first dynamic stage began; empty when dry.
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
                                    const Motion& motion, const Beginning& beginning,

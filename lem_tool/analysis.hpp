@@ -1,4 +1,4 @@
-// The phase: the scene's circle and search, their factors of safety as result.json and as figure
+// The phase: factors of safety of the scene's circle and search, as result.json and as figure
 // data.
 #pragma once
 
@@ -6,15 +6,15 @@
 
 namespace breach::lem {
 
-/// Raised when the numbers change for the same input: the cache takes no result of another one.
+/// Raise it when the numbers change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 8;
 
 process::Plan plan(const scene::Scene& scene);
 
-/// Analyses what /lem asks for. result.json: the facts of the surface with the least valid
+/// Analyses the entries of /lem. result.json: the facts of the surface with the least valid
 /// factor_of_safety, those of every other surface under its name (lem_tool/answer.hpp), surfaces_*,
 /// seconds. surfaces.h5: the best circle of each pair of ends and the slices of the critical one.
-/// Throws BadInput when the given circle cannot be analysed or the search finds no surface at all.
+/// Throws BadInput when the given circle cannot be analysed or the search finds no surface.
 process::Outcome run(process::Session& session);
 
 }  // namespace breach::lem

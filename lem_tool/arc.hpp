@@ -30,7 +30,7 @@ Meeting meet(const scene::Circle& circle, const Line& line, double from, double 
 /// centre, r = d sin a + h cos a, f = d cos a - h sin a) becomes W h tan a = S h / cos a, which on
 /// the arc is W d = S R.
 ///
-/// Cuts the mass into about `wanted` slices of equal width, more where boundaries ask for it. Arc
+/// Cuts the mass into about `wanted` slices of equal width, more where boundaries require it. Arc
 /// segments are exact in weight, moment and (to the fourth order of their angle) length; only the
 /// base inclination is that of the chord. No allocation.
 Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Surface& surface, int wanted,

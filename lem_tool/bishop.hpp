@@ -1,16 +1,16 @@
-// Simplified Bishop: the factor of safety of one sliding mass that is already cut into slices.
+// Simplified Bishop: the factor of safety of one sliding mass already divided into slices.
 #pragma once
 
 #include "lem_tool/slices.hpp"
 
 namespace breach::lem {
 
-/// The way the mass moves; it decides the sign of the base inclinations.
+/// Direction of sliding; it decides the sign of the base inclinations.
 enum class Slide { to_left, to_right };
 
 enum class Balance {
     found,
-    no_driving_moment,  ///< the weight does not turn the mass this way
+    no_driving_moment,  ///< the weight does not turn the mass in this direction
     small_m_alpha,      ///< m_alpha of a slice is below the limit: the method does not apply
     not_converged,
 };

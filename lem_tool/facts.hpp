@@ -1,4 +1,4 @@
-// Surfaces and searches as facts of result.json, and why one is refused.
+// Surfaces and searches as facts of result.json, and reasons for refusals.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@
 
 namespace breach::lem {
 
-/// Everything about one analysed surface; leaves its slices in `slices`.
+/// All facts about one analysed surface; leaves its slices in `slices`.
 nlohmann::json facts_of(const Model& model, const Critical& critical, Slices& slices);
 nlohmann::json facts_of(const Tally& tally);
 
@@ -19,7 +19,7 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
 /// Throws BadInput: a search found no surface.
 [[noreturn]] void refuse_search(const scene::Scene& scene, const Model& model, const Tally& tally);
 
-/// The search, which must find something. Throws BadInput otherwise.
+/// The search. Throws BadInput if it finds no surface.
 SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads);
 
 }  // namespace breach::lem

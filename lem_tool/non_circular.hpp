@@ -9,7 +9,7 @@
 
 namespace breach::lem {
 
-/// "given_polyline". Throws BadInput where the given surface is none.
+/// "given_polyline". Throws BadInput where the given surface is invalid.
 nlohmann::json given_polyline(const scene::Scene& scene, const Model& model);
 
 /// "non_circular": the optimised surface; null where the circle it starts from has no answer by
@@ -18,7 +18,7 @@ nlohmann::json optimised_polyline(const scene::Scene& scene, const Model& model,
                                   const Surface& circle);
 
 /// Most of a polyline's base has no friction, and not as a thin layer under soil with friction: its
-/// factor leaves out what the mass needs to shear within itself at the kinks.
+/// factor neglects the internal shearing of the mass at the kinks.
 bool kinks_without_friction(const nlohmann::json& polyline);
 
 }  // namespace breach::lem

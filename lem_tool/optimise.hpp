@@ -1,5 +1,5 @@
-// The critical surface of straight pieces: the critical circle as a polyline, whose vertices move
-// until Spencer's factor of safety gets no lower. Deterministic.
+// The critical polyline: starts from the critical circle and moves the vertices until Spencer's
+// factor of safety stops falling. Deterministic.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace breach::lem {
 
-/// A surface with Spencer's answer.
+/// A surface with its result by Spencer's method.
 struct Bent {
     Polyline surface;
     Spencer spencer;
@@ -23,7 +23,7 @@ struct Bent {
 /// leaves the soil or no balance is found.
 std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices);
 
-/// Where the ends of a surface may go, how shallow it may be and how many vertices it has.
+/// Limits of a surface: its ends, its depth and its number of vertices.
 struct Room {
     std::array<double, 2> upper;  ///< x of the upper end [m]
     std::array<double, 2> lower;  ///< x of the lower end [m]

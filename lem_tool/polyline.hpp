@@ -13,16 +13,16 @@ struct Polyline {
     CrackAt crack = CrackAt::none;
 };
 
-/// Where a surface may end over x: on the ground, its upper end at the foot of the crack. On a
-/// vertical face an upper end is at the head, a lower one at the foot.
+/// Ends of a surface over x: on the ground, the upper end at the foot of the crack. On a vertical
+/// face an upper end is at the head, a lower one at the foot.
 enum class SurfaceEnd { upper, lower };
 double end_level(const Strata& strata, double x, SurfaceEnd end);
 
-/// A circle to take moments about, well above the polyline. The factor of safety of a balance of
-/// forces and moments does not depend on it.
+/// A circle for moments, well above the polyline. The factor of safety by equilibrium of forces and
+/// moments does not depend on it.
 scene::Circle pivot_of(const Polyline& polyline);
 
-/// Cuts the mass into about `wanted` slices, more where boundaries and vertices ask for it.
+/// Cuts the mass into about `wanted` slices, more where boundaries and vertices require it.
 Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Polyline& polyline,
         const scene::Circle& pivot, int wanted, Slices& slices);
 

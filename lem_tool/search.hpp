@@ -1,5 +1,5 @@
-// The critical circle: entry-exit search, coarse grid first, then every promising valley to its
-// bottom. Deterministic; the answer does not depend on luck, nor on the number of threads.
+// The critical circle: entry-exit search, coarse grid first, then a descent from every promising
+// minimum. Deterministic; the result does not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace breach::lem {
 
-/// What is analysed: soil, strengths and how finely the mass is cut.
+/// Input of an analysis: soil, strengths and the number of slices.
 struct Model {
     Strata strata;
     std::vector<Soil> soils;  ///< by region
@@ -25,7 +25,7 @@ struct Model {
 Model make_model(const scene::Scene& scene);
 
 /// The soils after the first `count` layers have liquefied, below their phreatic line: c = s_r, phi =
-/// 0. Above it they keep what they had.
+/// 0. Above it they are unchanged.
 std::vector<Soil> liquefied(const Model& model, const std::vector<scene::UndrainedRegion>& layers,
                             std::size_t count);
 
@@ -35,7 +35,7 @@ struct Critical {
     Bishop bishop;
 };
 
-/// How many surfaces were tried and why some have no answer.
+/// Number of tried surfaces, and of those without an answer by reason.
 struct Tally {
     std::int64_t analysed = 0;       ///< a factor of safety was computed
     std::int64_t not_a_surface = 0;  ///< left the soil, the model, or met a closed region
@@ -58,10 +58,10 @@ struct SearchResult {
     std::vector<PairBest> pairs;
 };
 
-/// The coarse grid takes at most `coarse_slices`; the descents, and so the answer, take the
+/// Limit of slices in the coarse grid; the descents, and so the result, use the
 /// model's.
 inline constexpr int coarse_slices = 25;
-/// coarse: the best of the grid, an upper bound of what the whole search finds.
+/// coarse: the best of the grid, an upper bound of the result of the whole search.
 enum class Effort { whole, coarse };
 SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1,
                     Effort effort = Effort::whole);

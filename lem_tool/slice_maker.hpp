@@ -1,5 +1,5 @@
-// One slice after the other: weight, water, strength and moments above a piece of a surface's base.
-// Where the pieces begin and end is the surface's own business (arc.cpp, polyline.cpp).
+// Makes one slice after the other: weight, water, strength and moments above a piece of a surface's
+// base. The surface decides where the pieces begin and end (arc.cpp, polyline.cpp).
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class SliceMaker {
         slices_.depth = 0.0;
     }
 
-    /// Closer than this is the same place [m].
+    /// Places closer than this are the same [m].
     double tolerance() const { return tolerance_; }
 
     /// Slices of equal width between two abscissae of a strip, where the base is smooth and stays
@@ -64,8 +64,8 @@ class SliceMaker {
         return strata_.layers[k];
     }
 
-    /// Only what lies below its phreatic line liquefies; soil that no line fills has none to lie
-    /// above.
+    /// Only soil below its phreatic line liquefies; soil without a phreatic line liquefies
+    /// everywhere.
     const Soil& in_force(const Strip& strip, const Soil& soil, double x, double y) const {
         if (!soil.above_water || !soil.line) return soil;
         const PorePressure& water = strata_.pressures[strip.pressures + *soil.line];
@@ -87,7 +87,7 @@ class SliceMaker {
     Slices& slices_;
 };
 
-/// Where a mass ends: a vertical of its base up to the ground, high where there is a face or crack.
+/// End of a mass: a vertical from its base up to the ground, high where there is a face or crack.
 struct MassEnd {
     double x;
     double base;  ///< level of the surface there [m]
@@ -98,7 +98,7 @@ struct MassEnd {
 void add_loads(const Strata& strata, const scene::Circle& pivot, double left, double right,
                Slices& slices);
 
-/// Water that stands against the end of the mass, in its crack or before its face.
+/// Adds the water against the end of the mass, in its crack or before its face.
 void add_end(const Strata& strata, const scene::Circle& pivot, const MassEnd& end, From outside,
              Slices& slices);
 

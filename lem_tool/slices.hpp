@@ -1,5 +1,5 @@
-// A sliding mass as vertical slices: geometry, weight and strength of each. How a surface is cut
-// into them is in arc.hpp and polyline.hpp; no factor of safety here.
+// A sliding mass as vertical slices: geometry, weight and strength of each. arc.hpp and
+// polyline.hpp cut surfaces into slices; no factor of safety here.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +13,10 @@
 
 namespace breach::lem {
 
-/// Which end of a surface is a vertical crack.
+/// The end of a surface that is a vertical crack.
 enum class CrackAt { none, left, right };
 
-/// Strength of a region as limit equilibrium sees it: c + coefficient (sigma'_v0 / p_a)^exponent.
+/// Strength of a region in limit equilibrium: c + coefficient (sigma'_v0 / p_a)^exponent.
 struct Soil {
     enum class Passage {
         open,
@@ -33,12 +33,12 @@ struct Soil {
     std::shared_ptr<const materials::StrengthCurve> profile{};      ///< s_u by place, instead of c
     std::shared_ptr<const materials::UndrainedByPlace> by_state{};  ///< the law's s_u, instead of c
     double factor = 1.0;                        ///< on the profile's s_u, or on that by state [-]
-    std::shared_ptr<const Soil> above_water{};  ///< liquefied soil: what it is above its line
+    std::shared_ptr<const Soil> above_water{};  ///< liquefied soil: its strength above its line
 };
 
 inline constexpr double p_a = mechanics::standard_atmosphere;  // [Pa]
 
-/// What a slice stands on: the arc, square to its radius, or a straight piece (a floor, a polyline)
+/// Base of a slice: the arc, perpendicular to its radius, or a straight piece (a floor, a polyline)
 /// that is not.
 enum class Base { arc, straight };
 
@@ -74,7 +74,7 @@ struct Slices {
     std::size_t capacity() const { return left.size(); }
 };
 
-/// Room for `wanted` slices and every cut that the strata can make.
+/// Memory for `wanted` slices and every cut by the strata.
 Slices make_slices(const Strata& strata, int wanted);
 
 /// Why a surface cannot be analysed.

@@ -10,14 +10,14 @@
 
 namespace breach::lem {
 
-/// Every mass that a circle's lower arc cuts off, from left to right, each with its crack at the
-/// higher end. Masses shallower than the crack are left out.
+/// Every mass above a circle's lower arc, from left to right, each with its crack at the higher
+/// end. Masses shallower than the crack are left out.
 std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle);
 
 /// y of the arc, or of the floor where that is higher [m].
 double base_level(const Strata& strata, const Surface& surface, double x);
 
-/// The surface cut short where the mass gets as deep as the crack, coming from the upper end; none
+/// The surface cut off where the mass becomes as deep as the crack, coming from the upper end; none
 /// if it never does. Without a crack in the strata it is the surface itself.
 enum class UpperEnd { left, right };
 std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, UpperEnd upper);
@@ -28,8 +28,8 @@ struct Ends {
     scene::Vec2 right;
 
     double half_chord() const { return 0.5 * (right - left).norm(); }
-    /// The deepest arc: its centre level with the higher end, so that it does not lean back over
-    /// the mass [m].
+    /// The deepest arc: its centre is level with the higher end, so that it does not overhang
+    /// [m].
     double largest_sagitta() const;
 };
 

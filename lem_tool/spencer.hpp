@@ -1,5 +1,5 @@
-// The methods beside Bishop's, on the same slices: Spencer's as a rigorous check, Ordinary
-// (Fellenius) as the oldest. Only for reporting; the search is Bishop's.
+// Further methods on the same slices: Spencer's as a rigorous check, Ordinary (Fellenius) as the
+// oldest. Only for reports; the search uses Bishop's.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace breach::lem {
 
-/// Interslice forces left out.
+/// The Ordinary method, without interslice forces.
 struct Ordinary {
-    /// With N' = (W - u b) cos a - H sin a, H without the water's thrust: the slice under water is
-    /// its buoyant weight (Turnbull & Hvorslev 1967), however deep the water [-].
+    /// With N' = (W - u b) cos a - H sin a, H without the water's thrust: a slice under water has
+    /// its buoyant weight (Turnbull & Hvorslev 1967), at any depth of water [-].
     double factor_of_safety;
     /// With N' = W cos a - H sin a - u l, as Fellenius' method is mostly written: it falls with the
-    /// depth of free water, which no slope does [-].
+    /// depth of free water, as no real slope does [-].
     double conventional;
 };
 
@@ -30,16 +30,16 @@ struct Spencer {
     double m_alpha;  ///< least cos(a - theta) + sin(a - theta) tan phi / F of frictional slices [-]
 };
 
-/// No one inclination of the interslice forces balances forces and moments: what comes nearest.
+/// No inclination of the interslice forces balances forces and moments: the nearest one.
 struct Unbalanced {
     double theta;           ///< [rad]
     double force_factor;    ///< F that balances the forces there [-]; 0: no inclination has one
-    double moment_left;     ///< over the driving moment, with its sign; positive: it drives [-]
-    bool without_friction;  ///< no slice has any: the moments alone have one F, whatever theta
+    double moment_left;     ///< residual over driving moment, signed; positive: it drives [-]
+    bool without_friction;  ///< no slice has any: moment equilibrium alone gives F, for any theta
 };
 
-/// Spencer (1967): all interslice forces have one inclination, forces and moments of the whole mass
-/// balance. Looked for between -0.6 and 1.2 rad, where all bases stay positive.
+/// Spencer (1967): all interslice forces have one inclination; forces and moments of the whole mass
+/// are in equilibrium. Searched between -0.6 and 1.2 rad, where all bases stay positive.
 /// circle: what the slices' moments are about.
 std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
                                           Slide slide, double k_h);

@@ -36,7 +36,7 @@ json depth_at_one(const json& stages) {
 /// Depth of what can liquefy.
 double depth_of_layers(const json& stages) { return stages.back().at("liquefied_depth"); }
 
-/// How deep the surface of the least F reaches: that in front of its stage, by whatever method.
+/// Depth of the surface with the least F: that in front of its stage, over all methods.
 double depth_of_surface(const json& stages) {
     const auto lowest =
         std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {

@@ -8,13 +8,13 @@
 namespace breach::lem {
 
 /// Adds stages, critical_depth, depth_at_fs_1 and surfaces_analysed_in_stages to the result, and
-/// the flags of the liquefied states. The first stage, nothing liquefied, is the search that has
-/// been done already.
+/// the flags of the liquefied states. The first stage, without liquefaction, is the search already
+/// made.
 void add_stages(const scene::Scene& scene, const Model& sound, const Families& unliquefied,
                 int threads, nlohmann::json& result, std::vector<fault::Flag>& flags);
 
-/// What a reader of the critical depth must know: that the slope fails without liquefaction, or
-/// stands with all of it.
+/// Flags on the critical depth: the slope fails without liquefaction, or stands with all layers
+/// liquefied.
 std::vector<fault::Flag> flags_of_stages(const nlohmann::json& stages);
 
 /// The stages as a table with one line per stage.

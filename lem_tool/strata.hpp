@@ -1,6 +1,6 @@
 // The cross-section as vertical strips: within a strip every boundary is one straight line from
-// side to side, so the weight above a point is a linear function and nothing has to be searched. No
-// slip surfaces here.
+// side to side, so the weight above a point is a linear function, without a search. No slip
+// surfaces here.
 #pragma once
 
 #include <cstddef>
@@ -84,14 +84,14 @@ struct Strata {
     double left() const { return strips.front().from; }
     double right() const { return strips.back().to; }
     const Line& ground(const Strip& strip) const { return layers[strip.first].top; }
-    /// Where a crack would end; the ground where it does not reach below it.
+    /// Foot of a crack; the ground where it does not reach below it.
     Line crack_foot(const Strip& strip) const;
 };
 
-/// Water at rest against a vertical face between `low` and `high`.
+/// Hydrostatic thrust on a vertical face between `low` and `high`.
 struct Thrust {
     double force;  ///< [N/m]
-    double level;  ///< where it acts [m]
+    double level;  ///< of its line of action [m]
 };
 Thrust thrust(double gamma_w, double water, double low, double high);
 
@@ -108,7 +108,7 @@ std::vector<std::optional<std::size_t>> lines_of_regions(const scene::Scene& sce
 /// Index of the strip that holds x, the left one on a border; x is clamped to the model.
 std::size_t strip_at(const Strata& strata, double x);
 
-/// Ground level [m] as one comes from that side; the two differ on a vertical face only.
+/// Ground level [m] approached from that side; the two differ on a vertical face only.
 enum class From { left, right };
 double ground_level(const Strata& strata, double x, From from);
 

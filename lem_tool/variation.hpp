@@ -1,4 +1,4 @@
-// What if a parameter is not what the scene says: one at a time, and all at random.
+// Variation of parameters: one at a time, and all at random.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace breach::lem {
 
-// Both take the scene as it was asked for, not limit_scene's.
+// Both take the original scene, not limit_scene's.
 
 /// Adds "sensitivity": F with each strength parameter lower and higher by the scene's share.
 void add_sensitivity(const scene::Scene& scene, int threads, nlohmann::json& result);
@@ -24,7 +24,7 @@ struct Samples {
 /// Adds "probability": mean, standard deviation, probability_of_failure, reliability indices.
 Samples add_probability(const scene::Scene& scene, int threads, nlohmann::json& result);
 
-/// The factor that was varied is Bishop's, and the result's own is lower.
+/// The varied factor is Bishop's, and the result's own is lower.
 std::vector<fault::Flag> flags_of_variations(const nlohmann::json& result);
 
 /// One line per sample.

@@ -1,4 +1,4 @@
-// Thin weak layers, which a circle only crosses: the lines that composite surfaces follow instead.
+// Thin weak layers, which a circle only crosses: the lines for composite surfaces.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ bool has_thick_weak_layer(const Model& model, const scene::SlipSearch& ranges);
 /// The higher of the two lines; the other where one is empty.
 Path higher(const Path& one, const Path& other);
 
-/// The model over another floor than the scene's.
+/// The model with another floor than the scene's.
 Model over_floor(const scene::Scene& scene, const Model& model, const Path& floor);
 
 }  // namespace breach::lem

@@ -13,13 +13,13 @@ struct Begun {
     std::optional<GroundMotion> ground{};  ///< nothing: at rest
 };
 
-/// Logs how faithfully each region is sampled. Where the ground shakes on, the points' places and
-/// velocities are those on it: what the transfer wrote less the ground's at that moment. Throws BadInput when
-/// points lie outside the grid or below the terrain, or when nothing says how the ground moves.
+/// Logs the sampling error of each region. With moving ground, the points' places and velocities are relative
+/// to it: the transfer's minus the ground's at that moment. Throws BadInput when points lie outside the grid
+/// or below the terrain, or when the motion of the ground is missing.
 Begun begin(const process::Session& session);
 
-/// Places and velocities of the points against far rock become those on the ground, to which the section
-/// belongs: floor, terrain, walls, toe and gauges.
+/// Converts places and velocities of the points from far rock to the ground, the reference of the
+/// section: floor, terrain, walls, toe and gauges.
 void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state);
 
 Computing computing_of(const process::Session& session);

@@ -1,4 +1,4 @@
-// checkpoint.h5: everything that decides how a run goes on, bit for bit.
+// checkpoint.h5: the complete state of a run, from which it continues bit for bit.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The state at the last look that found all well, for whoever wants to see what led to a breakdown.
-// Kept in single precision and without what never changes: it is only looked at.
+// The state at the last check without a fault, for the diagnosis of a breakdown. In single
+// precision and without constants: only for display.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class LastGood {
     LastGood(const Points& points, double time, std::int64_t step) { keep(points, time, step); }
 
     void keep(const Points& points, double time, std::int64_t step);
-    /// The points as they were; `now` are the same ones, later.
+    /// The points at that time; `now` are the same ones, later.
     Points restored(const Points& now) const;
     double time() const { return time_; }
     std::int64_t step() const { return step_; }

@@ -1,4 +1,4 @@
-// What a finished run leaves behind beside its points: result.json, history.h5 and the deposit's
+// The results of a finished run beside its points: result.json, history.h5 and the deposit's
 // profile.csv.
 #pragma once
 

@@ -126,7 +126,7 @@ void finish(Session& session, Simulation& simulation, double speed) {
     session.progress(1.0, "done");
 }
 
-/// What was doubted of the scene before it ran, and may be why it broke down.
+/// The warnings about the scene before it ran, which may explain why it broke down.
 std::string warnings_before(const scene::Scene& scene) {
     std::string text;
     for (const fault::Flag& each : scene.warnings)

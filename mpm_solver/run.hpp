@@ -5,15 +5,15 @@
 
 namespace breach::mpm {
 
-/// Raised when the numbers change for the same input: the cache takes no result of another one.
+/// Raise it when the numbers change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 14;
 
-/// What the scene needs of this phase and what it does not.
+/// The features of this phase that the scene uses and leaves out.
 process::Plan plan(const scene::Scene& scene);
 
 process::Outcome run(process::Session& session);
 
-/// Ten steps of the body as the run would begin with it, verb by verb.
+/// Ten steps of the body from the start of the run, timed step by step.
 process::Cost measure(process::Session& session);
 
 }  // namespace breach::mpm

@@ -1,5 +1,5 @@
-// A run above the time step: when to look, to write, to stop. One Simulation is all that a
-// checkpoint has to hold.
+// A run above the time step: when to measure, to write, to stop. A checkpoint stores one
+// Simulation.
 #pragma once
 
 #include "core/process/session.hpp"
@@ -29,13 +29,13 @@ struct Clock {
     double transfer_time = 0.0;  ///< on the FEM's clock [s]
 };
 
-/// What the run is measured against.
+/// Reference values of the run.
 struct Start {
     Energy energy;
     double mobile_volume = 0.0;  ///< [m3]
 };
 
-/// What a run has seen so far.
+/// Records of a run so far.
 struct Records {
     History history;
     GaugeRecords gauges;
@@ -48,7 +48,7 @@ enum class Verdict { goes_on, rests, time_is_up };
 
 class Simulation {
   public:
-    /// `body` at time 0; its velocities are those on the ground, which moves with it or rests.
+    /// `body` at time 0; its velocities are relative to the ground, which moves or is at rest.
     Simulation(const scene::Scene& scene, Body body, double transfer_time,
                std::optional<GroundMotion> ground = {});
     /// From a checkpoint.
@@ -57,25 +57,25 @@ class Simulation {
 
     /// One step; never past the next snapshot or the end. Throws Breakdown.
     void advance();
-    /// Is a snapshot (a look) due at this time?
+    /// Whether a snapshot (or a measurement) is due at this time.
     bool frame_due() const;
     bool look_due() const;
-    /// Keeps the profile that belongs to a snapshot.
+    /// Stores the profile of a snapshot.
     void take_frame();
     /// Measures, checks the budget (throws Breakdown) and adds a row to the history.
     const Row& look();
     Verdict verdict() const;
     /// Why the soil was not at rest at the last look; empty: it was.
     const std::optional<std::string>& moving() const { return moving_; }
-    /// What energies at the end are measured by, see energy_scale [J].
+    /// Reference energy at the end, see energy_scale [J].
     double scale_of_energy() const;
 
     const Body& body() const { return body_; }
     const Clock& clock() const { return clock_; }
     const Start& start() const { return start_; }
-    /// Nothing where the ground is at rest.
+    /// Nothing: the ground is at rest.
     const std::optional<GroundMotion>& ground() const { return ground_; }
-    /// When the soil rests: never while the ground shakes.
+    /// Conditions for the soil's rest: never while the ground shakes.
     const scene::Rest& rest() const { return rest_; }
     const Records& records() const { return records_; }
     const Row& last_row() const { return records_.history.back(); }
@@ -84,7 +84,7 @@ class Simulation {
     const FlowView& view() const { return view_; }
     const std::vector<scene::Gauge>& gauges() const { return mpm_.gauges; }
     const std::vector<scene::FlowSection>& sections() const { return mpm_.sections; }
-    /// The points now, and at the last look that found all well.
+    /// The points now, and at the last measurement without a fault.
     exchange::ParticleState state() const;
     exchange::ParticleState last_good_state() const;
 

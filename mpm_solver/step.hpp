@@ -1,5 +1,5 @@
-// One explicit time step of the material point method, verb by verb. What a verb does to a point
-// stands in the loops (*_loop.hpp); here they are shared out to the threads.
+// One explicit time step of the material point method, operation by operation. The loops
+// (*_loop.hpp) implement the operations on a point; here they are divided among the threads.
 #pragma once
 
 #include "mpm_solver/body/body.hpp"
@@ -10,7 +10,7 @@ namespace breach::mpm {
 /// points have to be sorted anew. Points that were moved from outside must be sorted first.
 void step(Body& body, double dt);
 
-/// Sorts the points when one has strayed too far from its home.
+/// Sorts the points when one has moved too far from its home.
 void keep_sorted(Body& body);
 
 /// Mass, affine momentum and (unless USF) internal force of the points onto the nodes.

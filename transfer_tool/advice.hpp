@@ -1,6 +1,6 @@
-// Which transfer times are sound, and why: the window of /transfer/window over a FEM's telemetry,
-// found by the code that a study's window trigger uses, and the signs that speak for it. Sordo et
-// al. 2024: after the failure has developed, before the mesh is too distorted, half-way between.
+// Advice on transfer times: the window of /transfer/window over a FEM's telemetry, found by the
+// code of a study's window trigger, and the signs that confirm it. Sordo et al. 2024: after the
+// failure has developed, before the mesh is too distorted, half-way between.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace breach::transfer {
 
-/// One reading of the telemetry that speaks for an edge of the window.
+/// A condition on the telemetry that confirms an edge of the window.
 struct Sign {
     std::string name;            ///< "energy growth"
     std::string condition;       ///< as evaluated
@@ -21,7 +21,7 @@ struct Sign {
     std::vector<double> onsets;  ///< every time at which it became true [s]
 };
 
-/// Where a condition of the window was first true for its hold.
+/// The first time at which a condition of the window was true for its hold.
 struct Edge {
     std::string condition;
     double time;                           ///< [s]
@@ -32,7 +32,7 @@ struct Advice {
     double begin = 0.0;  ///< of the telemetry [s]
     double end = 0.0;
     std::optional<Edge> lower;         ///< nothing: the failure has not developed
-    std::optional<Edge> upper;         ///< nothing: the telemetry ends first, and closes the window
+    std::optional<Edge> upper;         ///< nothing: the window ends with the telemetry
     std::optional<double> shut_since;  ///< too distorted before the lower edge: no window [s]
     std::vector<double> snapshots;     ///< in the window [s]
     std::optional<double> half_way;    ///< between the edges [s]
@@ -44,7 +44,7 @@ struct Advice {
     double until() const { return upper ? upper->time : end; }
 };
 
-/// The window's conditions, parsed. Throws BadInput with the JSON pointer of what cannot be read,
+/// The window's conditions, parsed. Throws BadInput with the JSON pointer of an invalid condition,
 /// or when the scene has no /transfer/window.
 criteria::Window window_of(const scene::Scene& scene);
 
@@ -52,7 +52,7 @@ criteria::Window window_of(const scene::Scene& scene);
 Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& telemetry,
               const std::vector<double>& snapshots);
 
-/// Times in the names of the snapshots that lie in a folder, ascending [s].
+/// Times in the names of a folder's snapshots, ascending [s].
 std::vector<double> snapshot_times(const std::filesystem::path& folder);
 
 /// A few lines for people.

@@ -1,5 +1,5 @@
-// Soil with a state parameter at the transfer: which of it has collapsed, and what strength it keeps
-// without drainage. Its criterion is not a pore pressure ratio.
+// Soil with a state parameter at the transfer: which of it has collapsed, and its undrained
+// strength. The criterion is not a pore pressure ratio.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@ namespace breach::transfer {
 
 using mechanics::Vec2;
 
-/// Stress ratio over the limiting one from which soil is past its instability line: less than 1, for
-/// what has come to its critical state lies on it.
+/// Stress ratio over the limiting one from which soil is past its instability line: less than 1, as
+/// soil at its critical state lies on it.
 inline constexpr double instability = 0.98;
 
-/// The region's law has a state parameter, and /transfer/liquefied names it: its points get strengths
-/// by state.
+/// Whether the region's law has a state parameter, and /transfer/liquefied names it: then its points
+/// get strengths by state.
 bool collapses(const scene::Scene& scene, std::size_t region);
 
-/// By what /transfer/liquefied judges its regions.
+/// Criteria for the regions of /transfer/liquefied.
 struct JudgedBy {
     bool state = false;     ///< by state parameter: collapses()
     bool pressure = false;  ///< the others: r_u
@@ -42,8 +42,8 @@ struct CollapseReport {
 class Collapse {
   public:
     Collapse() = default;
-    /// regions: [regions of the mesh] index into the section's. Nothing is computed where none
-    /// collapses. The mesh has psi there.
+    /// regions: [regions of the mesh] index into the section's. Computes nothing if none collapses.
+    /// The mesh has psi there.
     Collapse(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
              std::span<const std::size_t> regions);
 
@@ -51,8 +51,8 @@ class Collapse {
         materials::UndrainedStrength strength;
         bool past_line, collapsed;
     };
-    /// Of the Gauss point nearest to xi; nothing where the soil has no strength by state, or is dry:
-    /// above the water when the motion began, and now.
+    /// Of the Gauss point nearest to xi; nothing if the soil has no strength by state, or is dry:
+    /// above the water at the beginning of the motion, and now.
     std::optional<Soil> at(std::size_t element, const Vec2& xi) const;
     double strain() const { return strain_; }
 

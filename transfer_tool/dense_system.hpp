@@ -1,5 +1,5 @@
-// A large dense system, solved block by block so that it can be watched, stopped and shared among
-// threads.
+// A large dense system, solved block by block, so that it can report progress, be stopped and use
+// several threads.
 #pragma once
 
 #include <Eigen/Core>

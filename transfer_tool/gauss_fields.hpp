@@ -6,11 +6,11 @@
 
 namespace breach::transfer {
 
-/// The mesh's Gauss points, in the shapes that the points lie in.
+/// The mesh's Gauss points, in the shapes that contain the points.
 Sources gauss_points(const exchange::MeshSnapshot& mesh, const Points& points);
 
-/// Any fields: one row per Gauss point in, one row per material point out. A point at a Gauss point
-/// takes its value. Nothing when the watch stopped it.
+/// Interpolates any fields: one row per Gauss point in, one row per material point out. A point at
+/// a Gauss point takes its value. Nothing: the watch stopped it.
 std::optional<Interpolated> interpolate(const exchange::MeshSnapshot& mesh, const Values& at_gauss,
                                         const scene::Transfer& settings, const Work& work,
                                         const Points& points);
@@ -20,8 +20,8 @@ std::optional<GaussFieldReport> carry_gauss_fields(const exchange::MeshSnapshot&
                                                    const scene::Transfer& settings,
                                                    const Work& work, Points& points);
 
-/// The way back, to measure what a round trip costs: the points' fields interpolated at the Gauss
-/// points, by the same rules, against the snapshot.
+/// Error of a round trip: the points' fields interpolated at the Gauss points, by the same method,
+/// against the snapshot.
 struct RoundTrip {
     double stress_rms = 0.0;      ///< over Gauss points and components [Pa]
     double stress_largest = 0.0;  ///< [Pa]
@@ -30,7 +30,7 @@ struct RoundTrip {
     double velocity_rms = 0.0;    ///< at the nodes, sum m N v / sum m N against the mesh [m/s]
     double velocity_scale = 0.0;  ///< rms of the mesh's [m/s]
 };
-/// Where points lie at the Gauss points these come back exactly.
+/// If the points are the Gauss points, their values are recovered exactly.
 std::optional<RoundTrip> round_trip(const exchange::MeshSnapshot& mesh,
                                     const scene::Transfer& settings, const Work& work,
                                     const Points& points);

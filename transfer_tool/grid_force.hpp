@@ -1,5 +1,5 @@
-// The out-of-balance force of the new points on the MPM's grid, evaluated once with the kernel that
-// the MPM will use. It says what the grid will feel in its first step, before anything has moved.
+// The out-of-balance force of the new points on the MPM's grid, evaluated once with the MPM's
+// kernel: the force in its first step, before any motion.
 #pragma once
 
 #include <vector>

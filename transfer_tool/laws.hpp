@@ -1,5 +1,5 @@
-// What the MPM's law asks of a transferred stress: that it lies on or inside the yield surface, and
-// a reference volume.
+// Requirements of the MPM's law on a transferred stress: inside or on the yield surface, and a
+// reference volume.
 #pragma once
 
 #include <span>
@@ -23,12 +23,12 @@ struct YieldShare {
 };
 using YieldReport = std::vector<YieldShare>;  ///< [soils]
 
-/// zero: softening starts anew. carried: where the law softens with total strain its driver starts
-/// at the FEM's epsilon_q, everywhere else at epsilon_q_plastic.
+/// zero: softening starts at 0. carried: if the law softens with total strain it starts at the
+/// FEM's epsilon_q, otherwise at epsilon_q_plastic.
 void start_softening(scene::SofteningStart start, std::span<const materials::Law> laws,
                      exchange::ParticleState& state);
 
-/// Where the softening of one soil starts.
+/// Start of the softening in one soil.
 struct SofteningShare {
     std::size_t soil = 0;
     materials::SofteningDriver driver = materials::SofteningDriver::plastic;
@@ -39,9 +39,9 @@ struct SofteningShare {
 std::vector<SofteningShare> softening_of(std::span<const materials::Law> laws,
                                          const exchange::ParticleState& state);
 
-/// Puts stresses outside the law's yield surface, at the strength that belongs to
-/// epsilon_q_plastic, back on it with the law's own return. The plastic strain of that return is
-/// the interpolation's, not the soil's, and is not kept.
+/// Returns stresses outside the law's yield surface, at the strength for epsilon_q_plastic, to it
+/// by the law's own return. The plastic strain of that return is due to the interpolation, not to
+/// the soil, and is discarded.
 YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
                                     exchange::ParticleState& state);
 

@@ -1,4 +1,4 @@
-// The ledger of a transfer: what was on the mesh, what is on the points, per region and in total.
+// The ledger of a transfer: quantities on the mesh and on the points, per region and in total.
 //
 // 'Before' is computed from the mesh alone with exact integrals of the finite-element fields over
 // each element (closed form in the corner values, no quadrature):
@@ -38,7 +38,7 @@ exchange::Ledger ledger_of(const exchange::MeshSnapshot& mesh, const Points& poi
 std::string as_text(const exchange::Ledger& ledger);
 
 /// Throws Breakdown, naming each row, when mass, volume, momentum or kinetic energy differ by more
-/// than the scene allows.
+/// than the scene's limits.
 void refuse_losses(const exchange::Ledger& ledger, const scene::Transfer& settings);
 
 }  // namespace breach::transfer

@@ -1,4 +1,4 @@
-// How deep the ground has liquefied, column by column.
+// Depth of liquefaction, column by column.
 #pragma once
 
 #include <map>
@@ -14,32 +14,32 @@ namespace breach::transfer {
 
 using mechanics::Vec2;
 
-/// Columns that have liquefied less deep than those on both sides of them.
+/// Columns with a smaller depth of liquefaction than those on both sides.
 struct LiquefiedGap {
     double from, to;  ///< [m]
     double level;     ///< down to which they have liquefied; the highest soil if not at all [m]
     double beside;    ///< the same of the shallower side [m]
 };
 
-/// Sound soil that is narrower is no wall in the runout, whose cells do not tell it from its sides.
+/// A narrower wall of unliquefied soil does not hold in the runout: its cells do not resolve it.
 constexpr double cells_of_a_wall = 2.0;
 
-/// What gaps say against a runout on cells of this size [m]; 0: on none that are known. Of several the narrowest
-/// where it is narrower than a wall can be, else the widest.
+/// Flag about gaps for a runout with cells of this size [m]; 0: unknown. Of several gaps it names the narrowest
+/// if that is narrower than a wall can be, else the widest.
 std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double cell_size);
 
-/// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold, or was once. It stands for the
-/// column between the middles of its elements to the left and to the right; everything above the
-/// deepest liquefied node of a column is liquefied. Columns narrower than `narrowest_wall` between two
-/// that have liquefied deeper are liquefied as deep as the shallower of the two. All on the undeformed
-/// mesh.
+/// A node is liquefied where r_u = (u - u_0) / sigma'_v0 is above the threshold, or was once. It
+/// represents the column between the middles of its elements to the left and to the right; everything
+/// above the deepest liquefied node of a column is liquefied. Columns narrower than `narrowest_wall`
+/// between two deeper liquefied ones are liquefied as deep as the shallower of the two. All on the
+/// undeformed mesh.
 class LiquefiedZone {
   public:
     /// regions: [n_regions of the mesh] whether the region can liquefy. The mesh has sigma_v0.
     LiquefiedZone(const exchange::MeshSnapshot& mesh, const std::vector<char>& regions,
                   double threshold, scene::LiquefiedWhen when, double narrowest_wall = 0.0);
 
-    /// What lies above the line counts, too.
+    /// Soil above the line counts, too.
     void add(const scene::LiquefiedLine& line) {
         line_.assign(line.points.begin(), line.points.end());
     }
@@ -47,13 +47,13 @@ class LiquefiedZone {
     /// Whether the place [m] lies in the zone.
     bool holds(const Vec2& place) const;
     std::size_t liquefied_nodes() const { return nodes_; }
-    /// Width of the columns that are liquefied deeper than their own nodes say, for being narrow [m].
+    /// Width of the narrow columns that count as liquefied deeper than their own nodes are [m].
     double closed_width() const { return closed_width_; }
     /// Lowest level reached anywhere [m]; nothing liquefied: +infinity.
     double deepest_level() const { return deepest_; }
     /// Gaps at least as high as a fifth of the soil that can liquefy, no wider than that and no mere
-    /// slits. Single nodes near the threshold decide on them, and a wall of sound soil can hold back
-    /// what flows.
+    /// slits. Single nodes near the threshold decide on them, and a wall of unliquefied soil can
+    /// hold back the flow.
     std::vector<LiquefiedGap> gaps() const;
 
   private:

@@ -1,4 +1,4 @@
-// Where the material points lie and what they weigh, and the nodal fields they take from the mesh.
+// Places and masses of the material points, and the nodal fields that they take from the mesh.
 #pragma once
 
 #include <vector>
@@ -10,11 +10,11 @@
 
 namespace breach::transfer {
 
-/// The new material points, element after element, and where in its element each one lies.
+/// The new material points, element after element, with their places in the elements.
 struct Points {
-    exchange::ParticleState state;                   ///< its stress: as settle_stress left it
+    exchange::ParticleState state;                   ///< its stress: set by settle_stress
     std::vector<mechanics::Voigt> effective_stress;  ///< [n_points] interpolated [Pa]
-    std::vector<Corners> shape;      ///< [n_elements] corners that the points lie between [m]
+    std::vector<Corners> shape;      ///< [n_elements] corners of the points' elements [m]
     std::vector<std::size_t> first;  ///< [n_elements + 1] first point of each element
     std::vector<Vec2> xi;            ///< [n_points] natural coordinates
     std::vector<Vec2> acceleration;  ///< [n_points] for the ledger only [m/s2]
@@ -32,7 +32,7 @@ Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> sha
 /// their alternating parts.
 void carry_nodal_fields(const exchange::MeshSnapshot& mesh, Points& points);
 
-/// (u - u_0) / sigma'_v0 [-]; 0 where sigma_v0 is not positive: nothing there can liquefy.
+/// (u - u_0) / sigma'_v0 [-]; 0 where sigma_v0 is not positive: soil there cannot liquefy.
 double pore_pressure_ratio(double d_u, double sigma_v0);
 
 }  // namespace breach::transfer

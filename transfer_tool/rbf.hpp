@@ -1,5 +1,5 @@
-// Radial basis functions: scattered values carried to new places with the multiquadric phi(r) =
-// sqrt(r^2 + epsilon^2). Knows nothing of meshes, regions or what the values mean.
+// Radial basis functions: interpolates scattered values with the multiquadric phi(r) = sqrt(r^2 +
+// epsilon^2). Independent of meshes, regions and the meaning of the values.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ struct Centres {
     Values value;
     std::size_t merged = 0;  ///< how many were dropped as coincident
 };
-/// Places closer than 1e-9 of the extent become one that carries the mean of their values. Compares
+/// Merges places closer than 1e-9 of the extent into one with the mean of their values. Compares
 /// all pairs.
 Centres merge_coincident(const std::vector<Vec2>& position, const Values& value);
 
@@ -33,7 +33,7 @@ double average_distance(std::span<const Vec2> position);
 /// Interpolant through a few centres: multiquadric plus a linear tail, exact for constant and
 /// linear fields. Distances are measured along the principal directions of the centres in units of
 /// their spread there, so that a mesh of aspect 1:100 is as well conditioned as one of squares.
-/// Centres on a line, or so near to one that `wanted` places lie many spreads beside it, give a
+/// Centres on a line, or so near to one that `wanted` places lie many spreads away from it, give a
 /// field that is linear along the line and constant across. One centre gives its value.
 class LocalInterpolant {
   public:
@@ -49,7 +49,7 @@ class LocalInterpolant {
     Vec2 middle_ = Vec2::Zero();
     /// Columns: principal directions over the spread [1/m]
     Eigen::Matrix2d axes_ = Eigen::Matrix2d::Zero();
-    int directions_ = 0;           ///< in how many of them the centres spread
+    int directions_ = 0;           ///< number of directions in which the centres spread
     std::vector<Vec2> centre_;     ///< normalised [-]
     double epsilon_ = 1.0;         ///< [-]
     Eigen::MatrixXd coefficient_;  ///< multiquadrics, then constant, then slopes
@@ -57,7 +57,7 @@ class LocalInterpolant {
 
 /// One interpolant through all centres without a tail, around the mean of the values so that a
 /// constant stays constant. Dense: N^2 memory, N^3 time. Departs from: Sordo et al. 2024, who do
-/// not take out the mean.
+/// not subtract the mean.
 class GlobalInterpolant {
   public:
     /// Nothing when the watch stopped it.

@@ -1,5 +1,5 @@
-// How many points each element gets in each direction, so that no cell of the MPM grid goes short:
-// an element is cut into panels, and every panel gets the scene's Gauss points.
+// Number of points per element and direction, so that each cell of the MPM grid gets enough: an
+// element is divided into panels, and every panel gets the scene's Gauss points.
 #pragma once
 
 #include <array>
@@ -18,25 +18,25 @@ using mechanics::Vec2;
 
 /// Panels along xi and along eta.
 using Panels = std::array<int, 2>;
-/// Along xi and along eta, as shifted_rule takes it [-].
+/// Along xi and along eta, as defined by shifted_rule [-].
 using Shift = std::array<double, 2>;
 
-/// The MPM's cells and what is asked of them.
+/// The MPM's cells and the number of points that they need.
 struct CellDemand {
     double cell_size;      ///< [m]
     Vec2 origin;           ///< of any node [m]
-    int points_per_cell;   ///< asked
+    int points_per_cell;   ///< required
     int points_per_panel;  ///< Gauss points per direction of a panel, n
     Shift shift = {};      ///< of the points within their panels
 };
 
-/// What the cells got. A cell is filled by the share of its area that elements cover; one with
-/// share f is owed floor(f * points_per_cell) points.
+/// Result for the cells. A cell is filled by the share of its area that elements cover; one with
+/// share f needs floor(f * points_per_cell) points.
 struct CellSupply {
     std::size_t occupied = 0;         ///< cells that any element touches with more than round-off
-    std::size_t filled = 0;           ///< of them, wholly covered
+    std::size_t filled = 0;           ///< of them, covered completely
     std::size_t least_in_filled = 0;  ///< fewest points in such a cell
-    std::size_t short_cells = 0;      ///< cells with fewer than they are owed
+    std::size_t short_cells = 0;      ///< cells with fewer than they need
 };
 
 struct Sampling {
@@ -47,9 +47,9 @@ struct Sampling {
 /// Every element one panel.
 Sampling one_panel_each(std::size_t elements);
 
-/// First as many panels as the mean distance of points asks for, then more wherever a cell still
-/// goes short, in the direction in which the element's points lie farther apart. Throws BadInput
-/// when that would take more than fifty million points.
+/// First as many panels as the mean distance of points requires, then more wherever a cell still
+/// has too few points, in the direction in which the element's points lie farther apart. Throws
+/// BadInput when that would take more than fifty million points.
 Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand);
 
 }  // namespace breach::transfer

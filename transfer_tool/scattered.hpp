@@ -1,5 +1,5 @@
-// Values carried between two sets of places that lie in the same regions: from Gauss points to
-// material points, and back.
+// Interpolates values between two sets of places in the same regions: from Gauss points to material
+// points, and back.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace breach::transfer {
 
-/// Where values are known.
+/// Places with known values.
 struct Sources {
     std::vector<Vec2> place;           ///< [m]
     std::vector<std::int32_t> region;  ///< of each
     std::size_t regions = 0;
 };
 
-/// Where they are wanted, in groups of neighbours (one per element).
+/// Places for the values, in groups of neighbours (one per element).
 struct Targets {
     std::vector<Vec2> place;           ///< [m]
     std::vector<std::size_t> first;    ///< [n_groups + 1]
@@ -29,7 +29,7 @@ struct Targets {
     std::vector<std::int64_t> same;    ///< [n_targets] the source at this very place, or -1
 };
 
-/// What the interpolation had to do beside interpolating.
+/// Special cases of the interpolation.
 struct GaussFieldReport {
     std::size_t merged_centres = 0;  ///< coincident sources that were taken as one
     std::size_t raised_strains = 0;  ///< epsilon_q below zero by more than 1e-12, set to zero
@@ -46,11 +46,11 @@ struct Work {
     Watch watch = {};
 };
 
-/// local: one interpolant per group through the `neighbours` sources of its region that are nearest
-/// to its middle, so nothing crosses a region's border, memory is linear in the number of targets
+/// local: one interpolant per group through the `neighbours` sources of its region nearest to its
+/// middle, so that values do not cross a region's border, memory is linear in the number of targets
 /// and the result does not depend on the number of threads. A target at a source takes its value.
 /// paper: one interpolant through all sources. Throws BadInput when they are too many for a dense
-/// system. Nothing when the watch stopped it.
+/// system. Nothing: the watch stopped it.
 std::optional<Interpolated> interpolate(const Sources& from, const Values& value, const Targets& to,
                                         const scene::Transfer& settings, const Work& work);
 

@@ -1,5 +1,5 @@
-// The places of the elements' corners that a transfer works with: those of the deformed mesh, and
-// for an inverted element, if the scene asks for it, its undistorted shape.
+// The corners of the elements for a transfer: those of the deformed mesh, or, for an inverted
+// element if the scene asks for it, its undistorted shape.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t eleme
 Corners deformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 
 /// Nodal pressure [Pa] at the corners of an element of shape x, without the part that alternates
-/// between them: what the FEM's forces know of it. Its mean stays, and so does a pressure that is
+/// between them: the pressure in the FEM's forces. Its mean stays, and so does a pressure that is
 /// linear in x.
 Eigen::Vector4d corner_pressure(const std::vector<double>& pressure,
                                 const std::array<std::int32_t, 4>& quad, const Corners& x);
@@ -42,7 +42,7 @@ struct RebuiltElement {
     Vec2 centre;          ///< [m]
     double least;         ///< worst corner's |J_t|/|J_0| on the mesh [-]
     double area_on_mesh;  ///< signed [m2]
-    double area;          ///< of the shape that it got: the undeformed one [m2]
+    double area;          ///< of its new shape: the undeformed one [m2]
 };
 
 struct Shapes {
@@ -51,8 +51,8 @@ struct Shapes {
 };
 
 /// refuse: throws Breakdown, naming the elements, the time and |J_t|/|J_0|, when a deformed element
-/// is inverted or entangled. rebuild: such an element takes its undeformed shape, its centre at the
-/// mean of its displaced corners, turned with its edges as far as they still agree. BadInput when
+/// is inverted or entangled. rebuild: such an element takes its undeformed shape, centred at the
+/// mean of its displaced corners, rotated with its edges as far as they still agree. BadInput when
 /// an undeformed element is inverted.
 Shapes shapes_of_elements(const exchange::MeshSnapshot& mesh, scene::Entangled policy,
                           const std::string& file);

@@ -1,5 +1,5 @@
-// Which soil of the scene every place of the mesh becomes: mapped materials, saturated and
-// unsaturated parts, and liquefied layers.
+// The scene's soil at every place of the mesh: mapped materials, saturated and unsaturated parts,
+// and liquefied layers.
 #pragma once
 
 #include <span>
@@ -17,44 +17,44 @@ namespace breach::transfer {
 
 using geometry::level_at;
 
-/// One soil as points get it. Index: as scene::soils_of.
+/// One soil of the points. Index: as in scene::soils_of.
 struct SoilOfPoints {
     std::string region;
     std::string material;
     materials::Law law;
     exchange::StressMeasure stress;
-    /// Where its points have strengths of their own
+    /// For points with strengths of their own
     std::optional<materials::StrengthProfile> strength{};
 };
 
 class SoilMap {
   public:
     /// Regions are matched by name. Throws BadInput, every fault at once, when the scene lacks a
-    /// region of the snapshot or gives it another material than the snapshot has, when points would
-    /// get a law that particles cannot have, or when liquefied layers are asked for and the
-    /// snapshot has no stress before the shaking.
+    /// region of the snapshot or gives it another material, when points would get a law that
+    /// particles cannot have, or when liquefied layers are requested and the snapshot has no stress
+    /// before the shaking.
     SoilMap(const exchange::MeshSnapshot& mesh, const scene::Scene& scene, const std::string& file);
 
     const std::vector<SoilOfPoints>& soils() const { return soils_; }
     /// Index into soils() at natural coordinates xi of an element. Columns and the phreatic line
-    /// are those of the undeformed mesh: soil takes its past along.
+    /// are those of the undeformed mesh: soil keeps its origin.
     std::int32_t at(std::size_t element, const Vec2& xi) const;
-    /// Of such a point: by its soil's profile and where it lay in the undeformed section; zero
-    /// where the soil has none. A liquefied one has its residual strength. Wet soil with a
+    /// Strength of such a point: by its soil's profile and its place in the undeformed section;
+    /// zero where the soil has none. A liquefied one has its residual strength. Wet soil with a
     /// state parameter has the strengths of its state, and its residual one where it has collapsed.
     materials::PointStrength strength_at(std::size_t element, const Vec2& xi) const;
-    /// The soil's state at such a point, where its strengths come from that.
+    /// The soil's state at such a point, if its strengths depend on it.
     std::optional<Collapse::Soil> state_at(std::size_t element, const Vec2& xi) const;
-    /// Nothing when the scene names no soil that liquefies by its pore pressure.
+    /// Nothing: no soil of the scene can liquefy by its pore pressure.
     const std::optional<LiquefiedZone>& liquefied() const { return liquefied_; }
     /// Of soil with a state parameter that /transfer/liquefied names.
     const Collapse& collapse() const { return collapse_; }
-    /// What became of that soil; nothing where there is none.
+    /// Report on that soil; nothing where there is none.
     std::optional<CollapseReport> collapse_report(const Points& points) const;
 
   private:
     struct RegionRule {
-        std::int32_t soil;                        ///< of what is neither saturated nor liquefied
+        std::int32_t soil;                        ///< of soil neither saturated nor liquefied
         std::optional<std::int32_t> saturated{};  ///< below the phreatic line
         std::vector<std::int32_t> layers{};       ///< of liquefied soil; empty: it keeps its own
         bool liquefies = false;                   ///< by its pore pressure
@@ -74,24 +74,24 @@ class SoilMap {
     scene::Ground ground_;
 };
 
-/// What the points of such a soil get. Only a law with friction can tell an effective stress from a
-/// total one.
+/// Stress measure for points of such a soil. Only a law with friction distinguishes an effective
+/// stress from a total one.
 exchange::StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted);
 
-/// Gives every point its soil: state.region, and the lists of regions that it refers to.
+/// Assigns a soil to every point: state.region, and the lists of regions that it refers to.
 void assign_soils(const SoilMap& map, Points& points);
 
-/// A peak that comes from the present state is the strength of soil strained as far as it is:
-/// until it has collapsed it softens by the strain from here on. After start_softening.
+/// A peak strength from the present state is that of soil at its present strain: until it has
+/// collapsed it softens with the strain from here on. Call after start_softening.
 void start_at_state(const SoilMap& map, Points& points);
 
-/// Effective to total stress, sigma' - u I, where the soil's points carry the total one.
+/// Effective to total stress, sigma' - u I, if the soil's points have the total one.
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,
                            double u);
 /// The same for all points.
 void settle_stress(const SoilMap& map, Points& points);
 
-/// What one soil got, for result.json and people.
+/// Points of one soil, for result.json and messages.
 struct SoilShare {
     std::size_t soil;
     std::size_t points = 0;

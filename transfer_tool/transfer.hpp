@@ -1,4 +1,4 @@
-// From a FEM snapshot to material points: the verbs in order. No files here.
+// Converts a FEM snapshot to material points: the steps in order. No files here.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace breach::transfer {
 
-/// What the liquefied zone was.
+/// The liquefied zone of a transfer.
 struct LiquefactionReport {
-    scene::LiquefiedWhen when;  ///< at_transfer too where the snapshot knows no earlier instant
+    scene::LiquefiedWhen when;  ///< at_transfer too if the snapshot stores no earlier maximum
     std::size_t nodes;          ///< liquefied
     double deepest_level;       ///< of them, undeformed [m]; +infinity: none
     double closed_width;        ///< of walls too narrow to stay [m]
@@ -28,7 +28,7 @@ struct LeftOut {
     mechanics::Vec2 place{};         ///< of the most strained [m]
 };
 
-/// Throws BadInput where what is left out fails.
+/// Throws BadInput if a failing part is left out.
 void refuse_cut(const LeftOut& out);
 
 struct Transferred {
@@ -48,9 +48,9 @@ struct Transferred {
     std::optional<LeftOut> left_out;
 };
 
-/// `file` is named in messages. Nothing when the watch stopped it. Throws Breakdown when the mesh
-/// is entangled, BadInput when mesh and scene do not belong together. Whether the ledger is good
-/// enough is the caller's question (refuse_losses).
+/// `file` is named in messages. Nothing: the watch stopped it. Throws Breakdown when the mesh is
+/// entangled, BadInput when mesh and scene do not fit. The caller checks the ledger
+/// (refuse_losses).
 std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
                                     const Work& work, const std::string& file);
 

@@ -1,4 +1,4 @@
-// How long work tells how far it is and hears that it should stop.
+// Progress reports and stop requests for long computations.
 #pragma once
 
 #include <functional>

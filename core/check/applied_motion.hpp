@@ -1,5 +1,5 @@
-// The motion that shakes the scene: read, its baseline corrected and scaled as the scene asks. The
-// check judges this one, and the FEM applies it.
+// The motion that shakes the scene: read, baseline-corrected and scaled as the scene requests. The
+// check judges this motion, and the FEM applies it.
 #pragma once
 
 #include "core/motion/read_motion.hpp"
@@ -7,7 +7,7 @@
 
 namespace breach::check {
 
-/// Corrected and scaled where that is asked for and possible: an acceleration.
+/// Corrected and scaled where requested and possible: an acceleration.
 motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording);
 /// The same from the file: an acceleration or a velocity. Throws as motion::read_motion does.
 motion::Recording applied_motion(const scene::BaseMotion& wanted);

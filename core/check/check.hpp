@@ -1,5 +1,5 @@
-// What is wrong with a scene before anything runs: all that follows from it and from the files that
-// it names, for every phase that it has a part for. Nothing here knows a mesh's nodes or a result.
+// Everything wrong with a scene that can be found before a run: in the scene itself and in the files
+// that it names, for every phase in it. Needs no mesh nodes and no results.
 #pragma once
 
 #include <filesystem>
@@ -18,10 +18,10 @@ class Recordings;
 
 struct Findings {
     std::vector<fault::Fault> faults;   ///< the scene cannot run
-    std::vector<fault::Flag> warnings;  ///< it can, and is hardly meant so
+    std::vector<fault::Flag> warnings;  ///< it can run, but is probably not what was meant
 };
 
-/// Of a scene that was read, wholly or as far as it was sound (scene::Reading). Reads the motion
+/// The scene as scene::Reading has it, whole or without its faulty parts. Reads the motion
 /// and looks into the mesh file; a few milliseconds.
 Findings findings_of(const scene::Scene& scene);
 /// The same for one of many scenes: a motion that an earlier one named is not read again.

@@ -1,5 +1,5 @@
-// Inside core/check only: the checks by subject, and how they tell what they find. Each takes a
-// scene that may be read in part: parts that are absent, regions without polygon or material.
+// Inside core/check only: the checks by subject, and how they report findings. Each takes a scene
+// that may be incomplete: absent parts, regions without polygon or material.
 #pragma once
 
 #include <string>
@@ -28,14 +28,14 @@ bool has_soil(const scene::Scene& scene);
 void check_geometry(const scene::Scene& scene, Findings& findings);
 /// /lem: ground under every slice, ends of the surfaces, loads and layers where there is soil.
 void check_stability(const scene::Scene& scene, Findings& findings);
-/// /fem: what the laws ask of the stages and of the mesh file.
+/// /fem: requirements of the laws on the stages and on the mesh file.
 void check_stages(const scene::Scene& scene, Findings& findings);
 /// /fem: supports, the edges that base and free-field columns need, the crest.
 void check_supports(const scene::Scene& scene, Findings& findings);
 /// A water table is drawn over the section and reaches some soil; false: it is refused.
 bool check_table(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
                  const std::string& pointer, Findings& findings);
-/// Beyond its ends a line goes on level, and stands above ground there: water that nobody drew.
+/// Beyond its ends a line continues level: warns where it is then above ground, as undrawn water.
 void warn_about_ends(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
                      const std::string& pointer, Findings& findings);
 /// /fem/water: what is wet, what wet soil needs, boundaries of pressure, the liquefaction watch.
@@ -46,7 +46,7 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
 void check_strengths(const scene::Scene& scene, Findings& findings);
 /// Laws that points can have, for the transfer and the MPM.
 void check_soils(const scene::Scene& scene, Findings& findings);
-/// /transfer: what it needs of the FEM, and its window.
+/// /transfer: what it needs from the FEM, and its window.
 void check_transfer(const scene::Scene& scene, Findings& findings);
 /// /mpm: the section between terrain, walls and lid of the grid; the toe.
 void check_ground(const scene::Scene& scene, Findings& findings);

@@ -31,7 +31,7 @@ GapRange gap_range(const scene::Scene& scene, const scene::Region& a, const scen
     const bool unstructured = std::ranges::any_of(scene.section.regions, [](const auto& each) {
         return each.mesh == scene::RegionMesh::unstructured;
     });
-    // What the meshers take for one point.
+    // The distance within which the meshers merge two points.
     range.least = std::min(range.least, unstructured ? 1e-9 * (box.high - box.low).norm()
                                                      : 1e-6 * least_element_size(scene));
     range.largest = std::max({range.largest, element_size(a), element_size(b)});

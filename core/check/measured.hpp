@@ -1,5 +1,5 @@
-// What the FEM of a scene measures: columns of telemetry that say nothing of a scene are left out, and
-// a condition on one of them would never be told true.
+// Which telemetry columns the FEM of a scene measures. Others are not written, so a condition on one
+// of them would never be true.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct NotMeasured {
     const char* remedy;
 };
 
-/// Nothing: it is measured. The scene has /fem.
+/// Why the column is not measured; nothing: it is. The scene has /fem.
 std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry::Needs needs);
 
 /// One fault at `pointer` for each field of a condition that the scene's FEM does not measure.

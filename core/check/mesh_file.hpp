@@ -1,5 +1,5 @@
-// What a mesh file says of itself before its nodes: enough to know whether it is one that the FEM
-// reads, and its surfaces. fem_solver reads the rest.
+// The head of a mesh file, before its nodes: its format, to know whether the FEM can read it,
+// and its surfaces. fem_solver reads the rest.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ struct MeshHead {
     std::set<std::string> surfaces;  ///< names of its physical surfaces
 };
 
-/// Throws IoError when the file is none, or cannot be opened; BadInput when it is no gmsh text mesh of
-/// a format that is read.
+/// Throws IoError when there is no such file or it cannot be opened; BadInput when it is no gmsh text
+/// mesh of a supported format.
 MeshHead read_mesh_head(const std::filesystem::path& file);
 
 }  // namespace breach::check

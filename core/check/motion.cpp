@@ -56,7 +56,7 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& fi
                "give the acceleration, or take it as recorded");
 }
 
-/// One value throughout is no record, whatever its unit. Zeros are a motion: core/motion warns of it.
+/// A constant series is no record in any unit. Zeros are a motion: core/motion warns of it.
 bool moves(const motion::Series& series, Findings& findings) {
     const auto [low, high] = std::ranges::minmax(series.values);
     if (low != high || low == 0.0) return true;

@@ -1,5 +1,5 @@
-// Motions that were read: many scenes of one study name the same file, and checking them must not
-// read it as often. For several threads at once.
+// Cache of motions: the scenes of one study often name the same file, which is read
+// once. Thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace breach::check {
 
 class Recordings {
   public:
-    /// Throws as motion::read_motion does; what could not be read is tried again the next time.
+    /// Throws as motion::read_motion does; a file that could not be read is tried again next time.
     motion::Recording of(const std::filesystem::path& file);
 
   private:

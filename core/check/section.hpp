@@ -1,4 +1,4 @@
-// Inside core/check only: questions about the cross-section as it is drawn.
+// Inside core/check only: queries on the cross-section as it is drawn.
 #pragma once
 
 #include <array>
@@ -36,10 +36,10 @@ std::string reach_of_ground(const scene::Scene& scene);
 
 std::string region_pointer(std::size_t region, const std::string& below = "");
 
-/// The region's material; none when the scene does not have it.
+/// The region's material; null when the scene does not have it.
 const scene::Material* material_of(const scene::Scene& scene, const scene::Region& region);
 
-/// Length of the region's elements as far as the scene says it, over its area for a block [m].
+/// Edge length of the region's elements as the scene gives it; for a block from its area [m].
 double element_size(const scene::Region& region);
 double least_element_size(const scene::Scene& scene);
 double largest_element_size(const scene::Scene& scene);

@@ -89,8 +89,8 @@ const std::vector<Vec2>* water_table_of(const scene::Scene& scene) {
     return everywhere ? &scene.lem->water->line : nullptr;
 }
 
-/// Points carry total stress: friction below the water table acts on the water's pressure, too, and a
-/// slope stands that the stability analysis calls failed. After an FEM what has liquefied is told.
+/// Points carry total stress: friction below the water table acts on water pressure, too, so slopes
+/// that fail by limit equilibrium may stand. After an FEM, liquefied soil is flagged instead.
 void warn_about_friction_under_water(const scene::Scene& scene,
                                      const std::vector<scene::Soil>& soils, Findings& findings) {
     if (scene.fem) return;

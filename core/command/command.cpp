@@ -87,8 +87,8 @@ struct End {
     rusage spent{};
 };
 
-/// When it has ended by itself until then, or was killed with what it started: one that has closed
-/// its output may go on for ever.
+/// Waits until the process exits, or kills it and its children at the deadline: a process that has
+/// closed its output may still run without end.
 End end_of(pid_t pid, Clock::time_point deadline) {
     constexpr auto pause = std::chrono::milliseconds(2);
     End end;

@@ -1,4 +1,4 @@
-// Runs another program to its end, with a limit on its time: what it was told, what it said.
+// Runs another program to its end with a time limit; returns its exit code and output.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace breach::command {
 
-/// A phase that is asked about itself (--plan, --version) has answered by then.
+/// Limit for a phase to answer --plan or --version.
 constexpr auto longest_answer = std::chrono::seconds(20);
 
 struct Result {

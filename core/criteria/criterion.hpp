@@ -1,6 +1,6 @@
 // A condition that must hold for a while: armed -> holding -> met, and back to armed when it is
-// broken inside the hold. A pure function of the lines it was given, so that a replay decides the
-// same.
+// broken inside the hold. A pure function of the lines it was given, so that a replay gives the
+// same decision.
 #pragma once
 
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace breach::criteria {
 
-/// One telemetry line as far as a criterion needs it; values in the order of the expression's
+/// The part of a telemetry line that a criterion needs; values in the order of the expression's
 /// fields.
 struct Line {
     double time;  ///< simulated [s]
@@ -21,8 +21,8 @@ struct Line {
     std::vector<double> values;
 };
 
-/// The line as this expression wants it; NaN where it lacks a field. beside: numbers that stand for
-/// every line (critical_depth), before the line's own.
+/// The line's values for this expression; NaN where it lacks a field. beside: constants for all
+/// lines (critical_depth); the line's own values replace them.
 Line line_for(const Expression& expression, const telemetry::Line& line,
               const std::map<std::string, double>& beside = {});
 
@@ -35,12 +35,12 @@ class Criterion {
 
     /// Takes the next line; what is met stays met.
     State take(const Line& line);
-    /// The same, but what is met is so only for as long as the condition is true.
+    /// The same, but the state is met only while the condition is true.
     State follow(const Line& line);
 
     State state() const { return state_; }
     const Expression& expression() const { return evaluation_.expression(); }
-    /// The line on which the condition became true for the hold that is going on or was met.
+    /// The line on which the condition became true for the current or completed hold.
     const std::optional<Line>& crossing() const { return crossing_; }
     /// Simulated time at which it was met [s].
     double met_at() const { return met_at_; }

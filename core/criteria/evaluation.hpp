@@ -1,5 +1,5 @@
-// An expression at work: the values of its fields go in line by line, its value comes out. Unknown
-// (a field missing in the line, a window that the past does not fill yet) is NaN and spreads; a
+// Evaluates an expression line by line: the values of its fields go in, its value comes out. Unknown
+// (a field missing in the line, a window longer than the past so far) is NaN and propagates; a
 // condition on something unknown is unknown too, and unknown never counts as true.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace breach::criteria {
 
-/// The past of one quantity over a sliding window of the simulated time.
+/// The past of one quantity over a sliding window of simulated time.
 class Past {
   public:
     explicit Past(double length) : length_(length) {}
@@ -22,7 +22,7 @@ class Past {
         double t, x;
     };
     double length_;
-    std::size_t first_ = 0;  ///< samples before it are of no use any more
+    std::size_t first_ = 0;  ///< earlier samples are no longer needed
     std::vector<Sample> samples_;
 };
 

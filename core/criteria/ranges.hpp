@@ -1,4 +1,4 @@
-// Whether a condition can come true at all, from the ranges that its fields keep to.
+// Whether a condition can ever be true, from the ranges of its fields.
 #pragma once
 
 #include <functional>

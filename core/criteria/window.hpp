@@ -1,5 +1,5 @@
-// The window of transfer times: from the failure having developed (lower edge) to the mesh being
-// too distorted (upper edge), and the time to take in it. Sordo et al.: half-way between.
+// The window of transfer times: from the developed failure (lower edge) to the too distorted
+// mesh (upper edge), and the time to choose in it. Sordo et al.: half-way between.
 #pragma once
 
 #include <limits>
@@ -14,11 +14,11 @@ enum class Pick { first, midpoint, last_before };
 /// "first", "midpoint", "last_before"; anything else: nothing.
 std::optional<Pick> pick_named(std::string_view name);
 
-/// The lower edge is where the lower condition was first true for its hold. The upper one is the
-/// beginning of the first span of the upper condition that is true there or later and lasts for the
-/// hold, which runs from the span's own beginning: where that is not after the lower edge, there is
-/// no window. A span that is over by then, or did not last, says nothing; nor does one that had not
-/// lasted yet when the telemetry ended.
+/// The lower edge is the time at which the lower condition was first true for its hold. The upper edge
+/// is the beginning of the first span of the upper condition that is true there or later and lasts for
+/// the hold, counted from the span's beginning. If that is not after the lower edge, there is no
+/// window. Ignored: spans that ended before the lower edge or did not last for the hold, and a span
+/// that had not lasted for it yet when the telemetry ended.
 class Window {
   public:
     Window(Expression lower, Expression upper, double hold);
@@ -26,16 +26,16 @@ class Window {
     void take_lower(const Line& line) { lower_.take(line); }
     /// After take_lower of the same line.
     void take_upper(const Line& line);
-    /// Both, of a line as telemetry has it. beside: numbers that stand for every line.
+    /// Both, with a line of telemetry. beside: constants for all lines.
     void take(const telemetry::Line& line, const std::map<std::string, double>& beside = {});
     const Criterion& lower() const { return lower_; }
     const Expression& upper() const { return upper_.expression(); }
     /// The line of the upper edge. Nothing: it is not known yet, or there is no window.
     std::optional<Line> upper_edge() const;
-    /// Since when the mesh was too distorted, where that was so when the failure had developed: there
-    /// is no window. Known as soon as the lower edge is: the holds are equally long.
+    /// Since when the mesh was too distorted, if it already was when the failure had developed: then
+    /// there is no window. Known as soon as the lower edge is: the holds are equally long.
     std::optional<Line> shut_since() const;
-    /// Whether the lines so far show that the upper edge comes after t [s], whatever follows. Asked of
+    /// Whether the lines so far show that the upper edge comes after t [s], for any later lines. For
     /// times from the lower edge on, once that is known.
     bool is_open_at(double t) const;
 
@@ -45,7 +45,7 @@ class Window {
     double last_time_ = std::numeric_limits<double>::lowest();  ///< of the lines [s]
 };
 
-/// The snapshot to take in [lower, upper]; `times` ascend [s]. first: the first not before the
+/// The snapshot to choose in [lower, upper]; `times` ascend [s]. first: the first not before the
 /// lower edge; last_before: the last before the upper edge; midpoint: the nearest to half-way, the
 /// earlier of two. Nothing when no snapshot lies in the window.
 std::optional<double> picked(Pick pick, double lower, double upper, std::span<const double> times);

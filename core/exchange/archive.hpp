@@ -25,14 +25,14 @@ struct Archive {
 void write_archive(const std::filesystem::path& path, const Archive& archive,
                    const Provenance& provenance);
 
-/// What the reals of an archive may be.
+/// Which reals an archive may contain.
 enum class Reals {
     any,     ///< a table may have places without a value
-    finite,  ///< a state to go on from: one that is not a number is refused
+    finite,  ///< a state to resume from: a number that is not finite is refused
 };
 
-/// Throws BadInput if the kind or version differs, an array is damaged or a real is not what it may
-/// be; IoError if the file cannot be opened.
+/// Throws BadInput if the kind or version differs, an array is damaged or a real is not allowed;
+/// IoError if the file cannot be opened.
 Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version,
                      Reals may_be = Reals::any);
 

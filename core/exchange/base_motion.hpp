@@ -1,5 +1,5 @@
-// The ground's motion from the FEM's first dynamic stage to the end of the earthquake: what a
-// runout needs that begins while the ground still shakes.
+// The ground's motion from the FEM's first dynamic stage to the end of the earthquake: needed by a
+// runout that begins while the ground still shakes.
 #pragma once
 
 #include <vector>

@@ -61,12 +61,12 @@ std::vector<Real> padded(const std::vector<Eigen::Matrix<double, n, 1>>& rows, s
     return values;
 }
 
-/// (x, y) -> (x, y, 0): what ParaView takes for a vector.
+/// (x, y) -> (x, y, 0): a vector for ParaView.
 template <class Real = double>
 std::vector<Real> as_3d(const std::vector<mechanics::Vec2>& vectors) {
     return padded<Real, 2>(vectors, 3);
 }
-/// (xx, yy, zz, xy) -> (xx, yy, zz, xy, 0, 0): what ParaView takes for a symmetric tensor.
+/// (xx, yy, zz, xy) -> (xx, yy, zz, xy, 0, 0): a symmetric tensor for ParaView.
 template <class Real = double>
 std::vector<Real> as_3d(const std::vector<mechanics::Voigt>& tensors) {
     return padded<Real, 4>(tensors, 6);

@@ -1,4 +1,4 @@
-// The excess pore pressure of a snapshot as r_u, liquefied zones and figures read it.
+// The excess pore pressure of a snapshot, for r_u, liquefied zones and figures.
 #pragma once
 
 #include "core/exchange/mesh_snapshot.hpp"
@@ -9,7 +9,7 @@ namespace breach::exchange {
 /// where the snapshot has no u_0.
 std::vector<double> nodal_excess_pressure(const MeshSnapshot& mesh);
 
-/// The largest of it since the shaking began, as far as the snapshot knows: its own instant at least.
+/// Its maximum since the shaking began, or at the snapshot's own time if it stores no maximum.
 std::vector<double> largest_excess_pressure(const MeshSnapshot& mesh);
 
 }  // namespace breach::exchange

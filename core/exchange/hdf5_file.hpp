@@ -1,6 +1,6 @@
-// HDF5 as this room uses it: an image built in memory and published whole, and a reader that names
-// every fault. Private to core/exchange: nobody else includes hdf5.h. Not for concurrent use from
-// several threads.
+// HDF5 for this folder: an image built in memory and published whole, and a reader that names every
+// fault. Private to core/exchange: no other file includes hdf5.h. Not for concurrent use from several
+// threads.
 #pragma once
 
 #include <hdf5.h>
@@ -40,7 +40,7 @@ class Handle {
     Close close_;
 };
 
-/// What a file says it is, in the attributes of /breachline.
+/// Kind of a file, from the attributes of /breachline.
 struct Kind {
     std::string name;  ///< "mesh_snapshot"
     int version;
@@ -96,7 +96,7 @@ class Hdf5Image {
     Handle file_;
 };
 
-/// A published file, read with suspicion: every call that finds something wrong notes a fault,
+/// A published file, read without trust: every call that finds something wrong notes a fault,
 /// named by dataset path, and returns zeros or empty text; refuse_if_faulty() throws them all.
 class Hdf5Reader {
   public:
@@ -107,7 +107,7 @@ class Hdf5Reader {
 
     bool exists(const std::string& path) const;
     bool has_attribute(const std::string& object, const std::string& name) const;
-    /// Names of what lies in a group, ascending.
+    /// Names of the entries of a group, ascending.
     std::vector<std::string> names_in(const std::string& group);
 
     /// Rows of a dataset that its file can hold; 0 is a fault.
@@ -127,8 +127,8 @@ class Hdf5Reader {
     /// A number of rows: not negative, and not more than a file of this size can hold.
     std::size_t count_attribute(const std::string& object, const std::string& name);
 
-    /// Reads every dataset that was not asked for, so that its checksums are compared too and no
-    /// copy for ParaView holds what is not a number.
+    /// Reads every dataset not yet read, so that its checksums are compared too, and checks that
+    /// copies for ParaView contain numbers only.
     void check_rest();
 
     void fault(const std::string& path, const std::string& cause);
@@ -139,7 +139,7 @@ class Hdf5Reader {
         Handle id;
         std::vector<hsize_t> shape;
     };
-    /// Largest size of what the dataset's place in the file can hold [bytes].
+    /// Upper bound of the dataset's size from its storage in the file [bytes].
     double capacity(hid_t dataset) const;
     std::optional<Dataset> open(const std::string& path, H5T_class_t type_class);
     template <typename T>

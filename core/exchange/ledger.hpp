@@ -1,4 +1,4 @@
-// What a transfer kept and what it lost: one row per region and quantity, stored in the particle
+// What a transfer conserved and lost: one row per region and quantity, stored in the particle
 // file.
 #pragma once
 

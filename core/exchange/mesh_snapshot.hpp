@@ -31,13 +31,13 @@ struct MeshSnapshot {
     std::vector<double> nodal_mass;             ///< lumped, for the ledger [kg]
     std::vector<double> pore_pressure;          ///< u [Pa]; empty in a scene without water
     /// Vertical effective stress of the ground before the shaking, that is when the first dynamic
-    /// stage begins, and the pore pressure there and then; compression positive [Pa]. Both or none;
-    /// a FEM with water writes them, from its Gauss points averaged at the nodes, so that r_u = (u
-    /// - u_0) / sigma'_v0 can be formed; without them nothing can be called liquefied.
+    /// stage begins, and the pore pressure then; compression positive [Pa]. Both or none; a FEM with
+    /// water writes them, averaged from its Gauss points to the nodes, for r_u = (u - u_0) /
+    /// sigma'_v0. Without them no soil counts as liquefied.
     std::vector<double> sigma_v0;
     std::vector<double> pore_pressure_0;
-    /// Largest excess pressure of each node since then [Pa], of what nodal_excess_pressure gives step
-    /// by step. May be empty though there is u_0: the snapshot knows its own instant alone.
+    /// Largest excess pressure of each node since then [Pa], from nodal_excess_pressure at each
+    /// step. May be empty although there is u_0: then only the snapshot's own time is known.
     std::vector<double> excess_pressure_max;
 
     // elements [n_elements]

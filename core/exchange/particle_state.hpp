@@ -17,8 +17,8 @@
 
 namespace breach::exchange {
 
-/// What the stress of a region's points is. effective: the total stress is stress - u I with the
-/// points' pore_pressure u; total: the pore pressure is in it already.
+/// Stress measure of a region's points. effective: the total stress is stress - u I with the
+/// points' pore_pressure u; total: stress includes the pore pressure.
 enum class StressMeasure { effective, total };
 
 constexpr auto words_of(StressMeasure) {
@@ -34,7 +34,7 @@ struct StrengthOfPoints {
     std::vector<double> tan_phi_residual;  ///< [-]
 };
 
-/// What every point has beside its place and region. [n_particles]
+/// Fields of every point beside position and region. [n_particles]
 struct PointFields {
     std::vector<mechanics::Vec2> velocity;  ///< [m/s]
     /// Rows: component, columns: direction [1/s]
@@ -89,7 +89,7 @@ struct ParticleState : PointFields {
     std::int64_t step = 0;
     double thickness = 1.0;  ///< [m]
 
-    /// By region index: name, material, and what the stress is. A name may occur more than once,
+    /// By region index: name, material, and stress measure. A name may occur more than once,
     /// each time with another material (layers of one region that liquefied).
     std::vector<std::string> regions;
     std::vector<std::string> materials_of_regions;
@@ -98,20 +98,20 @@ struct ParticleState : PointFields {
     std::vector<mechanics::Vec2> position;  ///< [n_particles] [m]
     std::vector<std::int32_t> region;       ///< [n_particles]
 
-    /// On the FEM's clock; only what the transfer wrote has it, as velocities there are still those
-    /// against far rock.
+    /// On the FEM's clock; only files of the transfer have it. Their velocities are still relative to
+    /// far rock.
     BaseMotion base_motion{};
 
     std::size_t size() const { return position.size(); }
-    /// New points have zeros in all that every point has.
+    /// New points get zeros in all fields that every point has.
     void resize(std::size_t n);
-    /// Leaves only these points, in their order.
+    /// Keeps only these points, in their order.
     void keep(const std::vector<std::size_t>& points);
-    /// u beside the point's stress; 0 where that is the total one [Pa]
+    /// u of a point with effective stress; 0 where the stress is total [Pa]
     double pressure_beside(std::size_t p) const;
 };
 
-/// `ledger`: what the transfer kept and lost; only the transfer gives one.
+/// `ledger`: what the transfer conserved and lost; only the transfer gives one.
 void write_particle_state(const std::filesystem::path& path, const ParticleState& state,
                           const Provenance& provenance, const Ledger& ledger = {});
 
@@ -123,12 +123,12 @@ struct ParticleStateFile {
 /// Throws BadInput or IoError as read_mesh_snapshot does.
 ParticleStateFile read_particle_state(const std::filesystem::path& path);
 
-/// What is looked at and not computed with: places, regions and the named fields of PointData (those
-/// of them that the points have), in single precision, shuffled and deflated.
+/// Writes a frame for display, not to compute with: positions, regions and the named fields of
+/// PointData (those that the points have), in single precision, shuffled and deflated.
 void write_particle_frame(const std::filesystem::path& path, const ParticleState& state,
                           std::span<const std::string_view> fields, const Provenance& provenance);
 
-/// Of a frame or of a whole state: what the file has; the other fields are empty. Throws as
+/// Reads a frame or a whole state; fields that the file lacks are empty. Throws as
 /// read_particle_state does.
 ParticleState read_particle_frame(const std::filesystem::path& path);
 

@@ -1,4 +1,4 @@
-// Where a file comes from: what every output carries so that a number can be traced to its inputs.
+// Provenance of a file: stored in every output so that a number can be traced to its inputs.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ struct InputDigest {
     std::string sha256;
 };
 
-/// By all processes that had a part in a file, up to its writing [s].
+/// Spent by all processes that contributed to a file, until it was written [s].
 struct Spent {
     double wall = 0.0;
     double cpu = 0.0;
@@ -31,7 +31,7 @@ struct Provenance {
 /// SHA-256 of a file as 64 hexadecimal digits. Throws IoError.
 std::string sha256_of_file(const std::filesystem::path& path);
 std::string sha256_of_text(const std::string& text);
-/// 64 hexadecimal digits, as these give them.
+/// Whether the text is 64 hexadecimal digits in lower case.
 bool is_sha256(const std::string& text);
 
 }  // namespace breach::exchange

@@ -20,8 +20,8 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
-/// One thing that is wrong with an input: where (JSON pointer or dataset path), why, and how to
-/// mend it.
+/// One thing that is wrong with an input: where (JSON pointer or dataset path), why, and what to
+/// write instead.
 struct Fault {
     std::string pointer;
     std::string cause;
@@ -46,7 +46,7 @@ class IoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The numbers gave up: what, where and when. The thrower has saved the last good state. Exit
+/// The computation broke down: what, where and when. The thrower has saved the last good state. Exit
 /// code 70.
 class Breakdown : public std::runtime_error {
   public:

@@ -1,4 +1,4 @@
-// What a reader of a result must know before believing it. A fault stops a phase; a flag goes with its result, and every
+// What a reader must know before relying on a result. A fault stops a phase; a flag goes with its result, and every
 // place that shows a number of that result shows the flag as well.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace breach::fault {
 
-/// warning: the number stands, with less certainty than it looks. questionable: the number is wrong, a bound, or cannot be
-/// trusted; the result is not plainly "succeeded".
+/// warning: the number is usable, but less certain than it looks. questionable: the number is wrong, a bound, or
+/// cannot be trusted; the result is not plainly "succeeded".
 enum class Severity { warning, questionable };
 
 struct Flag {

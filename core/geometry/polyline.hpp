@@ -19,7 +19,7 @@ struct Crossing {
     mechanics::Vec2 at;
     double on_first, on_second;
 
-    /// Between the ends of both, which do not count.
+    /// Between the ends of both segments, ends excluded.
     bool is_within() const {
         return on_first > 0.0 && on_first < 1.0 && on_second > 0.0 && on_second < 1.0;
     }
@@ -34,7 +34,7 @@ double on_straight(const mechanics::Vec2& a, const mechanics::Vec2& b, double x)
 /// point, ascending in x.
 double level_at(const std::vector<mechanics::Vec2>& line, double x);
 
-/// The same, but the first and the last part go on straight beyond the ends.
+/// The same, but the first and the last part are extended straight beyond the ends.
 double straight_level_at(const std::vector<mechanics::Vec2>& line, double x);
 
 using Level = double (*)(const std::vector<mechanics::Vec2>&, double);  ///< one of the two

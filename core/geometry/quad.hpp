@@ -34,7 +34,7 @@ struct GaussRule {
 };
 GaussRule gauss_legendre(int n);
 /// The same rule in each of `panels` equal parts of [-1, 1]: n * panels points, ascending, exact to
-/// the same degree. With two points per panel all weights are equal, whatever their number.
+/// the same degree. With two points per panel all weights are equal, for any number of panels.
 GaussRule gauss_legendre(int n, int panels);
 /// The n-point rule of the same family whose polynomial is P_n - shift P_(n-1), in each panel: the
 /// points move towards +1 (shift > 0) or -1, at shift = +-1 onto the border (Radau), and all

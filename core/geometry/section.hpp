@@ -1,4 +1,4 @@
-// Questions to a cross-section as it is drawn: where soil is, how high it stands, what lies over a place.
+// Queries on a cross-section as drawn: where soil is, the ground level, the strata above a place.
 #pragma once
 
 #include "core/geometry/polygon.hpp"
@@ -6,8 +6,8 @@
 
 namespace breach::geometry {
 
-/// The polygons of a section's regions, in their order; one that is empty is no soil. They are looked
-/// at where they are.
+/// The polygons of a section's regions, in their order; an empty polygon is no soil. The polygons
+/// are not copied.
 using Outlines = std::vector<const Polygon*>;
 
 template <class Regions, class Polygon>
@@ -17,7 +17,7 @@ Outlines outlines_of(const Regions& regions, Polygon polygon) {
     return outlines;
 }
 
-/// Box around all; inside out without soil.
+/// Box around all regions; inverted (low > high) without soil.
 Box extent(const Outlines& outlines);
 
 bool in_soil(const Outlines& outlines, const Vec2& place, double tolerance = 0.0);
@@ -38,8 +38,8 @@ std::vector<Stratum> strata_at(const Outlines& outlines, double x);
 /// Highest soil at x; -infinity: there is none [m].
 double ground_at(const Outlines& outlines, double x);
 
-/// Greatest height of a line over a point of the soil, and where. The line's level beyond its ends is
-/// what `level` says.
+/// Greatest height of a line over a point of the soil, and where. `level` gives the line's level
+/// beyond its ends.
 struct Depth {
     double below;  ///< positive: the soil reaches below the line [m]
     Vec2 place;
@@ -50,7 +50,7 @@ Depth deepest_below(const Outlines& outlines, const std::vector<Vec2>& line, Lev
 /// Abscissae between which all borders are straight, ascending.
 std::vector<double> abscissae(const Outlines& outlines);
 
-/// The ground's levels over a range, lowest and highest; infinite, inside out, where there is none.
+/// Lowest and highest ground level over a range; infinite and inverted where there is no ground.
 struct Levels {
     double lowest, highest;
 };

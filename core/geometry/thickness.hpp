@@ -1,4 +1,4 @@
-// How thick a polygon is: what cells and elements across it are counted by.
+// Thickness of a polygon: to count the cells and elements across it.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,15 @@
 
 namespace breach::geometry {
 
-/// How thick a polygon is [m], together with those that it touches and that count as one with it.
-/// The local thickness at a place is the diameter of the largest disc inside the whole that covers
-/// the place (Hildebrand & Rueegsegger 1997); half of the polygon's area lies where the whole is
-/// thicker than the value returned, half where it is thinner. A long band's own thickness, a
-/// square's edge; thin wedges and necks that hold less than half of the area do not count. Within a
+/// Thickness of a polygon [m], together with those that it touches and that count as one with it. The
+/// local thickness at a place is the diameter of the largest disc inside the whole that covers the
+/// place (Hildebrand & Rueegsegger 1997); half of the polygon's area lies where the whole is thicker
+/// than the value returned, half where it is thinner. For a long band this is its thickness, for a
+/// square its edge; thin wedges and necks with less than half of the area do not count. Accurate to a
 /// few per cent.
 double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached = {});
 
-/// The same where it is less than a limit [m]; that it is more is found out much faster.
+/// The same if it is less than a limit [m]; much faster where the polygon is thicker.
 std::optional<double> thickness_below(double limit, const Polygon& polygon,
                                       const std::vector<Polygon>& attached = {});
 

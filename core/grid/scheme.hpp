@@ -1,5 +1,5 @@
-// What a scene says of the material point scheme, as values only: whoever reads, plans, audits or
-// computes means the same two enums.
+// The update order of the material point scheme and the other words of a scene's scheme, as values
+// only: reading, planning and computing share these enums.
 #pragma once
 
 namespace breach::grid {

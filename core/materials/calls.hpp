@@ -1,5 +1,5 @@
 // A call of a law that walks through sub-steps with error control: opened (reversal, elastic part),
-// walked, closed. How is the law's own affair, in its own namespace:
+// walked, closed. Each law implements these steps in its own namespace:
 //     open_call(law, old, d, task), load(task, lane, walk), after_unloading(law, lane, walk,
 //     task), ends(lane, walk, lost, options, task), store(law, lane, walk, task),
 //     finish_call(law, old, d, task), may_be_tried(d, options)

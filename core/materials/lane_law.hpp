@@ -1,6 +1,6 @@
-// What a law is to a loop over several points side by side (lanes.hpp): bare numbers and one formula
-// from the elastic trial stress to the stress. Knows neither Eigen nor containers, so that it can
-// be compiled once per instruction set.
+// Interface of a law in a loop over several points side by side (lanes.hpp): bare numbers and one formula
+// from the elastic trial stress to the stress. Includes neither Eigen nor containers, so that it can be
+// compiled once per instruction set.
 #pragma once
 
 #include "core/materials/lanes.hpp"
@@ -22,7 +22,7 @@ struct StressOf {
 /// Which strain accumulates and weakens the soil.
 enum class Softens { never, with_plastic_strain, with_total_strain };
 
-/// Whose strength a law takes: its own, or that of each point.
+/// Source of a law's strength: the law itself, or each point.
 enum class StrengthOf { law, point };
 
 /// Strength of a point before and after softening.
@@ -31,7 +31,7 @@ struct StrengthOfPoint {
     Real c, tan_phi, c_residual, tan_phi_residual;
 };
 
-/// What a law answers to a trial stress.
+/// Result of a law for a trial stress.
 template <class Real>
 struct UpdateOf {
     StressOf<Real> sigma;
@@ -50,15 +50,15 @@ template <class Real>
             update.opened};
 }
 
-/// The answer where nothing yields.
+/// The result where nothing yields.
 template <class Real>
 [[gnu::always_inline]] inline UpdateOf<Real> elastic_update(const StressOf<Real>& trial) {
     return {{trial.xx, trial.yy, trial.zz, trial.xy}, Real(0.0), Real(0.0), Real(0.0)};
 }
 
-/// The simplest of them shows what each must have: its `numbers`, whether it yields and softens, and
-/// for an instruction set (`Isa::lanes` points side by side) an InLoop, which is made once per call
-/// of a loop and gives every block its update at the memory epsilon_q.
+/// The simplest law. It shows what each law must have: its `numbers`, whether it yields and softens, and
+/// for an instruction set (`Isa::lanes` points side by side) an InLoop, which is made once per call of a
+/// loop and gives every block its update at the memory epsilon_q.
 struct LinearElasticLanes {
     struct Numbers {};
     static constexpr bool yields = false;

@@ -30,14 +30,14 @@ template <class T>
 inline constexpr bool is_law = false;
 template <class... Each>
 inline constexpr bool is_law<std::variant<Each...>> = (answers_all<Each>() && ...);
-/// A list of laws that all answer; never one of them by conversion.
+/// Variant of all given laws, without implicit conversion from any of them.
 template <class T>
 concept IsLaw = is_law<T>;
 static_assert(IsLaw<Law>,
               "a law does not answer all of traits.hpp, memory.hpp (if its points remember) and "
               "state_parameter.hpp (if it has one)");
 
-/// The same answers of whichever law it is.
+/// The queries of traits.hpp for any law of the list.
 template <IsLaw L>
 Traits traits(const L& law) {
     return std::visit([](const auto& each) { return traits(each); }, law);
@@ -76,22 +76,22 @@ std::optional<LawLanes> for_particles(const L& law) {
     return std::visit([](const auto& each) { return for_particles(each); }, law);
 }
 
-/// Particles can have it.
+/// Whether the MPM's particles can have this law.
 inline bool is_for_particles(const Law& law) { return for_particles(law).has_value(); }
 
-/// Its strength stands in two entries.
+/// Whether its strength is given by two entries, c and phi.
 inline bool has_c_and_phi(const Law& law) { return traits(law).c_and_phi; }
 
-/// "mohr_coulomb or drucker_prager": the scene's words for the laws that do what is asked, for
-/// whoever must name one. Asked of laws whose numbers are all zero.
+/// "mohr_coulomb or drucker_prager": the scene's words for the laws that satisfy `does`, for messages.
+/// Calls `does` with laws whose numbers are all zero.
 std::string types_of_laws_that(bool (*does)(const Law&));
 
 template <class... Each>
 std::variant<ZoneMemory<Each>...> memory_of(const std::variant<Each...>*);
-/// What the points of a zone remember beside State: of the kind that its law asks for.
+/// What the points of a zone remember beside State, by their law.
 using LawMemory = decltype(memory_of(static_cast<const Law*>(nullptr)));
 
-/// Its points remember more than State.
+/// Whether its points remember more than State.
 template <IsLaw L>
 bool remembers(const L& law) {
     return std::visit([]<class Each>(const Each&) { return Remembers<Each>; }, law);
@@ -124,7 +124,7 @@ void for_each_point(Memory& zone, const Visit& visit) {
     std::visit(go, zone);
 }
 
-/// Memory for so many points of this law, with nothing in it yet.
+/// Empty memory for so many points of this law.
 template <IsLaw L>
 auto memory_for(const L& law, std::size_t points) {
     using AnyMemory = decltype(memory_of(static_cast<const L*>(nullptr)));
@@ -136,12 +136,12 @@ auto memory_for(const L& law, std::size_t points) {
     return std::visit(made, law);
 }
 
-/// Its points have strengths of their own.
+/// Whether its points have strengths of their own.
 inline bool has_strength_of_points(const Law& law) {
     const auto* mohr_coulomb = std::get_if<MohrCoulomb>(&law);
     return mohr_coulomb != nullptr && mohr_coulomb->strength_of == StrengthOf::point;
 }
-/// Such a law with the strength of one of its points; any other as it is.
+/// The law with the strength of one of its points, if it takes that; any other law unchanged.
 Law with_strength(Law law, const StrengthOfPoint<double>& strength);
 
 /// visit(law) with the law itself, if its undrained strength follows from a state parameter.

@@ -1,5 +1,5 @@
-// The list of the laws that particles can have, as the MPM's loops see them (lane_law.hpp). The
-// loops' room knows this list and no single law.
+// The list of the laws that particles can have, for the MPM's loops (lane_law.hpp). The
+// loops depend on this list and on no single law.
 #pragma once
 
 #include "core/materials/drucker_prager/lanes.hpp"

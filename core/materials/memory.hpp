@@ -1,7 +1,7 @@
 // Laws whose points remember more than State. Such a law names the struct that a point remembers
-// (`Memory`, which holds its stress too) and what its integration gives (`Update`), and answers here
-// as every law answers in traits.hpp. The FEM keeps the memory zone by zone beside State, which
-// mirrors the stress, and asks nothing else.
+// (`Memory`, which includes the stress) and the result of its integration (`Update`), and has the
+// functions below as every law has those of traits.hpp. The FEM keeps the memory zone by zone beside
+// State, which mirrors the stress, and needs nothing else.
 #pragma once
 
 #include <concepts>
@@ -18,7 +18,7 @@ concept Remembers = requires {
     typename Law::Memory;
 };
 
-/// What such a law answers.
+/// The interface of such a law.
 template <class Law>
 concept AnswersForMemory = requires(const Law& law, const typename Law::Memory& memory,
                                     typename Law::Memory& own, const Voigt& sigma, double epsilon_v,
@@ -28,7 +28,7 @@ concept AnswersForMemory = requires(const Law& law, const typename Law::Memory& 
     /// The first memory of a point, from the effective stress and the compressive volumetric
     /// strain that elastic stages left [Pa, -]. Exactly one call per point in a run.
     { first_memory(law, sigma, epsilon_v) } -> std::same_as<typename Law::Memory>;
-    /// The effective stress that it holds [Pa, tension positive].
+    /// The effective stress in the memory [Pa, tension positive].
     { stress(law, memory) } -> std::same_as<Voigt>;
     /// All points of a zone: updates[i] from old[i] and d_epsilon[i].
     integrate(law, old, d_epsilon, updates);
@@ -41,23 +41,23 @@ concept AnswersForMemory = requires(const Law& law, const typename Law::Memory& 
     { shear_modulus(law, memory) } -> std::same_as<double>;
     /// Sine of the friction angle that a first memory's surfaces allow.
     { friction(law, memory) } -> std::same_as<double>;
-    /// Largest component of the first stress that lay outside the surfaces and stays beside them
+    /// Largest component of the first stress that lay outside the surfaces and is kept separately
     /// as a constant; 0 where it is round-off [Pa].
     { stress_outside(law, memory) } -> std::same_as<double>;
-    /// No strain of the point could be followed, and the law put it at the end of its path.
+    /// The strain of a point could not be followed, and the law moved it to its critical state.
     { has_fallen(law, memory) } -> std::same_as<bool>;
     /// Calls visit(x) for every number that a checkpoint keeps, in one fixed order.
     for_each_number(own, [](double&) {});
     for_each_number(memory, [](double) {});
 };
 
-/// The law of the points at place_of(), a Place: the same everywhere, unless the law has an overload.
+/// The law at place_of(), a Place: the same everywhere, unless the law has an overload.
 template <class Law, class PlaceOf>
 const Law& at_place(const Law& law, const PlaceOf&) {
     return law;
 }
 
-/// The memory of a zone's points, in their order; of a law without memory nothing.
+/// The memory of a zone's points, in their order; empty for a law without memory.
 template <class Law>
 struct ZoneMemory {};
 template <Remembers Law>

@@ -1,5 +1,5 @@
-// What a material point remembers and what a law answers to a strain increment; the elastic half
-// that all laws share.
+// The state of a material point and a law's result for a strain increment; the elastic half that
+// all laws share.
 #pragma once
 
 #include "core/materials/lane_law.hpp"
@@ -11,7 +11,7 @@ namespace breach::materials {
 using mechanics::Matrix4;
 using mechanics::Voigt;
 
-/// What a point remembers. epsilon_q accumulates sqrt(2/3 de:de) of the law's softening driver
+/// State of a point. epsilon_q accumulates sqrt(2/3 de:de) of the law's softening driver
 /// (plastic strain unless the law says total).
 struct State {
     Voigt sigma;             ///< effective stress [Pa]

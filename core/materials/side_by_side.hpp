@@ -1,6 +1,6 @@
-// Many points of one zone, several side by side: a point in each lane of a vector register, and one
-// that is finished makes room for the next. The same text is compiled once per instruction set and
-// chosen when the program runs. Which functions a law gives: calls.hpp.
+// Many points of one zone, several side by side: one point per lane of a vector register, and a
+// finished point makes room for the next. The same code is compiled once per instruction set and
+// chosen when the program runs. Functions that a law provides: calls.hpp.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct Job {
     std::span<const Voigt> d_epsilon;
     const typename Calls::Options& options;
     std::span<typename Calls::Update> updates;
-    std::size_t next = 0;  ///< first point that nobody has taken
+    std::size_t next = 0;  ///< first point not yet taken
 };
 
 /// One lane's point.
@@ -73,7 +73,7 @@ template <int N, class Calls>
     std::array<bool, N> moving{};
     for (Seat<Calls>& seat : seats) take_next(job, seat);
     if (!seats[0].busy) return;
-    // Empty seats repeat the first point: their numbers are harmless and never read.
+    // Empty seats repeat the first point: their numbers are valid and never read.
     for (int i = 0; i < N; ++i) load(seats[seats[i].busy ? i : 0].task, i, walk);
 
     const auto refill = [&](int i) {
@@ -91,7 +91,7 @@ template <int N, class Calls>
                 if (!lanes::lane(unloads, i)) continue;
                 const Next next = after_unloading(job.law, i, walk, seats[i].task);
                 moving[i] = next == Next::walk;
-                // One that turns again and again without a way forward ends by its evaluations.
+                // A lane that turns repeatedly without progress ends by its evaluations.
                 const bool spent =
                     next == Next::again && ends(i, walk, false, job.options, seats[i].task);
                 if (spent) store(job.law, i, walk, seats[i].task);

@@ -1,7 +1,7 @@
-// Laws whose undrained strength follows from stress and density, by the state parameter
-// psi = e - e_c(p') (Been & Jefferies 1985). Such a law says `has_state_parameter = true` and answers
-// what is listed here, beside memory.hpp. Other laws answer nothing: they have no psi, no limiting
-// stress ratio, no strength by state and no additional softening S.
+// Laws with an undrained strength that follows from stress and density, by the state parameter psi =
+// e - e_c(p') (Been & Jefferies 1985). Such a law declares `has_state_parameter = true` and has the
+// functions listed here, beside memory.hpp. Other laws have none of them: no psi, no limiting stress
+// ratio, no strength by state and no additional softening S.
 #pragma once
 
 #include <concepts>
@@ -14,14 +14,14 @@
 
 namespace breach::materials {
 
-/// How near a point is to a flow failure.
+/// Nearness of a point to flow failure.
 struct Instability {
     double psi;      ///< state parameter [-]
     double ratio;    ///< eta over eta_L, the limiting stress ratio [-]
     bool past_peak;  ///< sheared on in the plane without drainage, q would fall; with the law's S
 };
 
-/// Of undrained shear [Pa]: a Mohr-Coulomb soil with phi = 0 and this c carries as much.
+/// Of undrained shear [Pa]: equivalent to a Mohr-Coulomb soil with phi = 0 and this c.
 struct UndrainedStrength {
     double peak;      ///< the largest on the way, the present one included
     double critical;  ///< at the critical state of the void ratio; never above the peak
@@ -37,13 +37,13 @@ concept HasStateParameter = requires {
     requires Law::has_state_parameter;
 };
 
-/// What such a law answers. No strength counts on suction.
+/// The interface of such a law. No strength relies on suction.
 template <class Law>
 concept AnswersForStateParameter = Remembers<Law> &&
     requires(const Law& law, Law& own, const typename Law::Memory& memory,
              std::span<const typename Law::Memory> memories, std::span<const double> bounds,
              const Voigt& sigma, double number, const Place& place, OnPath part) {
-    /// psi where sigma'_v0 consolidated level ground [-].
+    /// psi of level ground consolidated under sigma'_v0 [-].
     { psi_at(law, place) } -> std::same_as<double>;
     { instability(law, memory) } -> std::same_as<Instability>;
     /// Mean effective stress below which the law does not go [Pa].

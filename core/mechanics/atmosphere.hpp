@@ -1,4 +1,4 @@
-// The standard atmosphere, which published strength relations are written in.
+// The standard atmosphere, a unit of published strength relations.
 #pragma once
 
 namespace breach::mechanics {

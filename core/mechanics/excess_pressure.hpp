@@ -1,5 +1,5 @@
 // Excess pore pressure at the nodes of a mesh, without the part that alternates from node to node:
-// what r_u, liquefied depth, criteria, zones and the transfer read.
+// for r_u, liquefied depth, criteria, zones and the transfer.
 #pragma once
 
 #include <array>

@@ -27,10 +27,10 @@ double epsilon_q(const Voigt& epsilon);
 /// Work product sigma : epsilon, engineering shear strain [Pa].
 double double_dot(const Voigt& sigma, const Voigt& epsilon);
 
-/// Stress seen after turning the material by `angle` [rad], counter-clockwise: R sigma R^T, exact.
+/// Stress after a rotation of the material by `angle` [rad], counter-clockwise: R sigma R^T, exact.
 Voigt rotated_stress(const Voigt& sigma, double angle);
 
-/// Strain [engineering shear] seen after turning the material by `angle` [rad].
+/// Strain [engineering shear] after a rotation of the material by `angle` [rad].
 Voigt rotated_strain(Voigt epsilon, double angle);
 
 /// Rotation angle [rad] of the polar decomposition F = R U of a plane deformation gradient, det F >

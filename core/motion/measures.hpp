@@ -1,4 +1,4 @@
-// What engineers measure a motion by.
+// Intensity measures of a motion.
 #pragma once
 
 #include <array>
@@ -34,9 +34,9 @@ struct Measures {
 Measures measures_of(const Series& acceleration);
 nlohmann::json as_json(const Measures& measures);
 
-/// A number of as_json.
+/// An entry of as_json.
 struct NamedMeasure {
-    const char* name;  ///< its entry
+    const char* name;  ///< its key
     const char* title;
     const char* unit;
 };

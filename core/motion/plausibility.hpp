@@ -1,5 +1,5 @@
-// Whether a motion can be what it says: peak, time step and length against what has ever been
-// recorded, with the slip of the unit that would explain it. Knows no scene and no file format.
+// Whether a motion is plausible: peak, time step and length against the largest ever recorded, with
+// the wrong unit that would explain it. Independent of scenes and file formats.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 
 namespace breach::motion {
 
-/// Peaks of a motion, whichever quantity was recorded.
+/// Peaks of a motion, recorded as acceleration or velocity.
 struct Peaks {
     double acceleration;  ///< PGA [m/s2]; of a velocity by differences
     double velocity;      ///< PGV [m/s]; of an acceleration by the trapezoidal rule
@@ -23,15 +23,15 @@ Peaks peaks_of(const Recording& motion);
 std::string summary_of(const Recording& motion);
 
 struct Remarks {
-    std::vector<fault::Fault> faults;  ///< no ground has moved so
+    std::vector<fault::Fault> faults;  ///< no ground motion can be so strong
     std::vector<fault::Flag> flags;    ///< "implausible", "drifting_motion"
 };
 
-/// Of an acceleration or a velocity as it is applied: scaled, its baseline corrected. All findings
-/// point at `pointer`; what is refused is not flagged as well.
+/// For an acceleration or a velocity as it is applied: scaled, its baseline corrected. All findings
+/// point at `pointer`; a refused motion is not flagged as well.
 Remarks remarks_about(const Recording& motion, const std::string& pointer);
 
-/// "coarse_step": steps of an analysis that pass over samples of the motion.
+/// "coarse_step": steps of an analysis that skip samples of the motion.
 std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
                                               const std::string& pointer);
 

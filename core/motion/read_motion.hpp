@@ -17,9 +17,9 @@ struct Recording {
     std::string title;  ///< PEER: its second line; otherwise the file's name
 };
 
-/// In the form that its first lines have, whatever the file's name; where they do not tell, by the
-/// ending: .at2/.vt2/.dt2 (any case) PEER, .csv CSV, anything else two columns. Throws IoError when
-/// the file cannot be opened, BadInput ("line N") for what is in it.
+/// The first lines decide the form, for any file name; if they do not, the ending does:
+/// .at2/.vt2/.dt2 (any case) PEER, .csv CSV, anything else two columns. Throws IoError when the
+/// file cannot be opened, BadInput ("line N") for faults in it.
 Recording read_motion(const std::filesystem::path& file);
 
 /// Header lines, usually four: the last one gives NPTS and DT in either order, the one before it the

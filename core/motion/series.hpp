@@ -1,5 +1,5 @@
-// Earthquake motions as equally spaced samples in SI, and what is measured on them. Nothing here
-// knows a file format (read_motion.hpp) or a mesh.
+// Earthquake motions as equally spaced samples in SI, and their measures. Independent of file
+// formats (read_motion.hpp) and meshes.
 #pragma once
 
 #include <vector>
@@ -17,8 +17,8 @@ struct Series {
     double duration() const;  ///< of the samples [s]
 };
 
-/// Value at time t [s] by linear interpolation: what an analysis with any time step of its own asks
-/// for.
+/// Value at time t [s] by linear interpolation, for analyses with any time
+/// step.
 double value_at(const Series& series, double t);
 
 /// Largest absolute value.
@@ -61,7 +61,7 @@ struct Band {
 };
 Band band(const Series& motion);
 
-/// What is left when the ground should be at rest again: zero for a base-corrected motion.
+/// Residual motion when the ground should be at rest again: zero for a base-corrected motion.
 struct Baseline {
     double last_velocity;      ///< [m/s]
     double last_displacement;  ///< [m]
@@ -69,7 +69,7 @@ struct Baseline {
 };
 Baseline baseline(const Series& acceleration);
 
-/// The acceleration less the straight line c_0 + c_1 t with which velocity and displacement end at
+/// The acceleration minus the straight line c_0 + c_1 t that makes velocity and displacement end at
 /// zero.
 Series base_corrected(Series acceleration);
 

@@ -56,7 +56,7 @@ Series noise(const Target& target, const Shape& shape, std::uint64_t seed) {
         const double place = r * std::pow(ratio, uniform(bits));
         const double a = amplitude(place) * std::sqrt(place * (ratio - 1.0));
         const double omega = 2.0 * pi * place * shape.frequency;
-        if (omega * target.dt > 0.8 * pi) continue;  // cannot be told from a slower one
+        if (omega * target.dt > 0.8 * pi) continue;  // aliased to a slower one
         for (std::size_t i = 0; i < count; ++i) {
             series.values[i] += a * std::cos(omega * target.dt * static_cast<double>(i) + phase);
         }

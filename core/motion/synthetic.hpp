@@ -1,5 +1,5 @@
-// A made-up motion with the peak values, duration and Arias intensity that are asked for: the same
-// on every machine.
+// A synthetic motion with given peak values, duration and Arias intensity: the same on every
+// machine.
 #pragma once
 
 #include <cstdint>

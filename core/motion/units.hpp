@@ -1,4 +1,4 @@
-// Units of a motion as a header or a column's name gives them: whole words of a closed list.
+// Units of a motion in a header or a column's name: whole words of a closed list.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ struct Unit {
     bool operator==(const Unit&) const = default;
 };
 
-/// Of a line such as "ACCELERATION TIME SERIES IN UNITS OF CM/S/S": the unit behind "UNITS OF",
+/// From a line such as "ACCELERATION TIME SERIES IN UNITS OF CM/S/S": the unit behind "UNITS OF",
 /// otherwise the only unit in it. A unit may have a scale ("G/10", "0.01 G"). Where the line names
 /// quantities, the unit must be one of theirs. Beside the unit stand words of a closed list only.
 /// Nothing for any other line.
@@ -35,7 +35,7 @@ Named unit_in_comment(const std::string& comment);
 /// "time_s", "Time (sec)", "t"
 bool is_time_column(const std::string& name);
 
-/// What a remedy lists.
+/// The units that a remedy lists.
 inline constexpr const char* known_units =
     "G, GAL, CM/S2, M/S2, MM/S2, IN/S2 or FT/S2 for an acceleration; CM/S, M/S, MM/S, IN/S or FT/S "
     "for a velocity; a scale as in G/10";

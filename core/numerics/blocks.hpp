@@ -1,5 +1,5 @@
-// Independent blocks of work on some threads. What a block computes may not depend on which thread
-// runs it, so the answer is the same on one thread and on many.
+// Independent blocks of work on several threads. The result of a block must not depend on the
+// thread that runs it, so that it is the same for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ void run_blocks(std::size_t count, int threads, const Work& work) {
     Team(threads).share(count, work);
 }
 
-/// Cuts [0, count) into one part per thread: part(begin, end, k), k below the number of threads and
-/// each k once, so that it may own scratch memory.
+/// Divides [0, count) into one part per thread: part(begin, end, k), with k below the number of
+/// threads and each k once, so that part k may own scratch memory.
 template <class Part>
 void run_parts(std::size_t count, int threads, const Part& part) {
     const auto n = static_cast<std::size_t>(std::max(1, threads));

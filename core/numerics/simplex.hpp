@@ -1,5 +1,5 @@
-// Nelder & Mead (1965): the lowest value of a function of a few variables without derivatives. One
-// simplex and its moves; when to stop, start afresh or keep to a box is the user's.
+// Nelder & Mead (1965): minimises a function of a few variables without derivatives. One simplex
+// and its moves; the caller decides when to stop, to restart or to keep to a box.
 #pragma once
 
 #include <algorithm>

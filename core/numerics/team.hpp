@@ -1,8 +1,8 @@
-// Threads that share the tasks of a loop. Each begins with a part of its own, the same in every loop of
-// as many tasks, so that what its tasks touch stays in its core's cache; who is done helps the others from
-// their end. Between loops they look for the next one a while, letting whoever wants the core have it, and
-// sleep then. Nobody waits for one that wakes late: the caller does its tasks. Which thread takes a task
-// is a matter of luck, so tasks must not depend on it.
+// Threads that share the tasks of a loop. Each begins with a part of its own, the same in every loop of as
+// many tasks, so that its data stay in its core's cache; a thread that has finished helps the others from
+// their end. Between loops the threads poll for the next one for a while, yielding the core, and then
+// sleep. No thread waits for one that wakes late: the caller does its tasks. Which thread runs a task is
+// random, so tasks must not depend on it.
 #pragma once
 
 #include <atomic>
@@ -26,8 +26,8 @@ class Team {
 
     std::size_t threads() const { return members_.size() + 1; }
 
-    /// Calls work(task) for task = 0 .. tasks - 1, each once, and returns when all are done. The first
-    /// exception is thrown again here; tasks that nobody has taken by then may be left out.
+    /// Calls work(task) for task = 0 .. tasks - 1, each once, and returns when all are done. Rethrows
+    /// the first exception; tasks not yet taken by then may be left out.
     template <class Work>
     void share(std::size_t tasks, const Work& work) {
         if (members_.empty() || tasks < 2) {
@@ -44,7 +44,7 @@ class Team {
     using Call = void (*)(const void*, std::size_t);
     enum class End { front, back };
 
-    /// Tasks that nobody has taken, [begin, end) in one word; on a cache line of its own.
+    /// Tasks not yet taken, [begin, end) in one word; on a cache line of its own.
     class alignas(64) Range {
       public:
         void set(std::size_t begin, std::size_t end);

@@ -1,5 +1,5 @@
-// What the phases call their files, which is how they find each other's: a name is spelt here and
-// nowhere else.
+// The file names of the phases, by which they find each other's files: each name is defined here
+// and nowhere else.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace breach::phases::files {
 
-/// What every phase leaves in its output folder.
+/// Files that every phase leaves in its output folder.
 inline constexpr const char* scene = "scene.completed.json";
 inline constexpr const char* result = "result.json";
 inline constexpr const char* fault = "fault.json";  ///< instead of a result
@@ -31,7 +31,7 @@ inline constexpr const char* frame_prefix = "particles_";    ///< of the mpm
 /// The fem's snapshots or the mpm's frames, for ParaView.
 inline constexpr const char* series = "frames.vtkhdf.series";
 
-/// "0.500000": how a time is spelt in the names of snapshots and tasks.
+/// "0.500000": a time as the names of snapshots and tasks contain it.
 std::string spelt(double time);
 /// "snapshot_0.500000.vtkhdf", of the fem
 std::string snapshot_name(double time);

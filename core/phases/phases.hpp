@@ -1,5 +1,5 @@
-// The four phases, each once: its program, its part of the scene, and what people call what it
-// does. Who starts them, shows them or reports on them takes it from here.
+// The four phases, each defined once: its program, its part of the scene, and its names for people.
+// Services, dashboard and report use this table.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// The parts of a scene that each phase reads, each once: the key of its cached result is made of
-// them, and a phase is given no others, so that a result cannot depend on an entry that its key
+// The parts of a scene that each phase reads, each defined once. They form the key of its cached
+// result, and a phase is given no others, so that a result cannot depend on an entry that its key
 // lacks.
 //
 //     lem_tool       /gravity /materials /section /lem
@@ -20,11 +20,11 @@
 
 namespace breach::phases {
 
-/// What a phase reads of a completed scene beside its input file.
+/// The part of a completed scene that a phase reads beside its input file.
 nlohmann::json part_read_by(const Phase& phase, const nlohmann::json& scene);
 
-/// A scene with nothing but what this phase and those before it read: all that its result depends
-/// on; for the transfer the whole of /mpm, without which its grid is no sound scene.
+/// A scene with only what this phase and those before it read: everything its result depends on;
+/// for the transfer the whole of /mpm, without which its grid would be faulty.
 nlohmann::json scene_known_to(const Phase& phase, const nlohmann::json& scene);
 
 }  // namespace breach::phases

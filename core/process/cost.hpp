@@ -1,4 +1,4 @@
-// What one step costs with this scene, from a short trial: what --plan --measure prints.
+// Cost of one step with this scene, from a short trial: what --plan --measure prints.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace breach::process {
 struct Cost {
     std::vector<std::pair<std::string, std::int64_t>> counts;  ///< "unknown pressures", how many
     std::vector<std::pair<std::string, double>> memory;        ///< "points", bytes
-    std::int64_t steps = 0;                                    ///< that were tried
+    std::int64_t steps = 0;                                    ///< number of trial steps
     std::vector<std::pair<std::string, double>> seconds;       ///< "law", of all these steps [s]
 };
 

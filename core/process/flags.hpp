@@ -1,4 +1,4 @@
-// Flags as a result and a checkpoint hold them.
+// Flags in a result and a checkpoint.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@ namespace breach::process {
 
 nlohmann::json as_json(const std::vector<fault::Flag>& flags);
 
-/// What as_json made; throws nlohmann's exception where it is something else.
+/// Inverse of as_json; throws nlohmann's exception for any other JSON.
 std::vector<fault::Flag> flags_from(const nlohmann::json& list);
 
 }  // namespace breach::process

@@ -1,4 +1,4 @@
-// What being a phase means: one main function for all executables. Owns arguments, log, progress, signals
+// The frame of every phase: one main function for all executables. Owns arguments, log, progress, signals
 // and exit codes.
 #pragma once
 
@@ -29,7 +29,7 @@ struct Switch {
     std::string sets = {};  ///< "/json/pointer=value" that it stands for, after every --set
 };
 
-/// How a phase ended when nothing was wrong.
+/// How a phase ended without a fault.
 enum class Outcome {
     done,
     stopped,  ///< the session asked to stop; a checkpoint was saved
@@ -45,11 +45,11 @@ struct Phase {
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
         read = check::checked_scene;
     std::vector<Switch> switches = {};
-    /// Raised when the phase's numbers change for the same input, so that no earlier result is
-    /// taken for one of this program; --version says it. 0: its results are never taken again.
+    /// Raise it when the phase's results change for the same input: cached results with another
+    /// number are not reused. --version prints it. 0: its results are never reused.
     int numerics = 0;
-    /// Takes a few steps in the session's folder, which goes away after it. Empty: the phase has no
-    /// steps, and no --measure.
+    /// Takes a few steps in the session's folder, which is removed after it. Empty: the phase has
+    /// no steps, and no --measure.
     std::function<Cost(Session&)> measure = {};
 };
 

@@ -1,5 +1,5 @@
-// What a scene needs and what it does not: each line of a plan names a feature, whether it is on,
-// why, and the scene entry that decides it.
+// Which features a scene uses: each line of a plan names a feature, whether it is on, why, and the
+// scene entry that decides it.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct PlanLine {
 
 using Plan = std::vector<PlanLine>;
 
-/// The line with whichever of the two reasons it is.
+/// The line with the reason that applies.
 struct Reasons {
     std::string on, left_out;
 };
@@ -26,8 +26,8 @@ PlanLine line_of(const std::string& feature, Use use, const Reasons& reasons,
                  const std::string& pointer);
 inline Use use_if(bool on) { return on ? Use::on : Use::left_out; }
 
-/// What was decided, with the plan's line about it. Made once, where it is decided: whoever acts
-/// reads the value, the plan prints the line.
+/// A decision with its line in the plan. Made once: the phase uses the value, the plan prints the
+/// line.
 template <class Value>
 struct Decided {
     Value value;

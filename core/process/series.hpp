@@ -11,10 +11,10 @@ namespace breach::process {
 
 class Series {
   public:
-    /// Empty: what an earlier run left in the folder does not belong to this one.
+    /// Empty: frames that an earlier run left in the folder do not belong to this one.
     explicit Series(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// Of a run that goes on: with those of its frames that are from before `time` [s].
+    /// For a resumed run: with those of its frames that are from before `time` [s].
     static Series going_on(std::filesystem::path folder, const std::string& prefix, double time);
 
     /// Publishes phases::files::series with this frame at the end; one of the same name is replaced.

@@ -45,19 +45,19 @@ class Session {
     const std::filesystem::path& input(std::size_t i = 0) const { return settings_.inputs.at(i); }
     std::filesystem::path output(const std::string& name) const { return settings_.output / name; }
 
-    /// Provenance with the times of now.
+    /// Provenance with the times spent so far.
     exchange::Provenance provenance() const;
     double wall_seconds() const;  ///< of this process
     double cpu_seconds() const;   ///< of this process
-    /// Of all processes of the run: this one and those before it whose work it has.
+    /// By all processes of the run: this one and those before it that it continues.
     exchange::Spent spent() const;
-    /// The run goes on from what others computed.
+    /// Call when the run continues from earlier results.
     void went_on_after(const exchange::Spent& earlier) { earlier_ = earlier; }
-    /// Most physical memory that the process has held at once [MB]; nothing: the system does not
-    /// say.
+    /// Peak physical memory of the process [MB]; nothing: the system does not report
+    /// it.
     std::optional<double> peak_memory() const;
 
-    /// Shows how far the work is. fraction in [0, 1]; cheap, throttled to a few per second.
+    /// Reports the progress. fraction in [0, 1]; cheap, throttled to a few per second.
     void progress(double fraction, const std::string& message);
 
     /// Appends one JSON line to telemetry.jsonl, flushed. A resumed session first drops the lines
@@ -67,7 +67,7 @@ class Session {
     std::int64_t truncate_telemetry(std::int64_t lines);
     std::int64_t telemetry_lines() const { return telemetry_lines_; }
 
-    /// Tells the outside that a file now exists (a snapshot): a progress line
+    /// Announces a new file (a snapshot) in the progress output:
     /// {"event":"artifact",...}.
     void announce(const std::filesystem::path& file, const nlohmann::json& what);
     /// Announces a frame that now exists and adds it to the folder's series. name: prefix, time and
@@ -77,11 +77,11 @@ class Session {
     /// True after SIGINT or SIGTERM: save a checkpoint and return Outcome::stopped.
     bool stop_requested() const;
 
-    /// The facts of result.json; written by run_phase when the phase ends well.
+    /// The entries of result.json; written by run_phase when the phase ends well.
     nlohmann::json& result() { return result_; }
 
-    /// What goes with the result: in result.json, in the log and wherever the result is shown. The scene's warnings are in from
-    /// the beginning, those about other phases' parts left out; a code that is there already is replaced.
+    /// Adds a flag to the result: to result.json, the log and every display of the result. The scene's warnings are included
+    /// from the start, except those about other phases' parts; a flag with the same code is replaced.
     void flag(fault::Flag flag);
     const std::vector<fault::Flag>& flags() const { return flags_; }
 

@@ -1,11 +1,11 @@
-// SIGINT and SIGTERM as a question that the work asks now and then.
+// SIGINT and SIGTERM as a flag that the computation polls.
 #pragma once
 
 #include "core/fault/fault.hpp"
 
 namespace breach::process {
 
-/// From now on SIGINT and SIGTERM only leave a note; SIGPIPE is ignored (a lost reader shows as a
+/// From now on SIGINT and SIGTERM only set a flag; SIGPIPE is ignored (a lost reader appears as a
 /// write error).
 void watch_signals();
 bool stop_was_requested();

@@ -1,6 +1,6 @@
-// Firm soil that weaker soil lies on, and where its top lies in the MPM's grid. A cell has one
-// velocity gradient for all that is in it: firm soil does not yield, and holds what slides on it as
-// far as it reaches into the same cells (docs/verification/mpm_convergence.md, "Firm soil beside soil that
+// Firm soil below weaker soil, and the place of its top in the MPM's grid. A cell has one
+// velocity gradient for all soil in it: firm soil does not yield, and holds sliding soil in
+// the same cells back (docs/verification/mpm_convergence.md, "Firm soil beside soil that
 // slides").
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace breach::scene {
 
-/// Firm: it never yields, or has this many times the residual strength of what lies on it.
+/// Firm soil never yields, or has this many times the residual strength of the soil on it.
 constexpr double firm_strength_ratio = 2.0;
 
 struct Bed {
@@ -22,17 +22,17 @@ struct Bed {
     std::optional<double> level;  ///< of its top [m]; none: its top slopes
 };
 
-/// Every level that firm soil's points have as their top, and one bed for all tops that slope (up
-/// to 45 degrees). Regions without a polygon are left out.
+/// One bed for every level that is a top of firm soil, and one for all tops that slope (up to 45
+/// degrees). Regions without a polygon are left out.
 std::vector<Bed> beds_of(const Scene& scene);
 
 /// From the MPM's floor up to a level [cells].
 double cells_up_to(const Mpm& mpm, double level);
-/// The line of the grid that a level lies on, to a hundredth of a cell, counted from the floor.
+/// The line of the grid at a level, to a hundredth of a cell, counted from the floor.
 std::optional<std::int32_t> line_at(const Mpm& mpm, double level);
 
-/// How many rows of cells above the floor a material's points end, when its highest ground is a
-/// level bed and lies on a line of the grid: there their domains can end, too.
+/// The number of rows of cells between the floor and the highest ground of a material, when this is
+/// a level bed on a line of the grid: the domains of its points can end there, too.
 std::optional<std::int32_t> rows_below_bed(const Scene& scene, std::size_t material);
 
 }  // namespace breach::scene

@@ -1,4 +1,4 @@
-// Inside core/scene only: checks that the readers of several phases make.
+// Inside core/scene only: checks shared by the readers of several phases.
 #pragma once
 
 #include "core/scene/reader.hpp"
@@ -11,7 +11,7 @@ inline void check_ascending(Reader& reader, const std::array<double, 2>& range,
         reader.add(pointer, "is not ascending", "write [from, to] with from < to");
 }
 
-/// Needed when a list's own entries are sound but their order is not.
+/// For lists whose entries are valid one by one but may be in the wrong order.
 template <class List, class Before>
 void check_order(Reader& reader, const List& list, Before before, const std::string& pointer,
                  const std::string& remedy) {

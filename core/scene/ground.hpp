@@ -1,5 +1,5 @@
-// Where a place lies in the undeformed section: what strength profiles ask for, the same for every
-// phase. Vertical columns: no arching, no seepage beyond what the lines say.
+// Position of a place in the undeformed section, as strength profiles need it, the same for every
+// phase. Vertical columns: no arching, no seepage except that in the lines.
 #pragma once
 
 #include "core/materials/strength/profile.hpp"
@@ -7,14 +7,14 @@
 
 namespace breach::scene {
 
-/// Vertical stresses of the section as it is drawn, or of the part of it that is there. The total one is the weight of soil and free
-/// water above; the pore pressure is that of the line of the place's region in /lem, in a scene
-/// whose /lem has none the hydrostatic one below /fem/water's line, else below the transfer's
-/// phreatic line.
+/// Vertical stresses of the section as drawn, or of its present part. The total stress is the weight of
+/// soil and free water above. The pore pressure comes from the line of the place's region in /lem; if the
+/// scene's /lem has none, it is hydrostatic below /fem/water's line, else below the transfer's phreatic
+/// line.
 class Ground {
   public:
-    /// gone: [regions] those that stages have removed or not yet placed, which weigh nothing and
-    /// are no ground; empty: all are there.
+    /// gone: [regions] those that stages have removed or not yet placed, which have no weight and
+    /// are not ground; empty: all are present.
     explicit Ground(const Scene& scene, const std::vector<bool>& gone = {});
 
     /// A place [m] in a region (index into the section's).

@@ -1,4 +1,4 @@
-// NorSand as documents write it: one place knows its keys, their units and what contradicts itself.
+// NorSand in documents: the only place that knows its keys, their units and their contradictions.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -17,7 +17,7 @@ materials::norsand::Parameters norsand_parameters(const nlohmann::json& law);
 
 materials::norsand::Options norsand_options(const nlohmann::json& law);
 
-/// Where a point begins, from an entry or from the law that it falls back on.
+/// Initial state of a point, from an entry or from the law that it falls back on.
 struct NorSandStart {
     std::optional<double> psi_0;  ///< state parameter [-]; one of the two
     std::optional<double> e_0;    ///< void ratio [-]
@@ -25,12 +25,12 @@ struct NorSandStart {
 };
 NorSandStart norsand_start(const nlohmann::json& entry, const nlohmann::json& law);
 
-/// What a law entry that its schema found sound says against itself, `pointer` before each place.
-/// With it the critical state line is asked whether it can be meant for 1 kPa.
+/// Contradictions in a law entry that its schema accepted, `pointer` before each place. Also checks
+/// whether the critical state line can be meant for 1 kPa.
 std::vector<fault::Fault> check_norsand(const nlohmann::json& law, const std::string& pointer);
 
-/// The same of a material's law in a scene, with where its points begin: psi_0 or e_0, and a K_0
-/// that stands.
+/// The same for a material's law in a scene, with the initial state: psi_0 or e_0, and a K_0 that
+/// the law can carry.
 std::vector<fault::Fault> check_norsand_in_scene(const nlohmann::json& law,
                                                  const std::string& pointer);
 

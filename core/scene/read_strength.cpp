@@ -126,7 +126,7 @@ std::optional<StrengthProfile> strength_from(Reader& reader, const std::string& 
     if (owner.empty()) return std::nullopt;
     const std::string pointer = "/materials/" + owner + "/strength";
     const json& strength = reader.document().at(json::json_pointer(pointer));
-    // a fault of the owner is told at the owner, once
+    // report a fault of the owner once, at the owner
     Reader elsewhere(reader.document(), {});
     Reader& told = owner == name ? reader : elsewhere;
     StrengthProfile profile{curve_from(told, strength.at("peak"), pointer + "/peak")};

@@ -23,13 +23,13 @@ class Reader {
     void add(std::string pointer, std::string cause, std::string remedy) {
         faults_.push_back({std::move(pointer), std::move(cause), std::move(remedy)});
     }
-    /// Tells every fault at an entry of the same object, or below it, of a warn that may be its
+    /// Adds a warning to every fault at an entry of the same object, or below it, as its possible
     /// reason. Objects at the root are too wide for that.
     void explain(const fault::Flag& warn) {
         const std::string object = warn.pointer.substr(0, warn.pointer.rfind('/'));
         if (object.find('/', 1) == std::string::npos) return;
         for (fault::Fault& each : faults_) {
-            const bool same = each.pointer == warn.pointer;  // has been told
+            const bool same = each.pointer == warn.pointer;  // already mentioned
             if (same || each.pointer.rfind(object + "/", 0) != 0) continue;
             each.remedy += "; " + warn.pointer + ": " + warn.message;
         }
@@ -63,8 +63,8 @@ inline std::array<double, 2> range_from(const nlohmann::json& value) {
 /// The strength profile of /materials/<name>; nothing where it has none, or a faulty one.
 std::optional<materials::StrengthProfile> strength_from(Reader& reader, const std::string& name);
 
-/// Materials and section. Each checks what the schema cannot say, and fills `scene` as far as it is
-/// sound.
+/// Materials and section. Each checks what the schema cannot express, and fills the valid parts of
+/// `scene`.
 void read_materials(Reader& reader, Scene& scene);
 void read_section(Reader& reader, Scene& scene);
 void read_lem(Reader& reader, Scene& scene);

@@ -1,5 +1,5 @@
-// A scene as far as it can be read: for whoever goes on checking where the reader stopped, so that
-// one list holds everything that is wrong.
+// A scene as far as it can be read, so that later checks can add their faults to one complete
+// list.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,8 +8,8 @@
 
 namespace breach::scene {
 
-/// With faults, `scene` holds what was sound: a part with a fault of its own is absent, a polygon
-/// that is none is empty, a region whose material does not exist names materials.size().
+/// With faults, `scene` holds its valid parts: a part with a fault of its own is absent, an invalid
+/// polygon is empty, a region with an unknown material names materials.size().
 struct Reading {
     Scene scene;
     std::vector<fault::Fault> faults;

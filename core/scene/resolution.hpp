@@ -1,5 +1,5 @@
-// How finely a scene cuts up what it has to resolve: cells of the MPM across the mobile soil,
-// elements of the FEM across a region. Known from the scene alone, so it is said before anything
+// Resolution of a scene: cells of the MPM across the mobile soil, elements of the FEM
+// across a region. Computed from the scene alone, so that warnings come before anything
 // runs.
 #pragma once
 
@@ -12,33 +12,33 @@
 namespace breach::scene {
 
 /// Cells across the thinnest mobile region and across the slope's height: wanted, and least.
-/// Runouts shrink with coarse cells, which is the unsafe side: one and the same dam of 30 m ran
-/// 30 m beyond its toe on cells of 4 m and stayed behind it on cells of 10 m. Below two cells soil
-/// cannot shear within itself at all: all its points share the same nodes.
+/// Runouts shrink with coarse cells, which is unsafe: the same dam of 30 m ran 30 m beyond its toe
+/// with cells of 4 m and stayed behind it with cells of 10 m. Below two cells soil cannot shear
+/// internally: all its points share the same nodes.
 constexpr double cells_wanted = 8.0;
 constexpr double least_cells = 2.0;
-/// Nonlocal lengths are as long as that many cells: least, and wanted. Shorter ones average over too
-/// few nodes, and the band is again as wide as the lattice makes it.
+/// Cells per nonlocal length: least, and wanted. Shorter lengths average over too few nodes, and the
+/// width of the band again depends on the cells.
 constexpr double least_nonlocal_cells = 1.3;
 constexpr double nonlocal_cells_wanted = 1.6;
-/// Soil that has softened at this epsilon_q breaks along bands. What softens over more strain flows,
-/// and a length changed its runouts by about 1 %.
+/// Soil that has softened at this epsilon_q breaks along bands. Soil that softens over more strain
+/// flows, and a nonlocal length changed its runouts by about 1 %.
 constexpr double brittle_until = 0.5;
-/// A wider band than this share of a region is no band any more.
+/// A band wider than this share of a region is no longer a band.
 constexpr double widest_band_share = 1.0 / 3.0;
-/// Elements across a region: one cannot bend, and a band through it has no soil beside it.
+/// Elements across a region: one cannot bend, and leaves no soil beside a band.
 constexpr double elements_wanted = 2.0;
 
-/// That the runout averages the material's softening over: none where cells are too coarse for its
-/// own and the scene allows them (allow_coarse_cells).
+/// The length over which the runout averages the material's softening: none where cells are too
+/// coarse for the material's own and the scene allows them (allow_coarse_cells).
 std::optional<double> nonlocal_length_in_runout(const Material& material, const Mpm& mpm);
-/// How wide a band of shear is: a cell, or what nonlocal softening makes it [m].
+/// Width of a shear band: a cell, or the width set by nonlocal softening [m].
 double band_width(const Material& material, const Mpm& mpm);
 
 /// Whether the region counts for the runout.
 bool is_mobile(const Region& region, const Mpm& mpm);
 
-/// Box around the regions that count for the runout; inside out: there is none.
+/// Box around the regions that count for the runout; inverted: there are none.
 geometry::Box mobile_extent(const Scene& scene, const Mpm& mpm);
 /// Its height [m]; 0: none.
 double mobile_height(const Scene& scene, const Mpm& mpm);
@@ -52,8 +52,8 @@ struct Resolved {
     std::vector<fault::Flag> flags;
 };
 
-/// What is too coarse: parts that the scene lacks, and regions without a sound polygon, are left out;
-/// nothing is said while a region's material is unknown.
+/// The parts that are too coarse. Ignores parts that the scene lacks and regions without a valid
+/// polygon; finds nothing while a region's material is unknown.
 Resolved resolution_of(const Scene& scene);
 
 }  // namespace breach::scene

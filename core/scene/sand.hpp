@@ -1,4 +1,4 @@
-// PM4Sand as documents write it: one place knows its keys, their units and what follows from D_R.
+// PM4Sand in documents: the only place that knows its keys, their units and what follows from D_R.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -7,7 +7,7 @@
 
 namespace breach::scene {
 
-/// Parameters of a law entry that its schema found sound.
+/// Parameters from a law entry that its schema accepted.
 materials::pm4sand::Parameters sand_parameters(const nlohmann::json& law);
 
 /// How the law is integrated: keys "compat" and "tolerance".
@@ -16,7 +16,7 @@ materials::pm4sand::Options sand_options(const nlohmann::json& law);
 /// The parameters with the document's keys and units.
 nlohmann::json sand_as_json(const materials::pm4sand::Parameters& parameters);
 
-/// Writes what follows from D_R into a PM4Sand entry; leaves other laws alone.
+/// Fills in the entries of a PM4Sand law that follow from D_R; does not change other laws.
 void complete_sand(nlohmann::json& law);
 
 }  // namespace breach::scene

@@ -30,7 +30,7 @@ struct LimitStrength {
     double phi;  ///< [rad]
 };
 
-/// Width of a shear band under nonlocal softening, in nonlocal lengths, whatever the cells [-].
+/// Width of a shear band under nonlocal softening, in nonlocal lengths, for any cells [-].
 constexpr double band_in_nonlocal_lengths = 2.5;
 
 struct Material {
@@ -47,7 +47,7 @@ struct Material {
     std::optional<materials::StrengthProfile> strength{};
 };
 
-/// An entry of a phase's own keeps that phase. lem: limit_strength, or a law with c_kPa and phi_deg.
+/// lem: limit_strength, or a law with c_kPa and phi_deg, comes before the profile.
 inline bool lem_takes_profile(const Material& material) {
     const bool law_has_own = materials::traits(material.law).c_and_phi &&
                              !materials::has_strength_of_points(material.law);
@@ -80,7 +80,7 @@ struct Region {
 struct Section {
     std::vector<Region> regions;
 
-    /// For the questions of core/geometry/section.hpp.
+    /// For the queries of core/geometry/section.hpp.
     operator geometry::Outlines() const { return geometry::outlines_of(regions, &Region::polygon); }
 };
 
@@ -108,7 +108,7 @@ struct TensionCrack {
     double filled;                ///< share of its height under water [-]
 };
 
-/// Which slices the limit on m_alpha is about, and what becomes of a given circle below it.
+/// Slices to which the limit on m_alpha applies, and how a given circle below it is treated.
 enum class MAlphaSlices { frictional, all };
 enum class SmallMAlpha { answered, refused };
 
@@ -164,16 +164,16 @@ struct UndrainedStrength {
     double factor = 1.0;  ///< on the profile's or the law's where the entry takes that [-]
     std::optional<materials::OnPath> on_path{};  ///< instead, the material's law says it
     std::shared_ptr<const materials::UndrainedByPlace>
-        by_state{};  ///< the law's, where it is needed
+        by_state{};  ///< from the law, where it is needed
 
-    /// Gives nothing of its own: the residual strength of the material's profile, if it has one.
+    /// Has no strength of its own: the residual strength of the material's profile applies, if any.
     bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0 && !on_path; }
 };
 
 struct UndrainedRegion {
     std::size_t region;  ///< index into the section's regions
     UndrainedStrength strength;
-    std::optional<std::array<double, 2>> levels{};  ///< of the part that is meant, low to high [m]
+    std::optional<std::array<double, 2>> levels{};  ///< of the part concerned, low to high [m]
 };
 
 /// Which surface the variations of a parameter are analysed on.
@@ -239,10 +239,10 @@ enum class Kinematics { small_strain, updated_lagrangian };
 
 /// bbar: 2 x 2 Gauss points, mean dilatation. ssp: one point, stabilised.
 enum class ElementKind { bbar, ssp };
-/// Modulus of the ssp quad's stabilisation: the soil's current one, or the elastic one for ever.
+/// Modulus of the ssp quad's stabilisation: the soil's current one, or always the elastic one.
 enum class HourglassKind { current, elastic };
-/// What a folded corner means to an analysis: its end, or an event that it notes. Small strain
-/// computes on the undeformed mesh and can go on.
+/// Effect of a folded corner on an analysis: it ends, or notes an event. Small strain computes on
+/// the undeformed mesh and can continue.
 enum class AtEntanglement { stop, go_on };
 
 struct MeshSource {
@@ -271,7 +271,7 @@ struct PressureBoundary {
     std::optional<double> level;  ///< [m]
 };
 
-/// Nodes on the segment are held in the directions given, and moved by so much over a stage.
+/// Nodes on the segment are held in the given directions, and moved so far over a stage.
 struct Displacement {
     std::string name;
     Vec2 from;
@@ -316,22 +316,22 @@ struct Stage {
     std::vector<std::optional<double>> S_of_region{};
     std::vector<std::size_t> activates{};  ///< regions that are there from this stage on
     std::vector<std::size_t> removes{};    ///< regions that are gone from this stage on
-    std::vector<std::size_t> releases{};   ///< supports that hold no longer
-    /// From this stage on, in place of what lay on the ground before
+    std::vector<std::size_t> releases{};   ///< supports that are removed
+    /// From this stage on, instead of the earlier surcharges
     std::optional<std::vector<Surcharge>> surcharge{};
-    /// static: from this stage on, in place of the one before; ascending in x [m]
+    /// static: from this stage on, instead of the one before; ascending in x [m]
     std::optional<std::vector<Vec2>> phreatic_line{};
-    /// static: from this stage on, in place of those before
+    /// static: from this stage on, instead of those before
     std::optional<std::vector<PressureBoundary>> water_boundaries{};
     /// static: regions whose water does not flow in this stage
     std::vector<std::size_t> undrained{};
-    /// From this stage on, in place of what was before
+    /// From this stage on, instead of the earlier one
     std::optional<double> seismic_coefficient{};  ///< horizontal body force over weight [-]
     std::optional<std::vector<EdgePressure>> pressures{};
     std::optional<std::vector<NodeForce>> forces{};
     std::vector<Displacement> displacements{};  ///< static: held from this stage on
     std::vector<Creep> creep{};                 ///< static: over the stage
-    double ramp = 0.0;              ///< dynamic: what is out of balance comes in this time [s]
+    double ramp = 0.0;              ///< dynamic: unbalanced forces are applied over this time [s]
     bool goes_on_at_limit = false;  ///< static: a limit point ends the stage, not the run
 
     bool moves_the_water() const { return phreatic_line || water_boundaries; }
@@ -358,10 +358,10 @@ struct GroundWater {
     double pressure_stabilisation;  ///< alpha over h^2 / (K + 4G/3) [-]
     PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
-    std::string boundaries_at = "/fem/water/boundaries";  ///< where the scene gives them
+    std::string boundaries_at = "/fem/water/boundaries";  ///< their entry in the scene
 };
 
-/// What a motion from below is: of the rock's free surface (twice the up-going wave), or that wave.
+/// Type of a motion from below: of the rock's free surface (twice the up-going wave), or that wave.
 enum class MotionAt { outcrop, upgoing };
 /// tied: the base moves as one in x.
 enum class BaseNodes { tied, free };
@@ -431,7 +431,7 @@ struct Fem {
     double telemetry_interval;           ///< [s]
     std::optional<double> strength_interval;  ///< of undrained strength by state; none: never [s]
 
-    /// A stage does something to the body, its supports, its loads or its water.
+    /// Whether a stage changes the body, its supports, its loads or its water.
     bool changes_the_body() const {
         for (const Stage& stage : stages)
             if (stage.changes_the_body()) return true;
@@ -453,7 +453,7 @@ struct Fem {
         }
         return now;
     }
-    /// Regions [regions of the section] that are not there in a stage: yet to be placed, or removed.
+    /// Regions [regions of the section] that are absent in a stage: yet to be placed, or removed.
     std::vector<bool> regions_gone(std::size_t regions, std::size_t stage) const {
         std::vector<bool> gone(regions, false);
         for (const Stage& each : stages)
@@ -474,11 +474,11 @@ struct Fem {
 enum class Interpolation { local, paper };
 enum class SofteningStart { carried, zero };
 
-/// Which r_u tells that a node is liquefied: the largest since the shaking began, or that of t_T.
+/// The r_u that makes a node liquefied: the largest since the shaking began, or that of t_T.
 enum class LiquefiedWhen { ever, at_transfer };
-/// What becomes of an element that the FEM has turned inside out.
+/// Treatment of an element that the FEM has turned inside out.
 enum class Entangled { refuse, rebuild };
-/// What frictional laws get: the effective stress, with the pore pressure beside it, or the total
+/// Stress for frictional laws: the effective stress, with the pore pressure beside it, or the total
 /// one. All other laws (phi = 0, elastic) get the total stress.
 enum class TransferredStress { total, effective };
 
@@ -496,8 +496,8 @@ struct LiquefiedLayer {
     std::size_t material;
 };
 
-/// Soil above the line counts as liquefied at this transfer, and what lies left of it above its
-/// left end.
+/// Soil above the line counts as liquefied at this transfer, and so does the soil left of it above
+/// its left end.
 struct LiquefiedLine {
     double transfer_time;        ///< [s]
     std::array<Vec2, 2> points;  ///< from left to right [m]
@@ -510,7 +510,7 @@ struct LiquefiedZone {
     /// From 0, without gaps; the last also holds what is beyond. Empty: soil keeps its material,
     /// with the residual strength of that material's profile
     std::vector<LiquefiedLayer> layers;
-    double narrowest_wall = 0.0;  ///< sound soil between liquefied soil, narrower: liquefied [m]
+    double narrowest_wall = 0.0;  ///< a narrower wall of unliquefied soil liquefies, too [m]
     std::vector<LiquefiedLine> lines{};
 };
 
@@ -563,7 +563,7 @@ enum class Shaking {
     goes_on,  ///< as the base of the FEM's free-field columns does; the grid moves with it
 };
 
-/// Stress of points that fill the section: none, or what the soil above weighs, sigma_h = K_0
+/// Stress of points that fill the section: none, or the weight of the soil above, sigma_h = K_0
 /// sigma_v with K_0 = nu / (1 - nu).
 enum class FillStress { none, overburden };
 
@@ -579,7 +579,7 @@ struct Floor {
     std::vector<FrictionZone> friction;  ///< ascending in x, empty: fixed (no slip)
 };
 
-/// Soil that lies on soil is pushed apart: the volume rate of a point gets -rate max(0, fill - 1 -
+/// Pushes overlapping soil apart: the volume rate of a point gets -rate max(0, fill - 1 -
 /// tolerance).
 struct OverlapCorrection {
     double rate = 0.0;       ///< 0: none [1/s]
@@ -599,7 +599,7 @@ struct Gauge {
     double arrival_depth;  ///< the flow has arrived when it is this deep [m]
 };
 
-/// A place through which soil leaves what is modelled: its hydrograph is recorded.
+/// A place through which soil leaves the model: its hydrograph is recorded.
 struct FlowSection {
     std::string name;
     double x;  ///< [m]
@@ -612,7 +612,7 @@ struct BreachWidth {
     double high;
 };
 
-/// What a point has beside its place and region, by the names of the exchange files.
+/// Fields of a point beside position and region, by their names in the exchange files.
 enum class PointField {
     velocity,
     velocity_gradient,
@@ -630,7 +630,7 @@ struct Output {
     std::vector<PointField> fields{};  ///< of the points, in every frame
 };
 
-/// When the mobile soil is at rest. Everything that depends on the scene's size is resolved.
+/// When the mobile soil is at rest. Limits that depend on the scene's size are resolved.
 struct Rest {
     double change;                 ///< the front moved no more than this over the window [m]
     double window;                 ///< [s]
@@ -655,14 +655,14 @@ struct Mpm {
     double gimp_half_size;  ///< fraction of the cell [-]
     UpdateOrder order;
     double blending_rate;  ///< affine PIC rate beta [1/s]
-    /// Share of critical damping of what does not yield, at the mobile height's frequency [-]
+    /// Share of critical damping of soil that does not yield, at the mobile height's frequency [-]
     double damping_ratio = 0.0;
     /// Least tensile strength over the unconfined compressive strength in force [-]
     double tension_share = 0.0;
     AntiLocking anti_locking;
     bool gap_closure;
-    /// Open volume is held to the room between the neighbours; unless the scene says, where more
-    /// than a tenth of the terrain is steeper than 30 degrees and debris falls on other soil
+    /// Limits open volume to the room between the neighbours; by default on where more than a tenth
+    /// of the terrain is steeper than 30 degrees and debris falls on other soil
     bool gap_room = false;
     OverlapCorrection overlap_correction{};
     /// Softening strains are those of cells this long [m]
@@ -705,16 +705,16 @@ struct Scene {
     std::vector<fault::Flag> warnings;  ///< entries that are possible and hardly meant
 };
 
-/// What a material point can be: soil of a region, of one material.
+/// Soil of a material point: of a region, of one material.
 struct Soil {
     std::size_t region;    ///< index into the section's regions
     std::size_t material;  ///< index into materials
     bool operator==(const Soil&) const = default;
 };
 
-/// All soils that points of this scene can be. The first ones are the section's regions, in their
-/// order, each of the material that the MPM gives it; then what /transfer makes of them: saturated
-/// parts, liquefied layers.
+/// All soils of this scene's points. The first ones are the section's regions, in their order, each
+/// of the material that the MPM gives it; then the parts that /transfer separates: saturated parts,
+/// liquefied layers.
 std::vector<Soil> soils_of(const Scene& scene);
 
 /// Reads and checks a scene; `overrides` are "/json/pointer=value". Throws BadInput with every

@@ -17,9 +17,9 @@ const nlohmann::json& scene_schema();
 const nlohmann::json& study_schema();
 const nlohmann::json& element_test_schema();
 
-/// Text -> JSON. Refuses duplicate keys, keys with / or ~ (which stand for themselves in no pointer),
-/// comments, numbers out of range, nesting deeper than 64.
-/// Throws BadInput.
+/// Text -> JSON. Refuses duplicate keys, keys with / or ~ (which JSON pointers
+/// escape), comments, numbers out of range, nesting deeper than 64. Throws
+/// BadInput.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
 /// Sets one "/json/pointer=value" (value: JSON, or a bare word taken as string). Returns the faults

@@ -1,5 +1,5 @@
-// The schemas as they were written, with their entries in the order in which people are to be shown
-// them. Checking is schema.hpp's.
+// The schemas as written, with their entries in the order for display. schema.hpp does the
+// checking.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
-// Inside core/scene only: is a number plausible, and which slip of the unit would explain it? Both
-// answers stand in the schema, as annotations: an entry's "x-plausible" [from, to], in its own
-// unit, and the slips of that unit in the root's "x-slips" (an entry's own "x-slips" count
-// instead).
+// Inside core/scene only: whether a number is plausible, and which wrong unit would explain
+// it. Both come from annotations of the schema: an entry's "x-plausible" [from, to], in its
+// own unit, and the unit's slips in the root's "x-slips" (an entry's own "x-slips" replace
+// them).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,16 +10,16 @@
 
 namespace breach::scene {
 
-/// "19 looks like kN/m3: write 1937 kg/m3" for every slip that brings the value into what is
-/// plausible for the entry; empty: no slip does.
+/// "19 looks like kN/m3: write 1937 kg/m3" for every slip that makes the value plausible for the
+/// entry; empty: none does.
 std::string likely_slip(double value, const nlohmann::json& entry, const nlohmann::json& root);
 
-/// Why the value is hardly meant, with the likely slip; nothing when it is plausible or the entry
-/// does not say what is. Zero says "none" and is always plausible where the limits let it pass.
+/// Why the value is implausible, with the likely slip; nothing when it is plausible or the entry
+/// has no "x-plausible". Zero means "none" and is always plausible within the limits.
 std::optional<std::string> warning_about(double value, const nlohmann::json& entry,
                                          const nlohmann::json& root);
 
-/// As people write it: six digits at most, no exponent between 1e-4 and 1e9.
+/// A number for people: six digits at most, no exponent between 1e-4 and 1e9.
 std::string plain_number(double value);
 
 }  // namespace breach::scene

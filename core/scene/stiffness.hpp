@@ -1,5 +1,5 @@
-// How stiff soil is in the runout. Its compression waves set the time step; a flow needs no faster
-// ones than ten times a free fall, and undrained soil has some of 2 km/s.
+// Stiffness of soil in the runout. Its compression waves set the time step; a flow needs waves no
+// faster than ten times a free fall, and undrained soil has some of 2 km/s.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@ namespace breach::scene {
 /// lowest ground [m/s].
 double fall_speed(const Scene& scene, const Mpm& mpm);
 
-/// What `"stiffness_scale": "auto"` holds compression waves to [m/s]: 10 times fall_speed. Nothing
-/// where soil keeps its stiffness: no material yields, the time step is given, the shaking goes on,
-/// there is no gravity.
+/// The limit on compression waves of `"stiffness_scale": "auto"` [m/s]: 10 times fall_speed.
+/// Nothing where soil keeps its stiffness: no material yields, the time step is given, the shaking
+/// continues, there is no gravity.
 std::optional<double> wave_speed_limit(const Scene& scene, const Mpm& mpm);
 
 /// A material's elasticity as the runout has it.
 mechanics::Elasticity elasticity_in_runout(const Material& material, const Mpm& mpm);
 
-/// Of the soils that points can be [m/s].
+/// The fastest of all soils' compression waves [m/s].
 double fastest_wave(const Scene& scene, const Mpm& mpm);
 
 /// A given stiffness with fall_speed over fastest_wave above this is refused.

@@ -1,5 +1,5 @@
-// The words of the scene's entries that are one of a few: what the readers understand, what results
-// and plans say. The schema lists the same words (tests/unit/scene/words_test.cpp).
+// The words of the scene's entries with a fixed choice, as readers, results and plans use them. The
+// schema lists the same words (tests/unit/scene/words_test.cpp).
 #pragma once
 
 #include "core/scene/scene.hpp"

@@ -1,5 +1,5 @@
-// Both edges of the plateau of runout(t_T), from as few MPM runs as possible. Pure: given what is
-// known, it says what to run next.
+// Both edges of the plateau of runout(t_T), with as few MPM runs as possible. Pure: from the known
+// runouts it returns the next runs.
 //
 // The plateau is where the runout is at least `share` of the largest one known. A few seeds spread
 // over the range find it; from the largest, each edge is closed in by halving between the last time
@@ -14,8 +14,8 @@
 
 namespace breach::statistics {
 
-/// A transfer or a runout that broke down or was refused: never on the plateau. (One that a machine
-/// fault ended is no answer: the bisection does not go on without it.)
+/// A transfer or a runout that broke down or was refused: never on the plateau. (A run that a
+/// machine fault ended is unknown: the bisection does not continue without it.)
 inline constexpr double no_runout = -std::numeric_limits<double>::infinity();
 
 struct Edge {
@@ -30,12 +30,12 @@ struct Plateau {
 };
 
 struct Advice {
-    std::vector<std::size_t> run_next;  ///< indices into the times; empty: nothing more to learn
+    std::vector<std::size_t> run_next;  ///< indices into the times; empty: nothing more to run
     std::optional<Plateau> plateau;     ///< as far as it is known; nothing: no runout above zero
 };
 
 /// `times`: where snapshots are, ascending [s]; `runouts`: one per time, empty where not run yet
-/// [m]; all that was asked for has been answered.
+/// [m]; every requested run has ended.
 Advice advise(std::span<const double> times, std::span<const std::optional<double>> runouts,
               double share, int seeds);
 

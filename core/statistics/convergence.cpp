@@ -97,7 +97,7 @@ double two_grid_error(double change, double ratio) {
     return factor_of_safety_of_two * std::abs(change) / (ratio - 1.0);
 }
 
-/// The last difference is told apart from noise, so more than a standard error of it is left.
+/// The last difference exceeds the noise, so more than a standard error of it is left.
 Range order_by_noise(const Ending& e, const Noise& noise) {
     const std::size_t repeats =
         std::min({e.coarse.value.count, e.middle.value.count, e.fine.value.count});
@@ -133,9 +133,9 @@ double judge(const Ending& e, const std::optional<Noise>& noise, Convergence& fo
     return factor_of_safety * std::abs(left(std::min(*found.order, highest_formal_order)));
 }
 
-/// Of the finest rung where noise does not tell it from the one before: their difference. Rungs that
-/// are near agree whatever they are off, so with less than a factor of 2 between them it is what it
-/// leaves in first order, or, where a third rung is not told apart either, what that one's leaves.
+/// Error of the finest rung where its difference from the one before is below the noise: that
+/// difference. Close rungs agree at any error, so for ratios below 2 it is the error of first order
+/// that the difference leaves, or of the third rung's difference if that is below the noise, too.
 double hidden_error(std::span<const Rung> ending, const Noise& noise) {
     const Rung& fine = ending.back();
     const auto off = [&](const Rung& other) {

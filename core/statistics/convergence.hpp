@@ -1,5 +1,5 @@
-// What a ladder of settings says of its own error: observed order, limit, grid convergence index,
-// noise; which settings are worth their cost. Pure functions of numbers; nothing here knows runs.
+// Error of a ladder of settings: observed order, limit, grid convergence index, noise; which
+// settings are worth their cost. Pure functions of numbers, without access to runs.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace breach::statistics {
 
-/// A setting of a ladder: how coarse it is, and what it gives.
+/// A setting of a ladder: its size and its result.
 struct Rung {
     double size;  ///< > 0, falling along the ladder
     Repeats value;
@@ -22,14 +22,14 @@ struct Range {
     double high;
 };
 
-/// No scheme here has a higher one: rungs that fall faster do so by chance, or because the coarsest is
+/// No scheme here has a higher order: faster convergence of the rungs is chance, or the coarsest is
 /// far too coarse.
 constexpr double highest_formal_order = 2.0;
 
-/// How the three finest rungs of a ladder run; of two, whether they differ.
+/// Course of the three finest rungs of a ladder; of two, whether they differ.
 enum class Course {
     too_few,      ///< fewer than three have a value, and two differ by more than the noise
-    monotone,     ///< towards a limit: order, limit and index are told
+    monotone,     ///< towards a limit: order, limit and index are given
     oscillating,  ///< up and down: a spread, no order
     not_falling,  ///< the differences do not get smaller with the size: no order
     below_noise,  ///< the last difference is within the noise of the repeats: no order
@@ -37,25 +37,25 @@ enum class Course {
 };
 std::string_view name_of(Course course);
 
-/// Whether what the finest rung is off by its course rests on how much finer each rung is than the
-/// one before.
+/// Whether, in this course, the error of the finest rung depends on the ratios of the rungs'
+/// sizes.
 bool rests_on_sizes(Course course);
 
 struct Convergence {
     Course course = Course::too_few;
     std::optional<double> order;  ///< p of value = limit + C size^p
-    /// What the order could be as well, the two differences of the means being off by a standard
-    /// error each: from 0, which is no limit, to 20. Nothing: no rung was repeated
+    /// Range of the order if the two differences of the means are off by a standard error each:
+    /// from 0, which has no limit, to 20. Nothing: no rung was repeated
     std::optional<Range> order_by_noise;
     std::optional<double> limit;  ///< Richardson's
-    /// Roache's grid convergence index of the finest rung, with his factor of safety 1.25 for three
-    /// grids; relative to its value. An order above `highest_formal_order` is not relied on: the
-    /// index goes by that one
+    /// Roache's grid convergence index of the finest rung, with his factor of safety 1.25 for
+    /// three grids; relative to its value. An order above `highest_formal_order` is replaced by
+    /// that one
     std::optional<double> gci;
-    /// What the finest rung may be off, relative to its value. monotone: the index; oscillating: half
-    /// of the range of the three finest (Stern et al. 2001); below_noise: the last difference, and
-    /// more where the rungs are near each other;
-    /// otherwise Roache's index for two grids, 3 |difference| / (ratio - 1), of first order
+    /// Error of the finest rung, relative to its value. monotone: the index; oscillating: half of the
+    /// range of the three finest (Stern et al. 2001); below_noise: the last difference, and more
+    /// where the rungs' sizes are close; otherwise Roache's index for two grids, 3 |difference| /
+    /// (ratio - 1), of first order
     std::optional<double> error_of_finest;
     std::optional<double> spread;  ///< largest minus smallest value of the rungs
     std::optional<Noise> noise;    ///< nothing: no rung was repeated
@@ -73,29 +73,29 @@ std::optional<double> observed_order(double ratio_coarse, double ratio_fine, dou
                                      double change_fine);
 
 /// The difference of two means of so many repeats that noise alone exceeds in one of twenty pairs: by
-/// Student's distribution, as the noise is known from few repeats.
+/// Student's distribution, as few repeats give the noise.
 double smallest_told_difference(const Noise& noise, std::size_t repeats);
 
-/// What one ladder says a setting is off, relative, and whether that is told apart from noise.
+/// Relative error of a setting from one ladder, and whether it exceeds the noise.
 struct Share {
     double error;
     bool told;
 };
-/// What several ladders say together. What is told adds up; what noise alone could make has either
-/// sign, and such shares add as squares.
+/// The errors of several ladders together. Those above the noise add up; those within the noise
+/// have either sign, so they add as squares.
 double sum_of(std::span<const Share> shares);
 
-/// What a setting costs and how far one run with it is off.
+/// Cost of a setting and error of one run with it.
 struct Offer {
     double cpu_seconds;
     double error;  ///< relative
 };
 /// [offers] whether no other offer is as good in both and better in one.
 std::vector<bool> pareto_front(std::span<const Offer> offers);
-/// The cheapest whose error is at most `asked`; of equally cheap ones the more accurate.
+/// The cheapest with an error of at most `asked`; of equally cheap ones the more accurate.
 std::optional<std::size_t> cheapest_within(std::span<const Offer> offers, double asked);
 
-/// Root of the mean square of (one run - reference) / |reference|, of a relative bias and the
+/// Root of the mean square of (one run - reference) / |reference|, from a relative bias and the
 /// scatter of repeats. reference other than zero.
 double error_of_one_run(double bias, const Repeats& value, double reference);
 

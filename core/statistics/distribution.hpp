@@ -19,7 +19,7 @@ constexpr auto words_of(DistributionKind) {
                                               {triangular, "triangular"}});
 }
 
-/// What the numbers mean hangs on the kind:
+/// Meaning of the numbers by kind:
 ///     uniform, log_uniform   from, to
 ///     normal                 mean, standard deviation
 ///     lognormal              median, coefficient of variation (standard deviation over mean)
@@ -27,19 +27,19 @@ constexpr auto words_of(DistributionKind) {
 struct Distribution {
     DistributionKind kind = DistributionKind::uniform;
     std::array<double, 3> numbers{};
-    /// Nothing lies outside: the distribution given that it lies between. Its quantiles are those of
-    /// the shares that lie between, so no value piles up at an end.
+    /// Truncation: the distribution given that the value lies between. Its quantiles are those of
+    /// the shares between, so no value accumulates at an end.
     std::optional<std::array<double, 2>> between{};
 };
 
 /// Share of probability below x, without `between`.
 double share_below(const Distribution& distribution, double x);
-/// Share of probability that `between` leaves; 1 without it.
+/// Share of probability inside `between`; 1 without it.
 double share_between(const Distribution& distribution);
 /// The value below which the share u lies, 0 < u < 1, with `between`.
 double quantile(const Distribution& distribution, double u);
 
-/// As text shows it: what is stored, set and shown is one number.
+/// Rounded as text shows it: the number stored, set and shown is the same.
 double in_six_digits(double value);
 
 }  // namespace breach::statistics

@@ -1,5 +1,5 @@
-// How much of the spread of a result comes from each parameter of a study. Pure functions of draws
-// and results.
+// Share of the spread of a result that comes from each parameter of a study. Pure functions of
+// samples and results.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,22 +12,22 @@
 
 namespace breach::statistics {
 
-/// What the samples have drawn of one parameter.
+/// The sampled values of one parameter.
 struct Drawn {
     std::string name;
     bool is_choice = false;      ///< values name options, which have no order
     std::vector<double> values;  ///< one per sample; of a choice the option's number
 };
 
-/// Nothing where it cannot be told: too few samples, or nothing varies.
+/// Entries are empty where they cannot be computed: too few samples, or nothing varies.
 struct Importance {
-    /// Spearman's, with the interval of Bonett & Wright (2000) in Fisher's z. Not of a choice: its
+    /// Spearman's, with the interval of Bonett & Wright (2000) in Fisher's z. Not for a choice: its
     /// options have no order.
     std::optional<Interval> rank_correlation;
-    /// The same after what ranks of the other parameters, and choices, explain by a straight line is
-    /// taken from both (Saltelli et al. 2008, 1.2.5).
+    /// The same after removing from both what ranks of the other parameters, and choices, explain
+    /// linearly (Saltelli et al. 2008, 1.2.5).
     std::optional<Interval> partial_rank_correlation;
-    /// Share of the variance that goes by this parameter alone, V(E(Y | X)) / V(Y).
+    /// Share of the variance due to this parameter alone, V(E(Y | X)) / V(Y).
     std::optional<Interval> first_order;
 };
 
@@ -38,12 +38,12 @@ std::vector<Importance> importance_of(std::span<const Drawn> parameters,
 /// The parameter's columns in a regression on choices: one per option that occurs but the first.
 Eigen::MatrixXd indicators_of(const Drawn& choice);
 
-/// First-order index: the share of the variance that a straight line in each bin of the parameter's
-/// values explains, and of a choice the mean of each option (Pearson's correlation ratio); without
-/// what so many numbers explain by chance (epsilon squared, Kelley 1935). The lines are there because
-/// means of bins count the course within a bin as scatter: of 64 samples of a line with S = 0.8 they
-/// made 0.75. The interval is the jackknife's (Efron & Stein 1981). groups: bin or option of each
-/// sample. Nothing: fewer than two samples for each number of the fit, or results that do not vary.
+/// First-order index: the share of the variance explained by a straight line in each bin of the
+/// parameter's values, or, for a choice, by the mean of each option (Pearson's correlation ratio);
+/// minus what so many numbers explain by chance (epsilon squared, Kelley 1935). Lines, because means
+/// of bins count the trend within a bin as scatter: for 64 samples of a line with S = 0.8 they gave
+/// 0.75. The interval is the jackknife's (Efron & Stein 1981). groups: bin or option of each sample.
+/// Nothing: fewer than two samples for each number of the fit, or constant results.
 std::optional<Interval> share_explained(std::span<const std::size_t> groups,
                                         std::span<const double> values,
                                         std::span<const double> results);

@@ -106,7 +106,7 @@ std::string at_both_ends(const InverseQuestion& question, const Point& low, cons
            ": values between them give the same result";
 }
 
-/// Why no value can be told; empty: the ends enclose it.
+/// Why no value can be given; empty: the ends enclose it.
 std::string refusal_of(const InverseQuestion& question, const Point& low, const Point& high) {
     const Side side = side_of(low, question.target);
     if (side != side_of(high, question.target)) return "";

@@ -1,5 +1,5 @@
-// The value of one parameter at which a result is a given number: back-analysis. Pure: given what is
-// known, it says what to run next, or what was found.
+// Back-analysis: the value of one parameter at which a result is a given number. Pure: from the
+// known results it returns the next runs, or the value found.
 #pragma once
 
 #include <optional>
@@ -16,42 +16,42 @@ struct InverseStep {
     double value;
     std::vector<double> results;  ///< of the lattices that have one
     bool open = false;            ///< some still run
-    std::size_t moving = 0;       ///< of the results: lower bounds, their soil still moved
-    std::size_t stood = 0;        ///< of the results: nothing was let go, they are 0
+    std::size_t moving = 0;       ///< results that are lower bounds: their soil still moved
+    std::size_t stood = 0;        ///< results without a transfer: no soil was released, they are 0
 };
 
 struct InverseQuestion {
     double target;
-    std::string quantity;  ///< with its unit in the sentences
+    std::string quantity;  ///< named with its unit in sentences
     std::string unit;
     double low, high;         ///< ends of the range that is searched
     bool logarithmic;         ///< halve in the logarithm: factors
     double tolerance = 0.02;  ///< of the value, relative (of the range, where not logarithmic)
-    std::size_t most_values = 100;  ///< the search ends with these
+    std::size_t most_values = 100;  ///< the search ends after so many
 };
 
-/// What lower bounds beside the target make of the value found.
+/// Effect of lower bounds beside the target on the value found.
 enum class Bound { none, at_least, at_most };
 
 struct InverseAdvice {
-    std::vector<double> run_next;   ///< empty: wait, or there is nothing more to learn
-    std::optional<Interval> found;  ///< low and high: where the interval can be told
+    std::vector<double> run_next;   ///< empty: wait, or nothing more to run
+    std::optional<Interval> found;  ///< low and high: where an interval exists
     bool has_interval = false;
     Bound bound = Bound::none;
     std::optional<double> noise;  ///< standard deviation of one run by its lattice, pooled
     std::string refused;          ///< why there is no value
-    std::string remark;           ///< what to know of the interval
+    std::string remark;           ///< a caveat of the interval
 };
 
 /// Both ends first; then the bracket is halved until it is as narrow as the tolerance, or until the
 /// results at its ends differ by no more than the noise of a mean. The value is interpolated between
 /// them; where a stretch of values gives the target itself, as a runout of 0, it is the end of that
-/// stretch. Its interval: all values whose result, interpolated between neighbouring steps, is within
-/// t s / sqrt(lattices) of the target (of such a stretch its end alone), s the noise pooled over the
-/// steps and t Student's factor of 90 % (core/statistics/repeats.hpp). It says nothing
-/// of the other parameters, which stay at their medians, nor of the model. Assumed: the result rises
-/// or falls all the way between the ends, but for such a stretch. Where nothing was let go the result
-/// is 0, and jumps beside it: noise is of the others.
+/// stretch. Its interval: all values with a result, interpolated between neighbouring steps, within t
+/// s / sqrt(lattices) of the target (of such a stretch its end alone), s the noise pooled over the
+/// steps and t Student's factor of 90 % (core/statistics/repeats.hpp). It excludes the uncertainty of
+/// the other parameters, which stay at their medians, and of the model. Assumed: the result rises or
+/// falls all the way between the ends, except for such a stretch. Without a transfer the result is 0
+/// and jumps beside it: noise excludes such results.
 InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const InverseStep> steps);
 
 }  // namespace breach::statistics

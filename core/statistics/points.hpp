@@ -1,5 +1,5 @@
-// Points that fill the unit cube evenly: what a sample is drawn from. Both sequences keep their first
-// points however many are asked for.
+// Points that fill the unit cube evenly, for samples. Both sequences keep their first points when
+// more are requested.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ using Points = std::vector<std::vector<double>>;
 Points latin_hypercube(std::size_t points, std::size_t first, std::size_t dimensions,
                        std::uint64_t seed);
 
-/// Where the blocks end that a hypercube is made in: first, 2 first, 4 first, ..., up to the first
+/// Ends of the blocks in which a hypercube is made: first, 2 first, 4 first, ..., up to the first
 /// that is not below `points`.
 std::vector<std::size_t> blocks_of(std::size_t points, std::size_t first);
 
@@ -30,8 +30,8 @@ inline constexpr std::size_t most_sobol_dimensions = 64;
 /// [points][dimensions].
 std::vector<std::vector<std::uint32_t>> sobol_sequence(std::size_t points, std::size_t dimensions);
 
-/// That sequence, moved by a digital shift of the seed (each dimension's numbers exclusive-or one
-/// random number, which keeps it a digital net) and to the middles of its 2^-32 steps.
+/// The Sobol sequence with a digital shift from the seed (exclusive-or of each dimension with a
+/// random number, which keeps it a digital net), moved to the middles of its 2^-32 steps.
 Points sobol_points(std::size_t points, std::size_t dimensions, std::uint64_t seed);
 
 }  // namespace breach::statistics

@@ -6,14 +6,14 @@
 
 namespace breach::statistics {
 
-/// Every interval in this room covers what it estimates in so many of studies.
+/// Every interval in this folder covers the estimated quantity in this share of studies.
 inline constexpr double confidence = 0.9;
 
 /// Phi(z) of the standard normal distribution; relative error below 1e-14 in the lower tail as well.
 double normal_cdf(double z);
-/// Its inverse, 0 < p < 1. |z| is right to 1e-14 (1 + |z|).
+/// Its inverse, 0 < p < 1. Accurate to 1e-14 (1 + |z|).
 double normal_quantile(double p);
-/// 95th percentile of the standard normal distribution: where such an interval ends.
+/// 95th percentile of the standard normal distribution: end of an interval of this confidence.
 inline constexpr double normal_quantile_of_95 = 1.6448536269514722;
 
 /// t such that |T| <= t with probability `share` for Student's distribution with `freedom` >= 1

@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine: std::mt19937_64 is laid down by the standard,
-// what std makes of its numbers is not.
+// Random numbers that are the same on every machine: the standard defines std::mt19937_64, but not
+// the output of std's distributions.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace breach::statistics {
 
 class Random {
   public:
-    /// Another stream of the same seed is another sequence.
+    /// Each stream of a seed is another sequence.
     Random(std::uint64_t seed, std::uint64_t stream) {
         std::seed_seq mixed{
             static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),

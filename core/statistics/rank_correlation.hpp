@@ -1,4 +1,4 @@
-// Rank correlation: measured, and made by reordering.
+// Rank correlation: its measurement, and reordering to a given one.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ using Matrix = std::vector<std::vector<double>>;
 /// The lower triangle L with L L' = the matrix; nothing: it is not positive definite.
 std::optional<Matrix> cholesky(const Matrix& matrix);
 
-/// Places of the values, the smallest first; equal ones as they stand.
+/// Indices of the values, the smallest first; equal values keep their order.
 std::vector<std::size_t> order_of(std::span<const double> values);
 /// Ranks from 1; equal values share the mean of theirs.
 std::vector<double> ranks_of(std::span<const double> values);
@@ -25,14 +25,14 @@ double rank_correlation(std::span<const double> a, std::span<const double> b);
 Matrix rank_correlations(const Points& points, std::size_t from, std::size_t to);
 
 /// Reorders each dimension of the rows [from, to) so that their rank correlations come as near to the
-/// wanted ones as they do (Iman & Conover 1982, with van der Waerden's scores; what is left is added
-/// to the target, up to 20 times, and the best order is kept; up to 256 rows are then swapped in pairs
-/// as long as that helps). Every dimension keeps its values. Rows
-/// that are no more than the dimensions stay as they are. wanted: positive definite.
+/// wanted ones as possible (Iman & Conover 1982, with van der Waerden's scores; the remaining error is
+/// added to the target, up to 20 times, and the best order is kept; up to 256 rows are then swapped in
+/// pairs as long as that helps). Every dimension keeps its values. No change if there are no more rows
+/// than dimensions. wanted: positive definite.
 void correlate(Points& points, std::size_t from, std::size_t to, const Matrix& wanted);
 
-/// The same for points that must stay in their places, those of a sequence: a normal copula with the
-/// correlations 2 sin(pi r / 6), whose rank correlation is r.
+/// The same for points that must keep their places, those of a sequence: a normal copula with the
+/// correlations 2 sin(pi r / 6), which give the rank correlation r.
 void couple(Points& points, const Matrix& wanted);
 
 }  // namespace breach::statistics

@@ -89,7 +89,7 @@ struct Fit {
     double at(const Coordinates& place) const { return terms_of(place, form).dot(coefficients); }
 };
 
-/// Nothing: too many terms for so many samples, or terms that the samples do not tell apart.
+/// Nothing: too many terms for so many samples, or terms that the samples do not distinguish.
 std::optional<Fit> fitted(const Inputs& inputs, const VectorXd& y, Form form) {
     const Index n = y.size();
     const Index terms = terms_of(inputs.at(0), form).size();

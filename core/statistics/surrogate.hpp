@@ -1,5 +1,5 @@
-// A polynomial in place of the model, to ask what one parameter at a time does. Pure functions of
-// draws and results.
+// A polynomial in place of the model, to vary one parameter at a time. Pure functions of samples
+// and results.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ struct TornadoBar {
 };
 
 struct Tornado {
-    double q2 = 0.0;   ///< share of the variance that the surrogate foretells of samples left out
+    double q2 = 0.0;   ///< share of the variance that the surrogate predicts for samples left out
     std::string form;  ///< "linear", "squares", "squares and products"
     double at_median = 0.0;        ///< all at their medians, choices at their most frequent option
     std::vector<TornadoBar> bars;  ///< the widest first; empty: refused
@@ -26,10 +26,10 @@ constexpr double least_q2 = 0.7;
 
 /// Least squares on a polynomial in the normal scores of the parameters (van der Waerden's, of their
 /// ranks), and a constant for each option of a choice: of the forms with at most half as many terms
-/// as samples the one with the largest Q2. Q2 = 1 - (sum of squared errors of each sample foretold by
-/// the fit to all others) / (sum of squared deviations), the first from the leverages (Allen 1974).
-/// Refused below least_q2. Scores are of the draws as they came: correlated parameters move one at a
-/// time here, as they do not in the samples.
+/// as samples the one with the largest Q2. Q2 = 1 - (sum of squared errors of each sample predicted
+/// by the fit to all others) / (sum of squared deviations), the first from the leverages (Allen
+/// 1974). Refused below least_q2. Scores are those of the samples as they are: correlated parameters
+/// move one at a time here, unlike in the samples.
 Tornado tornado_of(std::span<const Drawn> parameters, std::span<const double> results);
 
 }  // namespace breach::statistics

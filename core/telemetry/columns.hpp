@@ -1,5 +1,5 @@
-// The columns of the FEM's telemetry: one table from which the FEM writes its lines, triggers check
-// their conditions, reports take their labels and GET /v1/telemetry/fields answers.
+// The columns of the FEM's telemetry: one table for the FEM's lines, the conditions of triggers,
+// the labels of reports and GET /v1/telemetry/fields.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace breach::telemetry {
 
-/// What a scene must have for its FEM to measure a column.
+/// Requirement of a column on the scene, for the FEM to measure it.
 enum class Needs {
     nothing,
     softening,
@@ -24,17 +24,17 @@ struct Column {
     const char* unit;     ///< "1": a ratio or a count
     const char* meaning;  ///< for people, one line
     Needs needs = Needs::nothing;
-    double least = -std::numeric_limits<double>::infinity();  ///< that it can be
+    double least = -std::numeric_limits<double>::infinity();  ///< its lower bound
     double most = std::numeric_limits<double>::infinity();
 };
 
-/// What fem_solver writes, in the order of history.h5, of a scene that has what they need.
+/// The columns of fem_solver, in the order of history.h5, with their requirements.
 std::span<const Column> fem_columns();
 
-/// What a condition may use beside them: numbers of the same run that other phases give.
+/// Further names for conditions: numbers of the same run from other phases.
 std::span<const Column> run_columns();
 
-/// Of either table; nullptr: no such column.
+/// A column of either table; nullptr: no such column.
 const Column* column_named(std::string_view name);
 
 }  // namespace breach::telemetry

@@ -1,5 +1,5 @@
-// telemetry.jsonl as it lies on the disk: one JSON object per line, numbers by name, which a phase
-// may still be writing. What a whole line is and which lines count is said here and nowhere else.
+// telemetry.jsonl on the disk: one JSON object per line, numbers by name, which a phase may still
+// be writing. Defines what a whole line is and which lines count.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace breach::telemetry {
 
-/// Goes over a file line by line. A last line without its line break is still being written: it is
-/// not given out before it is ended.
+/// Iterates over the lines of a file. A last line without its line break is still being written: it
+/// is not returned until it is complete.
 class LineWalk {
   public:
-    /// from: where an earlier walk had come to [bytes].
+    /// from: the position() of an earlier walk [bytes].
     explicit LineWalk(const std::filesystem::path& file, std::streamoff from = 0);
 
     /// Goes to the next line; false: there is none yet, or the file cannot be read.
     bool next();
-    /// The line; once next() was false, what stands behind the last line break.
+    /// The line; after next() returned false, the text behind the last line break.
     const std::string& text() const { return text_; }
     /// Behind the line break of the last line [bytes].
     std::streamoff position() const { return position_; }
@@ -39,18 +39,18 @@ struct Line {
     std::map<std::string, double, std::less<>> values;  ///< its numbers, "time" among them
 };
 
-/// The lines that count, of a file that nobody writes any more or that may still end inside one: a
-/// line that is not later than one before it (a phase that was resumed) is left out. Throws IoError
-/// when the file cannot be read, BadInput naming a line that is no JSON object with a time.
+/// The valid lines of a file that is complete or may still end inside a line: leaves out a line
+/// that is not later than one before it (a resumed phase). Throws IoError when the file cannot be
+/// read, BadInput naming a line that is no JSON object with a time.
 std::vector<Line> read(const std::filesystem::path& file);
 
-/// The same lines of a phase that runs, each once. Who watches cannot refuse what was written: what
-/// is no line with a time is passed over.
+/// The same lines of a running phase, each once. Skips a line that is no JSON object with a time,
+/// as a watcher cannot refuse it.
 class Tail {
   public:
     explicit Tail(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// What is new since the last call. A file that has become shorter is read from its beginning.
+    /// The lines since the last call. A file that has become shorter is read from its beginning.
     std::vector<Line> fresh();
     const std::filesystem::path& file() const { return file_; }
 

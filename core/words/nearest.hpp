@@ -1,4 +1,4 @@
-// Which known word was meant by a misspelt one.
+// The known word nearest to a misspelt one.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace breach::words {
 
-/// Letters to be added, dropped or replaced between two words.
+/// Letters to add, drop or replace between two words.
 inline std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

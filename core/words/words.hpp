@@ -1,6 +1,6 @@
 // The words of an enum, as users write and read them: one table per enum, from which entries are
-// read, results written and plans printed. A table is found by the enum's type and stands in the
-// enum's namespace:
+// read, results written and plans printed. A table is found by the enum's type and is in the enum's
+// namespace:
 //
 //     constexpr auto words_of(Wall) {
 //         return words::in_order<Wall>({{Wall::roller, "roller"}, {Wall::open, "open"}});
@@ -23,7 +23,7 @@ struct Word {
     std::string_view word;
 };
 
-/// The table of an enum. Does not compile unless the values stand as they do in the enum.
+/// The table of an enum. Compiles only if the values have the enum's order.
 template <class Enum, std::size_t n>
 consteval std::array<Word<Enum>, n> in_order(const Word<Enum> (&list)[n]) {
     for (std::size_t i = 0; i < n; ++i)
@@ -59,14 +59,14 @@ constexpr std::optional<Enum> find(std::string_view word) {
     return std::nullopt;
 }
 
-/// Of a word that the reader has checked; another one is our own mistake.
+/// The word of a checked entry; an unknown word is a programming error.
 template <Worded Enum>
 Enum named(std::string_view word) {
     if (const auto found = find<Enum>(word)) return *found;
     throw std::logic_error("nothing reads the word \"" + std::string(word) + "\"");
 }
 
-/// The value that the word of an entry means, of a JSON object that has been checked.
+/// The value for the word of an entry, in a JSON object that has been checked.
 template <Worded Enum, class Object>
 Enum word_at(const Object& object, const char* key) {
     return named<Enum>(object.at(key).template get_ref<const std::string&>());

@@ -28,12 +28,12 @@ struct Mesh {
 
 Corners corners_of(const Mesh& mesh, std::size_t element);
 
-/// Asked now and then while gmsh runs; true: end it.
+/// Called now and then while gmsh runs; true: stop it.
 using StopQuestion = std::function<bool()>;
-/// The answer was yes, and there is no mesh.
+/// Meshing was stopped on request, and there is no mesh.
 class MeshingStopped : public std::exception {};
 
-/// Where the mesh comes from.
+/// Source of the mesh.
 enum class Mesher { msh_file, gmsh, blocks };
 process::Decided<Mesher> mesher_of(const scene::Scene& scene);
 
@@ -86,14 +86,14 @@ struct Quality {
 };
 Quality quality_of(const Mesh& mesh);
 
-/// Side positions [0, 1] do not matter here: points along the side from corner k to corner k+1,
-/// divisions + 1 of them, with every polyline vertex among them; within a segment, each element is
-/// `growth` times as long as the one before. Empty when the side has more segments than divisions.
+/// Points along the side from corner k to corner k+1, divisions + 1 of them, including every
+/// polyline vertex; within a segment, each element is `growth` times as long as the one before.
+/// Empty when the side has more segments than divisions.
 std::vector<Vec2> divide_side(const geometry::Polygon& polygon, std::size_t from, std::size_t to,
                               int divisions, double growth = 1.0, int unit = 1);
 
-/// How many of a side's divisions each of its segments gets: at least one `unit` each, otherwise
-/// by length; `divisions` is a multiple of the unit.
+/// Distributes a side's divisions over its segments: at least one `unit` each, otherwise by length;
+/// `divisions` is a multiple of the unit.
 std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions, int unit = 1);
 
 }  // namespace breach::fem

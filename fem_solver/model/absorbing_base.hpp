@@ -1,4 +1,4 @@
-// The dashpots of a Lysmer-Kuhlemeyer base on this mesh, and the motion that comes through them.
+// The dashpots of a Lysmer-Kuhlemeyer base on this mesh, and its input motion.
 #pragma once
 
 #include "core/motion/read_motion.hpp"
@@ -12,7 +12,7 @@ namespace breach::fem {
 AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Series velocity,
                              scene::MotionAt at);
 
-/// Velocity that the motion brings.
+/// Velocity of the input motion.
 motion::Series base_velocity(const scene::BaseMotion& wanted);
 
 }  // namespace breach::fem

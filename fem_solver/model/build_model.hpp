@@ -1,4 +1,4 @@
-// The model of a scene on a mesh: who stands on what, weighs how much and obeys which law.
+// Builds the model of a scene on a mesh: constraints, masses and laws.
 #pragma once
 
 #include "fem_solver/model/choose.hpp"
@@ -7,11 +7,11 @@ namespace breach::fem {
 
 /// Throws BadInput when supports, water, base or columns do not fit the mesh.
 Model build_model(const scene::Scene& scene, Mesh mesh);
-/// The same with what was decided about the scene.
+/// The same with the decisions about the scene.
 Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh mesh);
 
-/// Masses, and as the external force the weight and this share of it towards +x, of the elements
-/// that are there.
+/// Sets the masses, and as the external force the weight and this share of it towards +x, of the
+/// elements present.
 void set_weights(double gravity, double seismic_coefficient, Model& model);
 
 }  // namespace breach::fem

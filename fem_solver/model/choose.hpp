@@ -1,5 +1,5 @@
-// From the scene's words to what the model is made of: each choice once. The model is built from
-// the values, the plan prints the lines.
+// Decides the parts of the model from the scene, each choice once. The model is built from the
+// values, the plan prints the lines.
 #pragma once
 
 #include "core/process/plan.hpp"
@@ -7,10 +7,10 @@
 
 namespace breach::fem {
 
-/// How hourglass modes are held; none: the element has none.
+/// Hourglass control; none: the element has none.
 using ElementChoice = std::optional<HourglassModulus>;
 
-/// Where a value is a part of the scene, its absence leaves it out.
+/// A decision without a value leaves that part of the model out.
 struct ModelDecisions {
     process::Decided<double> gravity;  ///< [m/s2]
     process::Decided<scene::Kinematics> kinematics;

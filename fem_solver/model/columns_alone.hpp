@@ -1,5 +1,5 @@
-// The free-field columns taken out of a model, as a model that stands by itself: level ground that no dam
-// loads and no failure distorts. How it is shaken: solve/base_motion.hpp.
+// Extracts the free-field columns of a model as a model of their own: level ground without the load of a
+// dam and without failure. Their shaking: solve/base_motion.hpp.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
@@ -10,7 +10,7 @@ namespace breach::fem {
 /// as in the whole. `whole` has columns.
 Model columns_alone(const Model& whole);
 
-/// Their share of a motion of the whole.
+/// The columns' part of a motion of the whole.
 Motion columns_alone(const Model& whole, const Motion& motion);
 
 }  // namespace breach::fem

@@ -1,5 +1,5 @@
-// Which displacements and pressures are unknown: nodes that supports hold, nodes that move alike,
-// nodes whose pressure is prescribed.
+// The unknown displacements and pressures: nodes held by supports, nodes tied to each other, nodes
+// with a prescribed pressure.
 #pragma once
 
 #include <vector>
@@ -19,13 +19,13 @@ struct Unknowns {
     std::int32_t pressures() const { return count - displacements; }
 };
 
-/// Two nodes of which the second does what the first does.
+/// Two tied nodes: the second moves with the first.
 struct Tie {
     std::int32_t master;
     std::int32_t slave;
 };
 
-/// What holds and ties the nodes. Ties may be chained; all of a chain end at one master.
+/// Supports and ties of the nodes. Ties may be chained; all of a chain end at one master.
 struct Constraints {
     std::vector<bool> held;                     ///< [dofs] by a support
     std::vector<std::int32_t> master;           ///< [dofs] itself where nothing is tied
@@ -33,7 +33,7 @@ struct Constraints {
     std::vector<bool> is_base;                  ///< [nodes] on an elastic base; empty: no base
 };
 
-/// Which of the unknowns a stage has.
+/// The unknowns of a stage.
 enum class Solved {
     displacement,               ///< statics: the base is held, pressures are known
     displacement_and_pressure,  ///< statics without drainage: the base is held
@@ -47,7 +47,7 @@ Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::Ela
                            const Mesh& mesh, const std::vector<Tie>& ties,
                            const std::vector<Tie>& pressure_ties);
 
-/// Holds what a support holds in `held` [dofs]; how many of its nodes are not lonely [nodes].
+/// Marks in `held` [dofs] what a support holds; returns how many of its nodes are not lonely.
 std::size_t hold_nodes(const scene::Support& support, const Mesh& mesh,
                        const std::vector<bool>& lonely, std::vector<bool>& held);
 
@@ -57,10 +57,10 @@ std::vector<std::size_t> nodes_on(const Mesh& mesh, const Vec2& from, const Vec2
 /// No support and no tie: every displacement of these nodes is its own.
 Constraints unconstrained(std::size_t nodes);
 
-/// The dof or node that `i` moves with in the end.
+/// The dof or node at the end of the chain of `i`.
 std::int32_t root_of(const std::vector<std::int32_t>& masters, std::int32_t i);
 
-/// Moves dof `slave` with `master` from now on, and what was tied to either.
+/// Ties dof `slave`, and the dofs tied to it, to `master`.
 void tie(std::vector<std::int32_t>& masters, std::int32_t master, std::int32_t slave);
 
 /// pressure_is_unknown: [nodes], empty in dry soil.

@@ -21,7 +21,7 @@ using Stiffness = Eigen::Matrix<double, 8, 8>;
 /// Natural coordinates (xi, eta) of the Gauss points, counter-clockwise like the corners.
 const std::array<Vec2, gauss_points>& gauss_positions();
 
-/// What an element's integrals need at each Gauss point.
+/// An element's data at each Gauss point for its integrals.
 struct Quadrature {
     std::array<StrainOperator, gauss_points> B;  ///< B-bar [1/m]
     std::array<double, gauss_points> weight;     ///< w det J t [m3]
@@ -33,7 +33,7 @@ struct Gradients {
     std::array<double, gauss_points> weight;
 };
 
-/// x: corners [m]; thickness [m]. det J > 0 is the caller's business (weights show it).
+/// x: corners [m]; thickness [m]. The caller must check det J > 0 (weights show it).
 void evaluate_gradients(const Corners& x, double thickness, Gradients& out);
 
 /// B-bar of the mean-dilatation method (Hughes 1980): the in-plane volumetric part of B is replaced

@@ -1,4 +1,4 @@
-// The ground surface of the mesh and what lies on it: ponded water and surcharge.
+// The ground surface of the mesh and the loads on it: ponded water and surcharge.
 #pragma once
 
 #include "core/geometry/polyline.hpp"
@@ -16,7 +16,7 @@ struct GroundEdge {
 };
 std::vector<GroundEdge> ground_edges(const Model& model);
 
-/// Adds a pressure on outer edges to the external force; on how many edges.
+/// Adds a pressure on outer edges to the external force; returns the number of edges.
 std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model);
 
 /// Pressure of free water with its surface at `line` on a point of the ground, 0 above it [Pa].

@@ -1,5 +1,5 @@
-// What stays fixed during an analysis: mesh, unknowns, masses, weights and the laws of the zones;
-// and what changes: the motion of the nodes and the state of the Gauss points.
+// The constants of an analysis: mesh, unknowns, masses, weights and the laws of the zones; and its
+// variables: the motion of the nodes and the state of the Gauss points.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,10 +46,10 @@ struct AbsorbingBase {
     }
 };
 
-/// How the hourglass force of the single-point quad follows the soil.
+/// Stiffness of the hourglass force of the single-point quad.
 enum class HourglassModulus {
     current,  ///< c_s from the secant shear modulus of the last step, force continuous
-    elastic,  ///< c_s = 4 G for ever, as in OpenSees
+    elastic,  ///< c_s = 4 G always, as in OpenSees
 };
 
 struct Model {
@@ -57,17 +57,17 @@ struct Model {
     std::vector<Zone> zones;
     double thickness;               ///< of the body [m]
     double column_thickness = 1.0;  ///< of free-field columns over the body's [-]
-    Body body{};                    ///< what comes before the columns
+    Body body{};                    ///< nodes and elements without the columns
     Constraints constraints;
     PoreWater water;
     AbsorbingBase base;
     std::vector<double> nodal_mass;  ///< lumped by row sums [kg]
     Eigen::VectorXd mass;            ///< the same, one entry per dof [kg]
     Eigen::VectorXd external_force;  ///< weight and any other constant load, per dof [N]
-    /// What a dof's force and mass count in the sum over its tie; empty: all as they are. A column
-    /// of the body's own thickness would press on the edge as the ground beyond does: that is one
-    /// part in `column_thickness` of what the thick column's inner nodes carry. With it, level
-    /// ground moves alike everywhere whatever the thickness.
+    /// Weight of a dof's force and mass in the sum over its tie; empty: all 1. A column of the
+    /// body's own thickness would press on the edge as the ground beyond does: that is a share of 1
+    /// / `column_thickness` of the force on the thick column's inner nodes. With this weight, level
+    /// ground moves uniformly for any thickness.
     Eigen::VectorXd row_weight;
     std::size_t points_per_element = gauss_points;
     std::vector<Quadrature> reference;   ///< of the undeformed elements
@@ -77,19 +77,19 @@ struct Model {
     scene::Kinematics kinematics = scene::Kinematics::small_strain;
     Rayleigh rayleigh;
     std::vector<char> absent;  ///< [elements] not placed yet or removed; empty: all are there
-    /// What a stage does not let act yet, per dof [N], and when it lets go of it [s]; empty: nothing
+    /// Force per dof that a stage withholds at first [N], and its release [s]; empty: nothing
     Eigen::VectorXd withheld;
     double withheld_from = 0.0, withheld_for = 0.0;
-    /// [nodes] whose pore pressure an undrained static stage seeks; empty in all other stages
+    /// [nodes] with unknown pore pressure in an undrained static stage; empty in all other stages
     std::vector<bool> undrained;
-    /// What a static stage moves over its load: held nodes [m].
+    /// Prescribed displacements of held nodes over the load of a static stage [m].
     struct Driven {
         Eigen::Index dof;
         double by;
     };
     std::vector<Driven> driven;
-    /// Creep of a static stage: epsilon_q that comes over its load, per element, and the strain of
-    /// this load step, per point; empty: none [-]
+    /// Creep of a static stage: epsilon_q over its load, per element, and the strain of this load
+    /// step, per point; empty: none [-]
     std::vector<double> creep;
     std::vector<Voigt> creep_step;
 
@@ -116,7 +116,7 @@ struct Hourglass {
     double energy;  ///< integral of Q dq [J]
 };
 
-/// All that a time step changes.
+/// The variables of a time step.
 struct Motion {
     Eigen::VectorXd u;          ///< displacement [m], per dof
     Eigen::VectorXd v;          ///< velocity [m/s]
@@ -126,16 +126,16 @@ struct Motion {
     Eigen::VectorXd p_rate;     ///< [Pa/s]
     std::vector<State> points;  ///< element by element, Gauss point by Gauss point
     std::vector<Voigt> strain;  ///< total, accumulated over the increments [-]
-    /// [zones] what points remember beside State; empty where no law asks for it, and in the
-    /// elastic stages before
+    /// [zones] memory of the points beside State; empty if no law has one, and in the elastic
+    /// stages before
     std::vector<materials::LawMemory> memory;
-    /// [points] how far the axes in which a point remembers have turned with it [rad]; empty on a
-    /// mesh that does not move, and without memory
+    /// [points] rotation of the axes of a point's memory [rad]; empty on a mesh that does not move,
+    /// and without memory
     std::vector<double> turned;
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; otherwise empty
 };
 
-/// Nothing moves, no stress; pressures as prescribed.
+/// A model at rest without stress; pressures as prescribed.
 Motion at_rest(const Model& model);
 
 Dofs8 gather(const Quad& quad, const Eigen::VectorXd& values);

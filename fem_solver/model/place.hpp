@@ -1,15 +1,15 @@
-// Where integration points lie below the ground, for laws that differ from place to place.
+// Position of integration points below the ground, for laws that vary with the place.
 #pragma once
 
 #include "fem_solver/model/ground.hpp"
 
 namespace breach::fem {
 
-/// The ground that is there now.
+/// The present ground.
 class Overburden {
   public:
     explicit Overburden(const Model& model) : edges_(ground_edges(model)) {}
-    /// Of an integration point of the mesh; sigma_v0 is left 0.
+    /// Place of an integration point of the mesh; sigma_v0 is left 0.
     materials::Place place(const Model& model, std::size_t point) const;
 
   private:

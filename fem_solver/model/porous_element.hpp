@@ -1,6 +1,6 @@
-// Pore water in one quad (u-p form, equal order, stabilised): what an element stores, conducts and
-// exchanges with the skeleton, and the water of a whole mesh as data. Pressure is positive in
-// compression; total stress = effective stress - p.
+// Pore water in one quad (u-p form, equal order, stabilised): storage, conduction and coupling to
+// the skeleton, and the water of a whole mesh as data. Pressure is positive in compression; total
+// stress = effective stress - p.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,21 +26,21 @@ struct Fluid {
     scene::PressureIntegration integration = scene::PressureIntegration::full;
 };
 
-/// What the part of the pressure that alternates between a single-point quad's corners is
-/// stabilised against does not change more quickly than this [s]: alpha there is tau^2 / rho where
-/// that is more.
+/// Shortest time of changes of the alternating pressure between a single-point quad's
+/// corners against which it is stabilised [s]: alpha there is tau^2 / rho if that is
+/// larger.
 inline constexpr double alternation_time = 0.02;
 
 /// Operators of one saturated element.
 struct PorousElement {
     std::size_t element;
     std::size_t zone;
-    double skeleton_modulus;  ///< K + 4G/3 that the stabilisation is measured by [Pa]
+    double skeleton_modulus;  ///< K + 4G/3 in the stabilisation [Pa]
     double density;           ///< rho of soil and water [kg/m3]
     /// Share of the integral of N_j that lies below the phreatic line [-]
     Eigen::Vector4d below = Eigen::Vector4d::Ones();
-    /// rho_f g times the line's level at the corners, over that at the first: the flow that keeps the
-    /// pressure as the line is drawn [Pa]
+    /// rho_f g times the line's level at the corners, relative to the first: the flow that maintains
+    /// the pressure of the line as drawn [Pa]
     Eigen::Vector4d level = Eigen::Vector4d::Zero();
     Eigen::Matrix<double, 8, 4> Q;  ///< integral of B^T m N_j dV below the line [m2]
     Eigen::Matrix4d S;              ///< storage n / K_f and stabilisation [m3/Pa]
@@ -49,12 +49,12 @@ struct PorousElement {
 };
 
 /// Single point. Q is a one-point integral (McGann et al. 2012): a pressure that alternates from
-/// node to node pushes nothing. Departs from: there L, H and the storage are one-point integrals as
-/// well, so that such a pressure costs nothing and drains nowhere; here they are full
+/// node to node exerts no force. Departs from: there L, H and the storage are one-point integrals
+/// as well, so that such a pressure has no storage and no drainage; here they are full
 /// (docs/reference/methods/pore_pressure.md), unless the fluid asks for one point.
 void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid& fluid,
                      const Vec2& body, PorousElement& out);
-/// 2 x 2 points: full integrals; Q with the mean dilatation that the skeleton sees (B-bar).
+/// 2 x 2 points: full integrals; Q with the mean dilatation of the skeleton (B-bar).
 void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& fluid,
                      const Vec2& body, PorousElement& out);
 

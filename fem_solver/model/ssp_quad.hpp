@@ -9,7 +9,7 @@ namespace breach::fem {
 
 using mechanics::Matrix2;
 
-/// What the element's one-point integrals need.
+/// The element's data for its one-point integrals.
 struct SspGeometry {
     Gradient dN;            ///< at the centre [1/m]
     Eigen::Vector4d gamma;  ///< hourglass amplitude q = sum_i gamma_i u_i; blind to linear fields

@@ -286,7 +286,7 @@ void forget_absent(const Model& model, Motion& motion) {
         motion.hourglass[e].force.setZero();
         motion.hourglass[e].energy = 0.0;
     }
-    // A dof that hangs on the moving base goes on with it.
+    // A dof that is attached to the moving base keeps moving with it.
     const std::vector<std::int32_t> of_dof = model.unknowns(Solved::motion_and_pressure).of_dof;
     const std::vector<bool> lonely = lonely_nodes(model);
     for (std::size_t d = 0; d < of_dof.size(); ++d) {

@@ -1,5 +1,5 @@
-// Where and how a mesh gave up: in soil that has failed, which is what a failing dam does to its
-// mesh and how such an analysis regularly ends, or at one bad corner, which says nothing of the dam.
+// Entanglement of a mesh: in failed soil, which is how the analysis of a failing dam regularly ends,
+// or at one bad corner, which has nothing to do with the dam.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -13,7 +13,7 @@ namespace breach::fem {
 struct Entanglement {
     enum class Kind {
         band,   ///< the soil around the folded element has failed
-        corner  ///< it has not
+        corner  ///< it has not failed
     };
     double time;  ///< of the step in which the corner folded; the last good state is older [s]
     std::size_t element;
@@ -24,23 +24,23 @@ struct Entanglement {
     double mean_epsilon_q;  ///< of the elements that share a node with it, by volume [-]
     std::size_t failure_surfaces;
     Kind kind;
-    scene::AtEntanglement then;  ///< what the scene asks for
+    scene::AtEntanglement then;  ///< the scene's choice
 };
 
-/// Judged on the last good state, which is the last snapshot. Band: the elements around the folded
-/// one are strained beyond `/fem/failure_surfaces/epsilon_q` on average, or one of them (or it)
-/// belongs to a failure surface. The element's own strain does not count: where a single corner
-/// folds, it is large for that reason alone.
+/// Evaluated in the last good state, which is the last snapshot. Band: the elements around the
+/// folded one are strained beyond `/fem/failure_surfaces/epsilon_q` on average, or one of them (or
+/// it) belongs to a failure surface. The element's own strain does not count: it is large because
+/// the corner has folded.
 Entanglement entanglement_of(const scene::Section& section, const Model& model, const Watch& watch,
                              const Motion& last_good, const Distortion& folded, double time,
                              scene::AtEntanglement then);
 
 /// `entanglement` of result.json.
 nlohmann::json as_json(const Entanglement& what);
-/// What as_json has written for an analysis of this section.
+/// Inverse of as_json, for an analysis of this section.
 Entanglement entanglement_from(const nlohmann::json& facts, const scene::Section& section);
 
-/// One sentence for people: what folded, when, where, in what state the soil around it is.
+/// One sentence: element, time, place, and state of the soil around it.
 std::string in_words(const Entanglement& what);
 
 /// `entangled` (warning) or `entangled_corner` (questionable).

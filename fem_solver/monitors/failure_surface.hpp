@@ -24,24 +24,24 @@ struct Ground {
 };
 
 /// The border from the highest node of the left side to the highest of the right side. The mesh is
-/// one body without holes. What borders on absent elements lies in the air and is ground, too,
-/// unless it is the wall of a hole.
+/// one body without holes. Edges beside absent elements are ground, too, unless they surround a
+/// hole.
 Ground ground_of(const Mesh& mesh, std::vector<char> absent = {});
 
 struct FailureSurfaces {
     std::size_t count = 0;
-    std::vector<bool> holds;  ///< [elements] belongs to a band that holds a surface
-    /// [elements] belongs to the largest body that the bands cut off from the rest of the section
+    std::vector<bool> holds;  ///< [elements] belongs to a band with a surface
+    /// [elements] belongs to the largest body that the bands separate from the rest of the section
     std::vector<bool> slides;
 };
 
 /// Elements with epsilon_q above `threshold` that share nodes form bands; a band that meets the
-/// ground at k separate places holds k - 1 surfaces. Places closer than `least_separation` [m]
-/// along the ground are one. Surfaces with common places are told by the bodies between them, of
-/// least_separation squared or more: each body that the bands cut off from the rest of the border
+/// ground at k separate places has k - 1 surfaces. Places closer than `least_separation` [m] along
+/// the ground are one. Surfaces with common places are counted by the bodies between them, of
+/// least_separation squared or more: each body that the bands separate from the rest of the border
 /// lies above a surface of its own, and so does each valley within a band that ridges of up to
-/// three times the threshold enclose. A wide band has no such body inside. epsilon_q: [elements],
-/// 0 of absent ones.
+/// three times the threshold enclose. A wide band has no such body inside. epsilon_q: [elements], 0
+/// for absent ones.
 FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
                                     std::span<const double> epsilon_q, double threshold,
                                     double least_separation);

@@ -1,4 +1,4 @@
-// Where the pore pressure has taken the weight off the grains, and how deep that reaches.
+// Liquefied nodes, by the excess pore pressure ratio, and the depth of liquefaction.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ std::vector<double> nodal_vertical_stress(const Mesh& mesh, std::span<const doub
 
 /// Excess pore pressure ratio r_u = (u - u_0) / sigma'_v0 [-] at the nodes (Sordo et al. 2024, Eq.
 /// 1). excess = u - u_0, sigma_v0: [nodes] Pa. 0 where sigma'_v0 is below `least_stress` [Pa]: near
-/// the ground the ratio says nothing.
+/// the ground the ratio is meaningless.
 std::vector<double> pore_pressure_ratio(std::span<const double> excess,
                                         std::span<const double> sigma_v0, double least_stress);
 
-/// Which nodes are looked at, and from where depth is measured.
+/// The watched nodes, and the level of depth 0.
 struct LiquefactionWindow {
     std::vector<std::size_t> regions;  ///< that can liquefy; their nodes count
     std::array<double, 2> x;           ///< below this stretch of ground [m]

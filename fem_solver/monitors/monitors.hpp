@@ -1,4 +1,4 @@
-// What an analysis reports about itself at one time, as a telemetry line and as a row of the
+// The monitored quantities of an analysis at one time, as a telemetry line and as a row of the
 // history.
 #pragma once
 
@@ -66,9 +66,9 @@ struct Reading {
 struct Column : telemetry::Column {
     double Reading::*member;
 };
-/// As core/telemetry/columns.hpp has them, in its order; a test holds the two together.
+/// The columns of core/telemetry/columns.hpp, in its order; a test compares the two.
 const std::vector<Column>& columns();
-/// Without those that say nothing of this scene: what nobody measures is not 0.
+/// Without those that are not measured in this scene: they are not 0.
 std::vector<Column> columns_of(const scene::Scene& scene);
 
 /// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
@@ -79,8 +79,8 @@ std::vector<double> epsilon_q_of_elements(const Model& model, const Motion& moti
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold);
 
-/// All of a Reading that follows from the motion; time, dt, iterations, residual and works are the
-/// caller's.
+/// All entries of a Reading that follow from the motion; the caller sets time, dt, iterations,
+/// residual and works.
 Reading read_monitors(const Model& model, const Motion& motion, const Distortion& distortion,
                       std::size_t crest_node, double strain_threshold);
 

@@ -1,4 +1,4 @@
-// Present undrained strength of soil with a state parameter, over the stress that it began under.
+// Present undrained strength of soil with a state parameter, over its initial stress.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
@@ -12,9 +12,9 @@ struct StrengthRatio {
     double average = 0.0;  ///< by volume
     double least = 0.0;
 };
-/// Of such soil in the body, in a wet scene of its saturated elements; points that began under less
-/// than the law's least mean stress do not count. With the material's S; no suction is counted on: strengths are at most
-/// the critical ones at p' + u, as the transfer's. Zeros where no point counts.
+/// Over such soil in the body, in a wet scene over its saturated elements; excludes points with initial stresses below
+/// the law's least mean stress. With the material's S; without suction: strengths are at most the critical ones at p' +
+/// u, as in the transfer. Zeros if no point counts.
 StrengthRatio strength_ratio(const Model& model, const Motion& motion, const Beginning& beginning);
 
 }  // namespace breach::fem

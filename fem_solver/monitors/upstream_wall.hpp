@@ -1,5 +1,5 @@
-// Whether the failing mass comes near the section's upstream end, where free-field columns or supports
-// act in place of the ground.
+// Whether the failing mass approaches the section's upstream end, where free-field columns or supports
+// replace the ground.
 #pragma once
 
 #include <optional>

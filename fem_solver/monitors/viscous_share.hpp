@@ -1,12 +1,12 @@
-// What damping carries of a failing band: with much of it the slide is slowed by a viscosity that
-// the soil does not have.
+// Share of damping in the stress of a failing band: with a large one the slide is slowed by a
+// viscosity that the soil does not have.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
 
-/// More of it: `viscous_band`.
+/// Above this: flag `viscous_band`.
 inline constexpr double largest_viscous_share = 1.0 / 3.0;
 
 /// Shear stress of the stiffness-proportional damping, beta G d_gamma/dt, over the soil's own, both

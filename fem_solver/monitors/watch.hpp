@@ -1,4 +1,4 @@
-// What is watched beside the motion itself: liquefaction and failure surfaces, on the body alone.
+// Monitors beside the motion itself: liquefaction and failure surfaces, in the body alone.
 #pragma once
 
 #include "fem_solver/monitors/failure_surface.hpp"
@@ -8,14 +8,14 @@
 
 namespace breach::fem {
 
-/// Whether and where liquefaction is watched.
+/// Whether and where liquefaction is monitored.
 process::Decided<std::optional<scene::LiquefactionWatch>> liquefaction_watch(const scene::Fem& fem);
 
 class Watch {
   public:
     Watch(const scene::Fem& fem, const Model& model);
 
-    /// From here on the soil that is there now: for stages that change the body.
+    /// From here on watches the present soil: for stages that change the body.
     void look_at(const Model& model);
 
     /// Excess pore pressure, r_u and depth of liquefaction, failure surfaces; zeros in dry soil and
@@ -29,7 +29,7 @@ class Watch {
     std::vector<double> excess_pressure(const Model& model, const Motion& motion,
                                         const Beginning& beginning) const;
     double failure_strain() const { return failure_strain_; }
-    /// With what is absent.
+    /// Includes absent elements.
     const Mesh& body() const { return body_; }
 
   private:
@@ -37,11 +37,11 @@ class Watch {
                     Reading& reading) const;
 
     Mesh body_;     ///< without free-field columns
-    Mesh present_;  ///< all its nodes, and the elements that are there
+    Mesh present_;  ///< all its nodes, and the present elements
     Ground ground_;
     LiquefactionWindow window_{};
     double least_stress_ = 0.0;
-    std::vector<std::int32_t> nodes_;  ///< in the window; empty: nothing is watched
+    std::vector<std::int32_t> nodes_;  ///< in the window; empty: none is watched
     double failure_strain_;
     double failure_separation_;
 };

@@ -1,5 +1,5 @@
-// What is kept of the moment at which the first dynamic stage begins: what r_u is measured against,
-// the forces that held the base until then, and how the free ground will move.
+// The state at the beginning of the first dynamic stage: the reference of r_u, the forces that held
+// the base until then, and the motion of the free ground.
 #pragma once
 
 #include "core/exchange/base_motion.hpp"
@@ -22,7 +22,7 @@ struct Beginning {
 
 Beginning beginning_of(const Model& model, const Motion& motion);
 
-/// The pressure stabilisation follows the modulus that the soil had then.
+/// Sets the modulus in the pressure stabilisation to that at the beginning.
 void set_skeleton_modulus(const Beginning& beginning, Model& model);
 
 /// Coefficient of lateral stress sigma'_xx / sigma'_yy, volume average over the body [-], and its

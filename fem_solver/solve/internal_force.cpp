@@ -72,7 +72,7 @@ Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
     const std::size_t elements = model_.mesh.quads.size();
     folded_.reset();
     if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
-        // The first one, whatever threads there are: nothing behind a known one counts.
+        // The first one, for any number of threads: nothing behind a known one counts.
         std::atomic<std::size_t> first = elements;
         for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t e = begin; e < end && e < first; ++e) {

@@ -21,7 +21,7 @@ enum class Geometry {
 
 class InternalForce {
   public:
-    /// team: its threads change no number.
+    /// team: the results do not depend on its threads.
     InternalForce(const Model& model, Seconds& seconds,
                   std::shared_ptr<numerics::Team> team = std::make_shared<numerics::Team>(1));
 
@@ -31,21 +31,21 @@ class InternalForce {
     /// The same, and adds the consistent tangent (symmetrised if A is symmetric) to A.
     Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
                       LinearSystem& A);
-    /// What laws with memory answer for: what their calls cost, why the last step was refused.
+    /// The laws with memory: cost of their calls, reason of the last refusal.
     const MemoryPass& memory_pass() const { return memory_; }
-    /// For people, after a degenerate evaluation: the element that turned inside out, or the one
-    /// whose law refused and why.
+    /// Message after a degenerate evaluation: the element that turned inside out, or the one with a
+    /// law that refused and why.
     std::string why_degenerate() const;
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
-    /// A zone's material has a viscosity. What follows is on the mesh of the last evaluation.
+    /// Whether a zone has a viscosity. The functions below use the mesh of the last evaluation.
     bool is_viscous() const;
-    /// Adds `factor` times the forces that the zones' viscosity opposes to the velocity v to f [N].
+    /// Adds `factor` times the viscous forces of the zones at the velocity v to f [N].
     void add_viscous_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f) const;
     /// Adds `factor` [1/s] times their derivative with respect to v to A.
     void add_viscous_damping(double factor, LinearSystem& A) const;
-    /// What they take from the body at the velocity v over the displacement d_u [J].
+    /// Their dissipation at the velocity v over the displacement d_u [J].
     double viscous_work(const Eigen::VectorXd& v, const Eigen::VectorXd& d_u) const;
 
   private:
@@ -93,7 +93,7 @@ class InternalForce {
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     MemoryPass memory_;
-    std::optional<std::size_t> folded_;  ///< the first element that the last evaluation found so
+    std::optional<std::size_t> folded_;  ///< the first degenerate element of the last evaluation
     /// Updated Lagrangian: [points] half the rotation of the step [rad]
     std::vector<double> half_angle_;
     std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]

@@ -25,11 +25,11 @@ enum class Factorisation {
     failed,
 };
 
-/// How acceleration, velocity and pressure rate hang on what is sought:
+/// Acceleration, velocity and pressure rate as functions of the unknowns:
 ///   a = c_a (u - u_predicted),  v = v_predicted + c_v (u - u_predicted)        (Newmark 1959)
 ///   p' = p'_predicted + (p - p_old) / (gamma dt),  gamma dt = c_v / c_a
-/// A static step has c_a = c_v = 0; an undrained one c_a = 0 and c_v = 1/s: what the soil gives and
-/// the water takes are increments.
+/// A static step has c_a = c_v = 0; an undrained one c_a = 0 and c_v = 1/s: volumes from soil and
+/// water are increments.
 struct TimeRule {
     double c_a = 0.0;  ///< 1 / (beta dt^2) [1/s2]
     double c_v = 0.0;  ///< gamma / (beta dt) [1/s]

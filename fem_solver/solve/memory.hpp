@@ -1,7 +1,7 @@
-// Zones whose law's points remember more than State: the one switch from the elastic stages to
-// their laws, and the pass over a zone's points. Which law it is stands nowhere here: it answers as
-// core/materials/memory.hpp lists. The memory (Motion::memory) stands beside State, which mirrors
-// its stress.
+// Zones with laws whose points remember more than State: the one switch from the elastic stages to
+// their laws, and the pass over a zone's points. Independent of the particular law, through the
+// interface of core/materials/memory.hpp. The memory (Motion::memory) is stored beside State, which
+// mirrors its stress.
 #pragma once
 
 #include <memory>
@@ -20,11 +20,11 @@ bool has_memory(const Model& model);
 /// "PM4Sand": the names of the laws that remember, each once.
 std::string names_of_laws_with_memory(const Model& model);
 
-/// What the switch left as a constant stress because it lay outside the law's surfaces.
+/// Constant stress left by the switch because it lay outside the law's surfaces.
 struct StressBias {
     std::size_t points = 0;
     double largest = 0.0;      ///< largest component [Pa]
-    std::size_t cut_down = 0;  ///< points whose law could not hold their stress, and changed it
+    std::size_t cut_down = 0;  ///< points whose stress the law could not hold and reduced
     double largest_cut = 0.0;  ///< largest component taken from one [Pa]
 };
 
@@ -36,17 +36,17 @@ StressBias begin_memory(const Model& model, Motion& motion);
 /// The bias that `motion` carries now.
 StressBias stress_bias(const Model& model, const Motion& motion);
 
-/// How many points have fallen to the end of their path in one call, for no strain of theirs could
-/// be followed.
+/// Number of points moved to the end of their path in one call because no strain of theirs could be
+/// followed.
 std::size_t fallen_points(const Model& model, const Motion& motion);
 
-/// How many points remember something now.
+/// Number of points that have a memory now.
 std::size_t points_with_memory(const Model& model, const Motion& motion);
 
 /// Runs laws over zones; its buffers are as large as the largest zone of each.
 class MemoryPass {
   public:
-    /// team: its threads change no number.
+    /// team: the results do not depend on its threads.
     explicit MemoryPass(const Model& model,
                         std::shared_ptr<numerics::Team> team = std::make_shared<numerics::Team>(1));
 
@@ -55,15 +55,15 @@ class MemoryPass {
         refused,  ///< a strain increment beyond `largest_strain` or not finite, or a point that
                   ///< used up its evaluations: the step must be cut
     };
-    /// New memories and stresses of zone `z` after the strain increments and, on a moving mesh, half turns [rad] of its
-    /// points. A law there works in axes that turn with its point: what it remembers, component by component or not,
-    /// turns exactly.
+    /// New memories and stresses of zone `z` after the strain increments and, on a moving mesh, half turns
+    /// [rad] of its points. The law works in axes that turn with its point: every part of the memory turns
+    /// exactly.
     template <materials::Remembers Law>
     Answer integrate(const Law& law, std::size_t z, std::span<const Voigt> d_epsilon,
                      std::span<const double> half_angles, const Motion& old, Motion& trial);
 
-    /// Strain increments beyond this belong to a diverged trial [-]. Asking the law would cost much
-    /// and tell nothing.
+    /// Strain increments beyond this belong to a diverged trial [-]. A call of the law would be
+    /// expensive and useless.
     static constexpr double largest_strain = 0.05;
 
     /// Why and where the last step was refused.
@@ -94,11 +94,11 @@ class MemoryPass {
 
     Answer refuse(Refusal::Why why, const char* law, const Zone& zone, std::size_t point,
                   const Voigt& d_epsilon);
-    /// The increments in the axes of their points; notes how far these have turned.
+    /// The increments in the axes of their points; stores the rotation of these.
     std::span<const Voigt> turn(std::size_t first, std::span<const Voigt> d_epsilon,
                                 std::span<const double> half_angles, const Motion& old,
                                 Motion& trial);
-    /// The first increment that no law is asked for; as many as there are: none.
+    /// The first increment that is too large for the laws; their number if none is.
     static std::size_t first_too_large(std::span<const Voigt> d_epsilon);
 
     const Model& model_;
@@ -144,7 +144,7 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
     return Answer::done;
 }
 
-/// For people: whether the strain limit or the law's evaluations ended it, and where.
+/// Message: whether the strain limit or the law's evaluations ended the step, and where.
 std::string in_words(const MemoryPass::Refusal& refusal);
 
 }  // namespace breach::fem

@@ -1,7 +1,7 @@
 // Equilibrium and mass balance at the end of a step,
-//   M a + C v + f_int(u) + f_viscous(v) - Q p = f_ext,   Q^T v + S p' + H p = flux,
-// by Newton's method with a factorisation that is kept as long as it serves, accelerated (Anderson
-// 1965) over the last few corrections. Without unknown pressures the second line is not there.
+//     M a + C v + f_int(u) + f_viscous(v) - Q p = f_ext,   Q^T v + S p' + H p = flux,
+// by Newton's method with a factorisation that is kept while it converges, accelerated (Anderson
+// 1965) over the last few corrections. Without unknown pressures there is no second equation.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ namespace breach::fem {
 struct NewtonSettings {
     double tolerance;  ///< out-of-balance over reference [-]
     int largest_iterations;
-    int threads = 1;                                 ///< change no number
+    int threads = 1;                                 ///< do not change the results
     int patience = std::numeric_limits<int>::max();  ///< iterations without a better residual
 };
 
@@ -39,8 +39,8 @@ struct NewtonCounts {
     std::int64_t stalled = 0;  ///< steps accepted at a jump of PM4Sand, above the tolerance
 };
 
-/// What the next step inherits from the last one: saved in a checkpoint so that a resumed run does
-/// the same.
+/// Data that the next step takes over from the last one: saved in a checkpoint so that a resumed
+/// run gives the same results.
 struct NewtonMemory {
     bool has_matrix = false;
     TimeRule rule;  ///< of the matrix
@@ -48,7 +48,7 @@ struct NewtonMemory {
     std::vector<double> values;  ///< assembled matrix
 };
 
-/// What a step starts from and where it goes.
+/// Start and target of a step.
 struct StepProblem {
     const std::vector<materials::Law>& laws;
     const Motion& old;
@@ -80,12 +80,12 @@ class Newton {
     const NewtonCounts& counts() const { return counts_; }
     void set_counts(const NewtonCounts& counts) { counts_ = counts; }
     NewtonMemory memory() const;
-    /// Adds `factor` times C v to f: all that opposes a velocity (damping of mass and stiffness,
+    /// Adds `factor` times C v to f: all forces against a velocity (damping of mass and stiffness,
     /// dashpots of the base, viscosity), on the mesh of the last evaluation [N].
     void add_damping_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f);
-    /// False: the matrix in memory is not one of this problem, and nothing was taken.
+    /// False: the stored matrix does not fit this problem, and nothing was restored.
     bool restore(const NewtonMemory& memory);
-    /// For people, after a solve that ended degenerate: which element, and what was wrong with it.
+    /// Message after a solve that ended degenerate: which element, and its fault.
     std::string why_degenerate() const;
     InternalForce& internal_force() { return internal_force_; }
     const InternalForce& internal_force() const { return internal_force_; }
@@ -120,7 +120,7 @@ class Newton {
     Eigen::VectorXd R_u_;        ///< out-of-balance force, per dof [N]
     Eigen::VectorXd R_p_;        ///< unbalanced volume, per node [m3/s]
     Eigen::VectorXd exchanged_;  ///< sum of the magnitudes in that balance [m3/s]
-    /// What a saturated element adds to the two balances.
+    /// Contribution of a saturated element to the two balances.
     struct WaterShare {
         Dofs8 force;                ///< [N]
         Eigen::Vector4d balance;    ///< [m3/s]
@@ -134,7 +134,7 @@ class Newton {
     Eigen::VectorXd share_of_dof_;  ///< only with thick columns: 1 / thickness, per dof [-]
     Eigen::VectorXd share_;         ///< the same per unknown; ones without columns
     Eigen::VectorXd residual_;      ///< right side over the unknowns
-    Eigen::VectorXd metric_;        ///< makes displacements and pressures comparable
+    Eigen::VectorXd metric_;        ///< scales displacements and pressures to be comparable
     Eigen::VectorXd correction_, plain_, last_plain_, last_correction_;
     std::array<Eigen::VectorXd, depth> d_plain_, d_x_;
     int remembered_ = 0;

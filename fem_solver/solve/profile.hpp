@@ -1,4 +1,4 @@
-// Where a run's time goes: seconds by kind of work, and what --profile prints of them.
+// CPU time of a run: seconds by kind of work, and the table that --profile prints.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@ namespace breach::fem {
 inline constexpr const char* profile_switch = "--profile";
 
 using Clock = double (*)();  ///< [s] since some moment
-/// 0.1 us a look: what is not asked for costs nothing.
+/// 0.1 us per call: cheap enough without --profile.
 double wall_clock();
-/// Of this process; 2 us a look.
+/// Of this process; 2 us per call.
 double cpu_clock();
 
 /// Seconds spent per kind of work.
@@ -42,7 +42,7 @@ class Stopwatch {
     double began_;
 };
 
-/// What was done in those seconds, by this process: a resumed run counts from its checkpoint.
+/// Amount of work in those seconds, by this process: a resumed run counts from its checkpoint.
 struct Work {
     std::int64_t steps = 0;  ///< tried ones, those that were cut as well
     std::int64_t iterations = 0;

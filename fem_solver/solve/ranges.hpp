@@ -1,5 +1,5 @@
-// Elements or points in ranges of a fixed length, on some threads: what a range computes goes to
-// places of its own, so no number depends on how many threads there are. Sums are the caller's, in
+// Elements or points in ranges of a fixed length, on several threads: each range writes to
+// places of its own, so that no result depends on the number of threads. The caller sums up in
 // order.
 #pragma once
 

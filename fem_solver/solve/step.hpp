@@ -1,5 +1,5 @@
-// One step: a share of the load in statics, Newmark in dynamics. Says how it went; the analysis
-// decides what follows.
+// One step: a share of the load in statics, Newmark in dynamics. Returns the outcome; the analysis
+// decides how to continue.
 #pragma once
 
 #include "fem_solver/solve/beginning.hpp"
@@ -47,8 +47,8 @@ void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Mo
 void set_acceleration(Newton& newton, const Model& model, const Beginning& beginning, double time,
                       Prediction& prediction, Motion& motion);
 
-/// M a + C v + f_int - Q p - f_ext at `time` [s], with what moves now: the force that would let the
-/// motion go on as it does, per dof [N].
+/// M a + C v + f_int - Q p - f_ext at `time` [s], for the present motion: the force that would let
+/// the motion continue unchanged, per dof [N].
 Eigen::VectorXd unbalanced_force(Newton& newton, const Model& model, const Beginning& beginning,
                                  double time, const Motion& motion);
 

@@ -1,9 +1,9 @@
-// What tells a run that it is a trial (--plan --measure).
+// Marks a run as a trial (--plan --measure).
 #pragma once
 
 namespace breach::fem {
 
-/// Among the session's switches: the seconds of the run are those of the CPU.
+/// Among the session's switches: the run measures CPU seconds.
 inline constexpr const char* trial_switch = "--measure";
 
 }  // namespace breach::fem

@@ -6,19 +6,19 @@
 
 namespace breach::fem {
 
-/// What an element's integrals need, of the mesh as it lies.
+/// An element's data for its integrals, on the present mesh.
 struct ElementOperators {
     const Quadrature& quadrature;
     std::size_t points;
     const SspGeometry*
         hourglass;  ///< of a single-point quad, whose other modes flow as well: 4 eta
-                    ///< stands where 4 G does; otherwise null
+                    ///< in place of 4 G; otherwise null
 };
 
-/// Forces that the element opposes to nodal velocities v [m/s] at a viscosity eta [Pa s]; [N].
+/// Viscous forces of the element at nodal velocities v [m/s] for a viscosity eta [Pa s]; [N].
 Dofs8 viscous_forces(const ElementOperators& element, double eta, const Dofs8& v);
 
-/// Their derivative with respect to v [N s/m]: symmetric, and blind to rigid motion.
+/// Their derivative with respect to v [N s/m]: symmetric, zero for rigid motion.
 Stiffness viscous_damping(const ElementOperators& element, double eta);
 
 }  // namespace breach::fem

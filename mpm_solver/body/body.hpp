@@ -1,6 +1,6 @@
-// What a time step works on: the soil's points and zones, the grid, and everything that was
-// resolved from the scene before the first step. Also the sums that the step keeps: dissipation,
-// fastest point, lost points.
+// The data of a time step: the soil's points and zones, the grid, and everything resolved from the
+// scene before the first step. Also the sums over the steps: dissipation, fastest point, lost
+// points.
 #pragma once
 
 #include <limits>
@@ -25,12 +25,12 @@ struct Tally {
     /// Of the points at the end of the step; not finite when any velocity is not [J]
     double kinetic = 0.0;
     double fastest = 0.0;  ///< largest speed of a point [m/s]
-    double strayed = 0.0;  ///< no point is farther from where it was last sorted, per axis [cells]
+    double strayed = 0.0;  ///< largest distance of a point from its sorted place, per axis [cells]
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    std::size_t lost = none;  ///< a point that left the grid or is nowhere (NaN)
+    std::size_t lost = none;  ///< a point that left the grid or is NaN
 };
 
-/// How a body is computed; the answers do not depend on the threads.
+/// How a body is computed; the results do not depend on the threads.
 struct Computing {
     int threads = 1;
     InstructionSet instructions = best_instruction_set();
@@ -41,13 +41,13 @@ struct Body {
     Points points;
     std::vector<Zone> zones;
     Vec2 gravity;  ///< [m/s2]
-    /// Of the grid itself, horizontal, over the step to come; set by whoever knows the time [m/s2]
+    /// Of the grid itself, horizontal, over the next step; set by the simulation [m/s2]
     double frame_acceleration = 0.0;
     double gimp_half_size;  ///< [cells]
     double blending_rate;   ///< beta [1/s]
     double overlap_rate;    ///< of the overlap correction [1/s]
-    /// Volume of the four cells about a point [m3]: what has opened that far has no neighbours
-    /// left, and its gradient, which nothing then contradicts, would open it without end.
+    /// Volume of the four cells about a point [m3]: a point that has expanded so far has no
+    /// neighbours left, and its uncontrolled velocity gradient would expand it without limit.
     double widest;
     KernelKind kernel;
     UpdateOrder order;
@@ -62,7 +62,7 @@ struct Body {
     Tally tally;
 };
 
-/// Everything resolved; `points` are where they are. Throws BadInput (naming `file`) if a point
+/// Resolves everything; keeps the places of `points`. Throws BadInput (naming `file`) if a point
 /// lies outside the grid.
 Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
                const Computing& computing = {});
@@ -73,11 +73,11 @@ void refuse_buried_points(const Body& body, const std::string& file);
 /// Wave speed of the stiffest zone at the density that the force uses [m/s].
 double wave_speed(const Body& body);
 
-/// What viscosity adds to the wave speed in the Courant step, 16 eta / (3 rho h) [m/s]: a lagged
+/// Additional wave speed due to viscosity in the Courant step, 16 eta / (3 rho h) [m/s]: a lagged
 /// damping of eigenvalue (4/3) eta 8 / (rho h^2) is stable up to half its period.
 double viscous_speed(const Zone& zone, double eta, double h);
 
-/// Up to which explicit steps are stable; damping takes from what a Courant number leaves below it.
+/// Largest Courant number of stable explicit steps; damping uses the margin below it.
 inline constexpr double largest_courant = 0.8;
 
 /// Largest step at this Courant number: cfl h / (c + |v|) [s].

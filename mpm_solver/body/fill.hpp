@@ -10,7 +10,7 @@
 
 namespace breach::mpm {
 
-/// A region as drawn beside its points: a head of water sampled 2 % too high runs 2 % too far.
+/// A region and its points compared: a head of water sampled 2 % too high runs 2 % too far.
 struct SampledRegion {
     std::string name;
     double polygon_area;   ///< [m2]

@@ -1,4 +1,4 @@
-// The square background grid: places, walls, nodal arrays and the list of nodes that are in use.
+// The square background grid: places, walls, nodal arrays and the list of active nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,10 @@ namespace breach::mpm {
 
 using grid::WallRows;
 
-/// Four numbers of a node that are scattered and gathered together.
+/// Four numbers of a node, scattered and gathered together.
 using Lane = Eigen::Array4d;
 
-/// What a node must obey; interior nodes carry 0.
+/// Boundary conditions of a node; interior nodes have 0.
 namespace condition {
 constexpr std::uint8_t hold_x = 1;
 constexpr std::uint8_t hold_y = 2;
@@ -24,7 +24,7 @@ constexpr std::uint8_t floor = 4;    ///< unilateral in y, Coulomb friction in x
 constexpr std::uint8_t terrain = 8;  ///< a Contact
 }  // namespace condition
 
-/// Row of the floor's nodes: one ghost row lies below it.
+/// Row of the floor's nodes: there is one ghost row below it.
 constexpr std::int32_t floor_row = 1;
 
 /// Nodes are stored column by column (y fastest), with one ghost row around the domain.
@@ -41,7 +41,7 @@ struct Grid {
     std::vector<std::uint8_t> conditions;  ///< per node
     std::vector<double> friction;          ///< coefficient of the floor per column [-]
     std::optional<Terrain> terrain;
-    std::vector<Contact> contacts;         ///< of the nodes that feel the terrain
+    std::vector<Contact> contacts;         ///< of the nodes near the terrain
     std::vector<std::int32_t> contact_of;  ///< per node, index into contacts; empty without terrain
 
     // scattered by particle_to_grid
@@ -60,7 +60,7 @@ struct Grid {
     std::int32_t cell(double xi, double eta) const {
         return static_cast<std::int32_t>(xi) * rows + static_cast<std::int32_t>(eta);
     }
-    /// Node in the middle of the 3 x 3 of a point there.
+    /// Node in the middle of the 3 x 3 nodes of a point there.
     std::int32_t nearest_node(double xi, double eta) const {
         return cell(grid::nearest_whole(xi), grid::nearest_whole(eta));
     }
@@ -71,7 +71,7 @@ struct Grid {
 
 Grid make_grid(const scene::Mpm& mpm);
 
-/// Forgets the last step: zeroes the active nodes.
+/// Resets the active nodes to zero for the next step.
 void clear(Grid& grid);
 
 }  // namespace breach::mpm

@@ -1,5 +1,5 @@
-// How the ground moves beneath the runout, on the runout's clock. The grid moves with it (a moving frame):
-// floor, terrain and walls are at rest there, and the soil feels minus the ground's acceleration.
+// Motion of the ground beneath the runout, on the runout's clock. The grid moves with it (a moving frame):
+// floor, terrain and walls are at rest there, and minus the ground's acceleration acts on the soil.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace breach::mpm {
 
-/// Straight lines between the samples of the velocity, so impulses are exact for any time step; before
-/// the first and after the last one the velocity stays, and nothing is felt.
+/// Linear between the samples of the velocity, so impulses are exact for any time step; before the
+/// first and after the last one the velocity is constant, and no force acts.
 class GroundMotion {
   public:
-    /// `base` has samples; `transfer_time` is where the runout's clock starts on theirs [s].
+    /// `base` has samples; `transfer_time`: start of the runout's clock on their clock [s].
     GroundMotion(exchange::BaseMotion base, double transfer_time);
 
     /// Against far rock, at time t of the runout [m/s].
@@ -21,7 +21,7 @@ class GroundMotion {
     double acceleration(double t, double dt) const;
     /// Since the shaking began, until time t of the runout [m].
     double displacement(double t) const;
-    /// The runout's time at which the last sample lies [s]; not after 0: nothing shakes the runout.
+    /// Time of the last sample on the runout's clock [s]; <= 0: no shaking during the runout.
     double end() const;
     /// From time 0 of the runout on: largest acceleration between two samples [m/s2] and largest
     /// change of velocity since time 0 [m/s].

@@ -1,6 +1,6 @@
-// Softening that does not hang on the lattice: what a brittle soil's softening strain grows by in some
-// steps is averaged over its neighbourhood, so that a shear band is as wide as the soil's own length
-// says and not as wide as a cell. How and why: docs/reference/methods/softening.md.
+// Softening independent of the lattice: the growth of a brittle soil's softening strain over some
+// steps is averaged over its neighbourhood, so that the soil's own length and not the cell sets the
+// width of a shear band. Method: docs/reference/methods/softening.md.
 #pragma once
 
 #include <cstdint>
@@ -13,39 +13,39 @@ namespace breach::mpm {
 
 class NonlocalSoftening {
   public:
-    /// Neighbourhoods share after `due` steps, of which `done` are done: as many as let the bands grow
-    /// by no more than a small part of what softens.
+    /// Averages after `due` steps, of which `done` are done: as many as keep the growth of the bands
+    /// below a small part of the softening strain.
     struct Pace {
         std::int64_t done = 0;
         std::int64_t due = 1;
     };
     static constexpr std::int64_t most_steps = 16;
 
-    /// Nothing is averaged.
+    /// No averaging.
     NonlocalSoftening() = default;
-    /// `widest`: Body's; a point that has opened that far is torn off.
+    /// `widest`: Body's; a point that has expanded so far is separated.
     NonlocalSoftening(const Points& points, const std::vector<Zone>& zones, const Grid& grid,
                       KernelKind kernel, double gimp_half_size, double widest);
 
     bool is_on() const { return !groups_.empty(); }
-    /// From where the strains grow.
+    /// Stores the strains at the beginning of the growth.
     static void remember(Points& points);
-    /// After the stress update of a step, where it is on.
+    /// Call after the stress update of a step; averages when it is due.
     void follow(Points& points, const std::vector<Zone>& zones, const Grid& grid);
-    /// The growth of every brittle point becomes its neighbourhood's. Returns the mean growth where soil
-    /// grows, as a part of the strain over which it softens.
+    /// Replaces the growth of every brittle point by its neighbourhood's. Returns the mean growth of
+    /// softening soil, as a part of the strain over which it softens.
     double spread(Points& points, const std::vector<Zone>& zones, const Grid& grid);
 
     const Pace& pace() const { return pace_; }
     void go_on_from(const Pace& pace) { pace_ = pace; }
 
   private:
-    /// Soil of one region: debris that rides over another dam does not soften that from a distance.
+    /// Soil of one region: debris that rides over another dam must not soften that from a distance.
     struct Group {
         std::size_t zone;
         std::int32_t region;
     };
-    /// The neighbourhood's nodes in one column, which are neighbours in memory, from a row on.
+    /// The neighbourhood's nodes in one column, adjacent in memory, from a row on.
     struct Column {
         std::int32_t columns, rows;   ///< from the node in the middle
         std::vector<double> weights;  ///< 0 of the middle itself

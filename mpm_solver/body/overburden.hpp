@@ -1,4 +1,4 @@
-// Weight of the section above a place: the stress that filled points may start from.
+// Weight of the section above a place: the initial stress of filled points.
 #pragma once
 
 #include "core/mechanics/elasticity.hpp"
@@ -9,8 +9,8 @@ namespace breach::mpm {
 /// Vertical stress of the regions' weight in the column above `place`, compression positive [Pa].
 double overburden(const scene::Scene& scene, const scene::Vec2& place);
 
-/// sigma_v with what a column that cannot widen has beside it, K_0 = nu / (1 - nu); tension
-/// positive [Pa].
+/// sigma_v with the lateral stress of a confined column, K_0 = nu / (1 - nu); tension positive
+/// [Pa].
 mechanics::Voigt column_stress(double sigma_v, double nu);
 
 }  // namespace breach::mpm

@@ -16,8 +16,8 @@ namespace breach::mpm {
 
 namespace {
 
-/// A band of shear is about a cell wide, or as wide as nonlocal softening makes it: with strains in
-/// inverse proportion it dissipates the same whatever the cells.
+/// A shear band is about a cell wide, or as wide as nonlocal softening makes it: with strains in
+/// inverse proportion its dissipation does not depend on the cells.
 double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
     if (!mpm.softening_length) return 1.0;
     return *mpm.softening_length / scene::band_width(soil, mpm);
@@ -138,7 +138,7 @@ std::vector<bool> strengths_of_points(const scene::Scene& scene) {
     return have;
 }
 
-/// Calls visit(number of the points, the same in the state) for what goes over as it stands.
+/// Calls visit(number of the points, the same in the state) for each variable copied unchanged.
 template <class AnyPoints, class AnyState, class Visit>
 void for_each_shared(AnyPoints& points, std::size_t p, AnyState& state, std::size_t s,
                      Visit&& visit) {

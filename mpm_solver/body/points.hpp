@@ -1,5 +1,5 @@
 // The material points as structure of arrays, in the order of the zones; a zone is the range of
-// points that obey one law.
+// points with one law.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace breach::mpm {
 
-/// What no step reads and the outputs carry on.
+/// Data not used in steps but written to the outputs.
 struct Carried {
     std::vector<exchange::StressMeasure> stress_of_soils;  ///< by soils_of(scene); empty: effective
     std::vector<double> r_u;  ///< at the transfer, in the order of the input; empty without water
@@ -23,20 +23,20 @@ using Reals = std::vector<double>;
 
 struct Points : PointReals<Reals> {
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
-    std::vector<std::int32_t> number;  ///< place in the input: outputs keep its order
+    std::vector<std::int32_t> number;  ///< index in the input: outputs keep its order
     std::vector<std::int32_t> home;    ///< nearest node when they were last sorted
     std::vector<std::int32_t> cell;    ///< cell at the start of the step; anti-locking only
 
     Carried carried;
 
     std::size_t size() const { return x.size(); }
-    /// Of the soil alone, without gaps that stand open after tension: what depths are made of [m3].
+    /// Of the soil alone, without gaps that are open after tension: for depths [m3].
     double soil_volume(std::size_t p) const { return volume[p] * std::exp(-gap[p]); }
     void resize(std::size_t n);
 };
 
-/// Calls visit(name, array) for every array of reals that lives longer than a step: what checkpoints
-/// store and sorting permutes.
+/// Calls visit(name, array) for every array of reals that is kept longer than a step: for
+/// checkpoints and sorting.
 template <class AnyPoints, class Visit>
 void for_each_real(AnyPoints& points, Visit&& visit) {
     for (const auto& real : reals_of_points<Reals>) {
@@ -60,7 +60,7 @@ struct Zone {
     VolumeRule volume_rule;
     double softening_scale;  ///< of the law's strains of softening, and of the points' own [-]
     double viscosity;        ///< eta [Pa s]
-    double damping;          ///< viscosity of what does not yield, beside it [Pa s]
+    double damping;          ///< viscosity of soil that does not yield, beside it [Pa s]
     double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
     WallRows walls_y;        ///< the floor's, and the top of a bed (core/scene/beds.hpp)
     std::size_t begin;
@@ -74,20 +74,20 @@ struct ZonedPoints {
 };
 
 /// Points of a particle state, grouped by material; regions are matched by name. The stiffness
-/// scale enters K, so V_0 is set anew where it is not 1: the volume stays. Throws BadInput naming
-/// `file`.
+/// scale changes K, so V_0 is recomputed where it is not 1: the volume stays. Throws BadInput
+/// naming `file`.
 ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleState& state,
                          const std::string& file);
 
-/// Throws BadInput naming `file` where a soil's points should have strengths of their own and do
-/// not.
+/// Throws BadInput naming `file` where a soil's points lack the strengths of their own that they
+/// need.
 void refuse_without_strength(const scene::Scene& scene, const Points& points,
                              const std::string& file);
 
-/// The zones alone, for points that are grouped already (a checkpoint).
+/// The zones alone, for points already grouped (a checkpoint).
 std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points);
 
-/// Back to the exchange's form, in the order of the input.
+/// Converts back to the exchange's form, in the order of the input.
 exchange::ParticleState particle_state(const scene::Scene& scene, const Points& points);
 
 }  // namespace breach::mpm

@@ -1,8 +1,8 @@
 // The order of the points: by zone, then by the node next to them, column by column, so that points
-// that share their 3 x 3 nodes are neighbours in memory. Columns are cut into strips; while no point
-// has strayed far from where it was sorted, every second strip shares no node with another, and the
-// active nodes are known. So strips are the unit of work of a thread, and what they add up does not
-// depend on how many threads there are.
+// that share their 3 x 3 nodes are neighbours in memory. Columns are divided into strips; while no
+// point has moved far from where it was sorted, every second strip shares no node with another, and
+// the active nodes are known. So a strip is a thread's unit of work, and the sums over strips do not
+// depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -15,15 +15,15 @@ namespace breach::mpm {
 
 class Strips {
   public:
-    /// Columns of nodes in a strip: of two strips that are a strip apart none reaches the same
+    /// Columns of nodes in a strip: two strips with another one between them never share a
     /// node.
     static constexpr std::int32_t width = 4;
-    /// Points may stray this far from their home before they have to be sorted again [cells].
+    /// Largest distance of points from their home before they are sorted again [cells].
     static constexpr double largest_stray = 0.5;
 
-    /// Puts the points in order, gives them new homes and cuts.
+    /// Sorts the points, gives them new homes and divides them into strips.
     void sort(Grid& grid, Points& points, const std::vector<Zone>& zones);
-    /// Cuts points that stand in the order of their homes, and finds the active nodes.
+    /// Divides points that are already sorted into strips, and finds the active nodes.
     void cut(Grid& grid, const Points& points, const std::vector<Zone>& zones);
 
     std::size_t count() const { return count_; }
@@ -32,7 +32,7 @@ class Strips {
     /// Strips that share no node with one another: the even ones, the odd ones.
     const std::array<std::vector<std::size_t>, 2>& apart() const { return apart_; }
     const std::vector<std::size_t>& all() const { return all_; }
-    /// Cells (as their nodes) that a zone's points can be in; every active node is of some zone.
+    /// Possible cells (as their nodes) of a zone's points; every active node belongs to some zone.
     const std::vector<std::int32_t>& cells(std::size_t zone) const { return cells_[zone]; }
 
   private:

@@ -1,5 +1,5 @@
-// The ground that soil runs on, as a polyline that cuts square cells: which nodes feel it, and with
-// which normals.
+// The terrain below the flow, a polyline that cuts square cells: the nodes near it, and their
+// normals.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@ namespace breach::mpm {
 
 using mechanics::Vec2;
 
-/// What a node of the terrain must obey: v . normal >= 0 for one normal, or for the two of a
+/// Contact condition of a node at the terrain: v . normal >= 0 for one normal, or for the two of a
 /// valley, with Coulomb friction along each.
 struct Contact {
     Vec2 normal;
     std::optional<Vec2> second;
-    double friction;  ///< [-]; infinite: the ground holds the soil
+    double friction;  ///< [-]; infinite: no slip
 };
 
 class Terrain {
   public:
-    /// `profile` ascends in x; its first and last edge go on beyond its ends.
+    /// `profile` ascends in x; its first and last edge are extended beyond its ends.
     explicit Terrain(const std::vector<Vec2>& profile);
 
     /// y of the ground at x [m].
@@ -41,7 +41,7 @@ class Terrain {
         Vec2 to;
         Vec2 normal;  ///< upwards
     };
-    /// Edges that may be nearest to a place: those with x within `width` of it.
+    /// Edges that may be nearest to a place: those within `width` of x.
     std::pair<std::size_t, std::size_t> beside(double x, double width) const;
     bool near(const Vec2& place, double reach) const;
     Vec2 ridge_normal(const Vec2& node, double nearest, double reach) const;
@@ -49,11 +49,11 @@ class Terrain {
     std::vector<Edge> edges_;
 };
 
-/// The velocity that the contact leaves of v, and the work that friction takes: impulse x (v_before
-/// + v) / 2 [J], exact for the node's kinetic energy.
+/// Applies the contact to the velocity v; returns the work of friction: impulse x (v_before + v) /
+/// 2 [J], exact for the node's kinetic energy.
 double rub(const Contact& contact, double m, const Vec2& v_before, Vec2& v);
 
-/// The part of v that does not enter the ground, without friction.
+/// v without its component into the ground, without friction.
 Vec2 kept_out(const Contact& contact, const Vec2& v);
 
 }  // namespace breach::mpm

@@ -12,7 +12,7 @@ struct Gathered {
     Lanes<N> Lxx, Lyx, Lxy, Lyy;  ///< times h
 };
 
-/// What point k's nodes give it: the value, and d/dx and d/dy of vx and vy.
+/// Contribution of point k's nodes: the value, and d/dx and d/dy of vx and vy.
 template <int N>
 [[gnu::always_inline]] inline void gather_point(const GridArrays& grid, const Weights<N>& w, int k,
                                                 Quad<N>& value, Quad<N>& gradient) {
@@ -109,7 +109,7 @@ template <int N>
     store(a.Lyy + p, at.Lyy * scale);
 }
 
-/// Anti-locking: volume and volume rate of the points into their cells' sums.
+/// Anti-locking: adds volume and volume rate of the points to their cells' sums.
 template <int N>
 [[gnu::always_inline]] inline void add_to_cells(CellSum* cells, const PointArrays& a, std::size_t p,
                                                 const Gathered<N>& at, double per_h, int count) {
@@ -122,7 +122,7 @@ template <int N>
     }
 }
 
-/// Moves the points and notes which one went farthest and which one left the grid.
+/// Moves the points; finds the farthest move and points that left the grid.
 template <int N>
 [[gnu::always_inline]] inline void move(const ZoneWork& work, const Block& block, const Lanes<N>& x,
                                         const Lanes<N>& y, const Lanes<N>& vx, const Lanes<N>& vy,

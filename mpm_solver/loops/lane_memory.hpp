@@ -1,5 +1,5 @@
-// Between memory and lanes: points lie component by component, a node's four numbers lie side by
-// side. Only for the loops that are compiled once per instruction set, hence always inline.
+// Conversion between memory, where points lie component by component and a node's numbers side by
+// side, and lanes. Compiled once per instruction set, hence always inline.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace breach::mpm {
 
 using materials::Lanes;
 
-/// Four numbers in two registers, for CPUs whose registers hold two: a vector of four would be
-/// taken apart through memory there, at the price of a stall each time.
+/// Four numbers in two registers, for CPUs with registers of two: there, a vector of four would be
+/// split through memory, with a stall each time.
 struct Pairs {
     Lanes<2> low;
     Lanes<2> high;
@@ -45,9 +45,9 @@ using Quad = typename QuadFor<N>::Type;
 template <int N>
 using Integers [[gnu::vector_size(N * sizeof(std::int32_t))]] = std::int32_t;
 
-/// Numbers where they lie, at the alignment of one. Through such a reference and not by copying bytes: GCC
-/// 12 takes what is copied through memory, even when it stands in a register. Packed, because clang
-/// drops a lesser alignment of the vector itself.
+/// Numbers in memory, at the alignment of one. By such a reference, because GCC 12 copies bytes through
+/// memory even if they are in a register. Packed, because clang ignores a smaller alignment of the vector
+/// itself.
 template <int N>
 struct [[gnu::packed, gnu::may_alias]] InMemory {
     typename Lanes<N>::Vector v;
@@ -176,7 +176,7 @@ template <int N>
     points[4] = high_four(a), points[5] = high_four(b);
     points[6] = high_four(c), points[7] = high_four(d);
 }
-/// And back.
+/// And the inverse.
 [[gnu::always_inline]] inline void from_points(const Lanes<4>* points, Lanes<4>& a, Lanes<4>& b,
                                                Lanes<4>& c, Lanes<4>& d) {
     a = points[0], b = points[1], c = points[2], d = points[3];

@@ -11,8 +11,8 @@
 
 namespace breach::mpm {
 
-/// A block's place: `arrays` + p are its points, `first` is the number of its first one; `count` of
-/// its lanes hold points of their own.
+/// A block: `arrays` + p are its points, `first` is the number of its first one; `count` of its
+/// lanes have points of their own.
 struct Block {
     const PointArrays& arrays;
     std::size_t p;
@@ -71,15 +71,15 @@ template <class Isa, class Each>
     }
 }
 
-/// Asks for the numbers of points to come. They lie in a dozen arrays, more than a CPU foresees, and
-/// those of 20,000 points do not fit into its own cache.
+/// Prefetches the numbers of later points. They lie in a dozen arrays, more than a CPU prefetches by
+/// itself, and those of 20,000 points do not fit into its own cache.
 [[gnu::always_inline]] inline void ask_ahead(const Block& block,
                                              std::initializer_list<const double*> arrays) {
     constexpr std::size_t points = 32;
     for (const double* from : arrays) __builtin_prefetch(from + block.p + points);
 }
 
-/// 1 in the lanes that hold points of their own.
+/// 1 in the lanes with points of their own.
 template <class Real>
 [[gnu::always_inline]] inline materials::MaskOf<Real> own_lanes(const Block& block) {
     return counting<materials::LaneTraits<Real>::count>() < Real(block.count);

@@ -1,7 +1,7 @@
-// The inner loops over points and what they see: bare arrays and numbers. They are compiled once
-// per instruction set, so nothing here may contain a type or an inline function whose layout or
-// code depends on compiler flags (no Eigen, no containers). Which loop does a zone's work is chosen
-// before the first step.
+// The inner loops over points and their data: bare arrays and numbers. They are compiled once per
+// instruction set, so this file must not contain a type or an inline function whose layout or code
+// depends on compiler flags (no Eigen, no containers). A zone's loop is chosen before the first
+// step.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +51,7 @@ struct CellSum {
     double sigma_m = 0.0;  ///< sum of V sigma_m, then its average [Pa]
 };
 
-/// All that one zone's loops need in one step.
+/// Data of one zone's loops in one step.
 struct ZoneWork {
     PointArrays points;
     GridArrays grid;
@@ -59,16 +59,16 @@ struct ZoneWork {
     const void* law;  ///< of the type in materials::LaneLaws that the loops were chosen for
     materials::Moduli moduli;
     double eta;             ///< viscosity [Pa s]
-    double damping;         ///< viscosity of what does not yield, beside it [Pa s]
-    double damping_return;  ///< share of it that comes back in a step after yielding [-]
+    double damping;         ///< viscosity of soil that does not yield, beside it [Pa s]
+    double damping_return;  ///< share of it that returns per step after yielding [-]
     double gimp_half_size;
     double dt;
     double blend;         ///< beta dt, at most 1 [-]
     double overlap_rate;  ///< [1/s]
-    double widest;        ///< volume beyond which a point opens no further [m3]
+    double widest;        ///< volume beyond which a point expands no further [m3]
 };
 
-/// What a loop adds up over its points.
+/// Sums of a loop over its points.
 struct Totals {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     double kinetic = 0.0;  ///< [J]
@@ -99,18 +99,18 @@ struct Loops {
 enum class Averages { none, per_cell };
 enum class Overlap { left_alone, corrected };
 enum class Viscosity { none, newtonian };
-/// How the volume of the force follows the soil.
+/// The volume in the internal force.
 enum class VolumeRule {
     tracked,  ///< V = volume: laws that never open, or gap closure switched off
     /// V = V_0 (1 + sigma_m / K): opened gaps carry no stress (docs/reference/methods/mpm.md, *One step*)
     from_stress,
 };
 
-/// What decides a zone's loops.
+/// Selects a zone's loops.
 struct Choice {
     KernelKind kernel;
     UpdateOrder order;
-    std::size_t law;  ///< its place in materials::LaneLaws
+    std::size_t law;  ///< its index in materials::LaneLaws
     Averages averages;
     Overlap overlap;
     Viscosity viscosity;

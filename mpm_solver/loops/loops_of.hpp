@@ -1,5 +1,5 @@
-// The choice of a zone's loops for one instruction set. Included by one source per set, which is
-// compiled with that set's flags; `Isa` makes every function its own.
+// Selects a zone's loops for one instruction set. Included by one source per set, which is compiled
+// with that set's flags; `Isa` makes every function its own.
 #pragma once
 
 #include <type_traits>

@@ -1,6 +1,6 @@
-// The real numbers that every material point has: a member and a row each. Checkpoints, sorting, the
-// last good state, the loops' arrays and their tails follow from the rows. The loops see this:
-// nothing here may be a function or a container.
+// The real numbers of every material point: a member and a row each. Checkpoints, sorting, the last
+// good state and the loops' arrays are generated from the rows. Included by the loops, so this file
+// must not contain functions or containers.
 #pragma once
 
 #include <iterator>
@@ -19,14 +19,14 @@ struct PointReals {
     Array volume;              ///< volume followed through every strain increment [m3]
     Array sxx, syy, szz, sxy;  ///< effective stress [Pa], tension positive
     Array epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
-    Array epsilon_q_plastic;   ///< what drives softening [-]
-    /// The same when neighbourhoods last shared what it had grown by; where softening is nonlocal
+    Array epsilon_q_plastic;   ///< the strain that drives softening [-]
+    /// The same when it was last averaged over neighbourhoods; where softening is nonlocal
     Array epsilon_q_shared;
     Array gap;  ///< volume strain to be closed after tension [-]
-    /// Viscosity in force: the material's and, of soil that did not yield in the last step, its
+    /// Viscosity in force: the material's and, for soil that did not yield in the last step, its
     /// damping's; where there is either [Pa s]
     Array eta;
-    /// Overlap beyond what is tolerated, see OverlapMeter; where the body corrects it [-]
+    /// Overlap beyond the tolerance, see OverlapMeter; where the body corrects it [-]
     Array excess;
     /// Strengths before and after softening, of soils whose material has a profile, 0 of others;
     /// where there is one [Pa, -]
@@ -36,7 +36,7 @@ struct PointReals {
 
 /// How long a number is kept.
 enum class Life {
-    step,    ///< made and used up within a step
+    step,    ///< computed and used within a step
     run,     ///< sorted with the points and in checkpoints
     output,  ///< that, and it changes and is in the outputs: in the last good state, too
 };

@@ -7,7 +7,7 @@ namespace breach::mpm {
 
 enum class Scattered { momentum_and_force, momentum, momentum_alone, force };
 
-/// What a point gives to node (i, j) of its nine. With the velocity w at the first node, the
+/// Contribution of a point to node (i, j) of its nine. With the velocity w at the first node, the
 /// momentum m N (v + L (x_ij - x_p)) = m Nx_i Ny_j (w + i h L_x + j h L_y) and the force
 /// -V sigma grad N are both of the form P_i Ny_j + Q_i M_j:
 ///     P_i = S_i (A + i B),  A = (m w, f_x.),  B = (m h L_x, 0),  S_i = (Nx_i, Nx_i, dNx_i, dNx_i)
@@ -66,14 +66,14 @@ template <int N, Scattered what, Viscosity viscosity>
     to_points(mLxy, mLyy, fxy, fyy, gifts.C);
 }
 
-/// What a column of three nodes is given; `mass` of all three.
+/// Contribution to a column of three nodes; `mass` of all three.
 template <int N>
 struct Column {
     Quad<N> low, middle, high;
     Quad<N> mass;
 };
 
-/// Where a column lies.
+/// Location of a column.
 struct ColumnPlace {
     double* motion;
     double* mass;
@@ -97,7 +97,7 @@ template <int N, bool masses>
     if constexpr (masses) store(at.mass, column.mass);
 }
 
-/// A point's part in its three columns.
+/// Contribution of a point to its three columns.
 template <int N, bool masses>
 class Giver {
     using Four = Quad<N>;
@@ -135,8 +135,8 @@ class Giver {
     Four A_, B_, C_;
 };
 
-/// What points that share their nodes give them, summed in registers: for CPUs that have as many.
-/// The order of the points sees to it that neighbours share (strips.hpp).
+/// Contributions of points that share their nodes, summed in registers: for CPUs with enough of
+/// them. The order of the points makes neighbours share nodes (strips.hpp).
 template <bool masses>
 class Shared {
     static constexpr int N = 8;

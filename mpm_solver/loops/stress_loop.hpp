@@ -50,7 +50,7 @@ void dissipate(const ZoneWork& work, Span span, Totals& sums) {
     sums.viscous += 2.0 * work.dt * sum_of(V_eta_D_D);
 }
 
-/// A block's strain in the step, as its law gets it.
+/// A block's strain in the step for its law.
 template <class Real>
 struct Increment {
     materials::StressOf<Real> trial;  ///< turned with the soil, then strained elastically
@@ -61,8 +61,8 @@ struct Increment {
     materials::MaskOf<Real> opens;    ///< it may open further
 };
 
-/// From the velocity gradients to the increments; the tracked volume and the total strain, which no
-/// law changes, go on here.
+/// Computes the increments from the velocity gradients; advances the tracked volume and the total
+/// strain, which no law changes.
 template <class Isa, Averages averages, Overlap overlap, VolumeRule volume_rule>
 class Increments {
     static constexpr int N = Isa::lanes;
@@ -95,14 +95,14 @@ class Increments {
         if constexpr (averages == Averages::per_cell) {
             d_epsilon_v = of_cells<N>(work_.cells, a.cell + p, &CellSum::trD) * dt_;
         }
-        // The law is told of a compression that the soil's points do not show.
+        // The law gets an additional compression that the soil's points do not have.
         if constexpr (overlap == Overlap::corrected) {
             made.hidden = Real(work_.overlap_rate) * load<Real>(a.excess + p) * dt_;
             d_epsilon_v = d_epsilon_v - made.hidden;
         }
         const Real volume = load<Real>(a.volume + p);
         const Real grown = volume * (Real(1.0) + d_epsilon_v);
-        // Volume strain that the soil opened in tension closes first; the law gets what is left.
+        // Volume strain that the soil opened in tension closes first; the law gets the rest.
         made.gap = none;
         made.opens = none < none;
         if constexpr (volume_rule == VolumeRule::tracked) {
@@ -135,7 +135,7 @@ class Increments {
     const Real dt_, lambda_, G_, two_G_;
 };
 
-/// The law's answer, where its points have strengths of their own with these.
+/// The law's result, with the points' own strengths where they have some.
 template <class Law, class Real, class InLoop>
 [[gnu::always_inline]] inline materials::UpdateOf<Real> answer(InLoop& law, const Block& block,
                                                                const Increment<Real>& increment) {
@@ -151,7 +151,7 @@ template <class Law, class Real, class InLoop>
     }
 }
 
-/// What the block's points keep of the step.
+/// Stores the block's results of the step.
 template <class Law, VolumeRule volume_rule, class Real>
 [[gnu::always_inline]] inline void keep(const Block& block, const Increment<Real>& increment,
                                         const materials::UpdateOf<Real>& update) {
@@ -170,8 +170,8 @@ template <class Law, VolumeRule volume_rule, class Real>
     }
 }
 
-/// Damping ends where the law returns a stress and comes back while it leaves the soil elastic: what
-/// flows has the law's dissipation alone.
+/// Damping ends where the law returns a stress and comes back while it leaves the soil elastic:
+/// flowing soil has the law's dissipation alone.
 template <class Real>
 [[gnu::always_inline]] inline void damp(const Block& block, const ZoneWork& work,
                                         const materials::StressOf<Real>& trial,
@@ -186,7 +186,7 @@ template <class Real>
     store(eta, materials::lanes::select(returned > Real(0.0), least, next));
 }
 
-/// Anti-locking: the block's part in the mean stress of its cells.
+/// Anti-locking: adds the block's mean stress to the sums of its cells.
 template <int N>
 [[gnu::always_inline]] inline void add_mean_stress(const Block& block, CellSum* cells,
                                                    const materials::StressOf<Lanes<N>>& sigma) {
@@ -197,7 +197,7 @@ template <int N>
     for (int k = 0; k < count; ++k) cells[a.cell[p + k]].sigma_m += V_sigma_m.v[k];
 }
 
-/// Increment, law, book-keeping; adds up what is dissipated.
+/// Increment, law, storage; sums up the dissipation.
 template <class Isa, class Law, Averages averages, Overlap overlap, VolumeRule volume_rule>
 void stress(const ZoneWork& work, Span span, Totals& sums) {
     using Real = Lanes<Isa::lanes>;
@@ -228,7 +228,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
     sums.pushed_in += sum_of(pushed_in);
 }
 
-/// Mean stress replaced by its cell's average, then the volume that the force uses.
+/// Replaces the mean stress by its cell's average, then computes the volume in the force.
 template <class Isa, Averages averages, VolumeRule volume_rule>
 void settle(const ZoneWork& work, Span span, Totals& sums) {
     using namespace materials::lanes;

@@ -10,8 +10,8 @@ struct InPlane {
 };
 
 /// R sigma R^T for a small turn by `angle` [rad], counter-clockwise. The matrix is a rotation to
-/// round-off whatever the angle; its tangent is the series of tan to the seventh order: the turn is
-/// off by 2e-11 rad at 0.1 rad, by less than round-off below 0.01 rad. No trigonometry in the loop.
+/// round-off at any angle; its tangent is the series of tan to the seventh order: the error of the
+/// turn is 2e-11 rad at 0.1 rad, and below round-off below 0.01 rad. No trigonometry in the loop.
 template <class Real>
 [[gnu::always_inline]] inline InPlane<Real> turned(const InPlane<Real>& sigma, const Real& angle) {
     const Real one(1.0);

@@ -28,7 +28,7 @@ Flag still_moving(const Ending& ending) {
             bound};
 }
 
-/// Soil without tensile strength falls apart in its stress waves, whatever the cells.
+/// Soil without tensile strength falls apart in its stress waves at any cell size.
 std::string or_tension(const Ending& ending, const std::string& remedy) {
     if (ending.tension_share >= usual_tension_share) return remedy;
     return "write \"tension_share\": " + three_digits(usual_tension_share) +

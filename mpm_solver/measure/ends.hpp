@@ -1,5 +1,5 @@
-// Where the model ends and nature does not: walls that the flow met, the end of the firm ground, and the
-// upstream end that the failure reached.
+// Ends of the model inside the flow: walls reached by the flow, the end of the firm ground, and the
+// upstream end reached by the failure.
 #pragma once
 
 #include "core/fault/flag.hpp"

@@ -1,11 +1,11 @@
-// The energy budget: where the energy that was released has gone.
+// The energy budget of a run.
 #pragma once
 
 #include "mpm_solver/body/body.hpp"
 
 namespace breach::mpm {
 
-/// Energies of the points now, and what was dissipated so far [J].
+/// Energies of the points now, and dissipation so far [J].
 struct Energy {
     double kinetic = 0.0;
     double gravitational = 0.0;  ///< against y = 0
@@ -13,17 +13,17 @@ struct Energy {
     double plastic = 0.0;   ///< dissipated by plastic strain
     double friction = 0.0;  ///< dissipated by the floor's friction
     double viscous = 0.0;   ///< dissipated by viscosity
-    double shaking = 0.0;   ///< put in by the moving frame's force; negative: taken out
+    double shaking = 0.0;   ///< added by the moving frame's force; negative: removed
 };
 
 Energy energy_of(const Body& body);
 
-/// Loss that no physics accounts for [J]: positive when the scheme took energy, negative when it
-/// gave.
+/// Loss without a physical cause [J]: positive when the scheme lost energy, negative when it
+/// created some.
 double numerical_loss(const Energy& start, const Energy& now);
 
-/// Potential energy released since the start, kinetic energy brought along at the start and what the
-/// shaking put in since [J].
+/// Potential energy released since the start, plus kinetic energy at the start and the energy that
+/// the shaking added since [J].
 double released(const Energy& start, const Energy& now);
 
 /// numerical_loss / released; 0 while nothing has been released.

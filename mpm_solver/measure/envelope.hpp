@@ -1,18 +1,18 @@
-// What every column of the grid has seen of the flow so far: the largest of it, when it came, and its
-// depth over x and time. Seen every few steps; no frames are needed.
+// Maxima of the flow in every column of the grid so far, with their times, and its depth over x and
+// time. Sampled every few steps; no frames are needed.
 #pragma once
 
 #include "mpm_solver/measure/flow.hpp"
 
 namespace breach::mpm {
 
-/// Steps between two looks of the envelope. Measured in docs/reference/flow.md: what that costs, and how
-/// far it is from looking after every step.
+/// Steps between two samples of the envelope. docs/reference/flow.md gives the cost, and the difference
+/// from sampling after every step.
 inline constexpr std::int64_t steps_between_samples = 16;
-/// Rows of the depth over time that are kept; when they are full every second one goes.
+/// Number of kept rows of the depth over time; when they are full every second one is dropped.
 inline constexpr std::size_t most_rows = 256;
 
-/// Per column of profile_places. What never came: 0, and -1 for a time.
+/// Per column of profile_places. Not reached: 0, and -1 for a time.
 struct Envelope {
     static constexpr double never = -1.0;
     std::vector<double> depth;         ///< largest [m]
@@ -26,17 +26,17 @@ struct Envelope {
     std::vector<double> row_depths;    ///< one row of columns after the other [m]
     double interval = 0.0;             ///< between rows, at least [s]
 
-    /// Takes in the flow at `now`; nothing where that has been seen.
+    /// Adds the flow at `now`, unless it was added already.
     void see(double now, const std::vector<Flow>& profile, double arrival_depth);
 };
 
-/// As it is, under "<prefix>envelope.", for a checkpoint, and back; load throws std::out_of_range where
-/// an array is absent or not as long as the columns ask.
+/// Stores it unchanged, under "<prefix>envelope.", in a checkpoint, and loads it; load throws
+/// std::out_of_range where an array is absent or its length differs from the columns'.
 void store(const Envelope& envelope, const std::string& prefix, exchange::Archive& archive);
 Envelope load_envelope(const exchange::Archive& archive, const std::string& prefix,
                        std::size_t columns);
 
-/// For a reader: with x and the deposit `last`, and not a number where a time never came.
+/// For results: with x and the deposit `last`, and NaN for times that were not reached.
 void publish(const Envelope& envelope, const FlowView& view, const std::vector<Flow>& last,
              exchange::Archive& archive);
 

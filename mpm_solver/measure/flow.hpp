@@ -11,7 +11,7 @@
 
 namespace breach::mpm {
 
-/// Which soil flows, and the width that its depth is averaged over.
+/// The flowing soil, and the width over which its depth is averaged.
 struct FlowView {
     std::vector<std::uint8_t> mobile;  ///< per soil of the scene
     double width;                      ///< one cell [m]
@@ -25,7 +25,7 @@ FlowView flow_view(const scene::Scene& scene, const Grid& grid);
 struct Flow {
     double depth = 0.0;       ///< volume of soil over the plan area [m]
     double velocity = 0.0;    ///< mass-weighted mean of v_x; 0 where there is no soil [m/s]
-    std::int32_t points = 0;  ///< that it is the mean of
+    std::int32_t points = 0;  ///< number of averaged points
 };
 
 /// Mean with the hat function of half width `width` about x, cut at the ends of the grid.
@@ -34,24 +34,24 @@ Flow flow_at(const Points& points, const FlowView& view, double x);
 /// flow_at every column of the grid's nodes, in one pass over the points.
 std::vector<Flow> flow_profile(const Points& points, const FlowView& view);
 
-/// Where fewer points than these are within a cell of a column, what is there are grains, not a
-/// flow: a layer one point thick has four.
+/// Fewer points than these within a cell of a column are grains, not a flow: a layer one point
+/// thick has four.
 inline constexpr std::int32_t fewest_points_of_a_flow = 3;
 
-/// Nothing where there are only grains.
+/// Zero where there are only grains.
 Flow without_grains(const Flow& flow);
 std::vector<Flow> without_grains(std::vector<Flow> profile);
 
-/// Largest |velocity| of the readings that are at least `depth` deep: what flies ahead of a flow is
-/// faster, and no flow; 0 when none is [m/s].
+/// Largest |velocity| of the readings with at least the given depth: soil that flies ahead of a
+/// flow is faster, and no flow; 0 when there is none [m/s].
 double fastest_of(const std::vector<double>& depths, const std::vector<double>& velocities,
                   double depth);
 
 /// x of the columns of a profile [m].
 std::vector<double> profile_places(const FlowView& view);
 
-/// Surface of what does not flow over the same columns [m]: `bottom` (floor or terrain) and on it the
-/// depth of the soil that is not mobile.
+/// Surface below the flow over the same columns [m]: `bottom` (floor or terrain) plus the depth of
+/// the soil that is not mobile.
 std::vector<double> ground_profile(const Points& points, const FlowView& view,
                                    std::vector<double> bottom);
 
@@ -60,10 +60,10 @@ std::vector<double> ground_profile(const Points& points, const FlowView& view,
 std::vector<double> surface_profile(const Points& points, const FlowView& view,
                                     std::vector<double> ground);
 
-/// Of a front where nothing is deep enough: a number, as checkpoints take no others [m].
+/// Front of a flow that is nowhere deep enough: a finite number, as checkpoints need one [m].
 inline constexpr double nowhere = -1e30;
 
-/// Farthest x where the flow is `depth` deep, between columns by straight lines; or `nowhere` [m].
+/// Farthest x with this depth of the flow, linear between columns; or `nowhere` [m].
 double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth);
 
 /// Profiles at several times, one after the other.

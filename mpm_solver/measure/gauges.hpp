@@ -1,4 +1,4 @@
-// What the scene's gauges saw: one depth and velocity per row of the history.
+// Records of the scene's gauges: one depth and velocity per row of the history.
 #pragma once
 
 #include <optional>
@@ -17,12 +17,12 @@ struct GaugeRecord {
 /// In the order of Mpm::gauges.
 using GaugeRecords = std::vector<GaugeRecord>;
 
-/// Adds what every gauge sees now; of grains (flow.hpp) nothing.
+/// Adds the present reading of every gauge; zero for grains (flow.hpp).
 void read_gauges(const std::vector<scene::Gauge>& gauges, const Points& points,
                  const FlowView& view, GaugeRecords& records);
 
-/// First time at which the depth reached `arrival_depth`, between readings by a straight line; none
-/// when it never did.
+/// First time at which the depth reached `arrival_depth`, linear between readings; none when it
+/// never did.
 std::optional<double> arrival_time(const std::vector<double>& times,
                                    const std::vector<double>& depth, double arrival_depth);
 

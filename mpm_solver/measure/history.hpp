@@ -1,4 +1,4 @@
-// What a run looked like over time: one row per telemetry line.
+// The history of a run: one row per telemetry line.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Row {
     double runout_beyond_toe_95 = 0.0;
     double runout_beyond_toe_50 = 0.0;
     double runout_largest = 0.0;
-    double runout_by_count = 0.0;  ///< 99th percentile over points, not over their mass
+    double runout_by_count = 0.0;  ///< 99th percentile over points, not weighted by mass
     double runout_front = 0.0;     ///< farthest place with the front's depth, beyond the toe
     double area_beyond_toe = 0.0;  ///< of the section
     double kinetic_energy = 0.0;
@@ -32,7 +32,7 @@ struct Row {
     double energy_numerical_share = 0.0;  ///< of energy_scale
     double volume_ratio = 0.0;
     double overlap = 0.0;
-    double overlap_energy = 0.0;  ///< put in by the overlap correction, part of the numerical
+    double overlap_energy = 0.0;  ///< added by the overlap correction, part of the numerical
     double fastest = 0.0;
 };
 

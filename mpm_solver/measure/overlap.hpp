@@ -1,4 +1,4 @@
-// Overlap: soil that lies on top of soil. Points may clump although every tracked volume is right
+// Overlap of soil. Points may cluster although every tracked volume is right
 // (docs/reference/methods/mpm.md, *One step*), so a run reports it.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace breach::mpm {
 
-/// Steps between two marks of the correction: soil crosses a small part of a cell in them.
+/// Steps between two marks of the correction: soil crosses a small part of a cell in that time.
 constexpr std::int64_t steps_between_marks = 8;
 
 class OverlapMeter {
@@ -22,9 +22,9 @@ class OverlapMeter {
     /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
     void mark(Body& body, double tolerance);
 
-    /// Closes what cannot be open. Debris that lands between other points meets no compression
-    /// there, so its gap would stay although its neighbours have taken the room: a point that has
-    /// opened keeps of it at most V / fill, where fill is that of its nodes.
+    /// Closes gaps without room. Debris that lands between other points meets no compression there,
+    /// so its gap would stay although its neighbours have filled it: an opened point keeps at most
+    /// V / fill of it, where fill is that of its nodes.
     void hold_gaps_to_room(Body& body);
 
   private:

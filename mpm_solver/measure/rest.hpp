@@ -1,6 +1,6 @@
-// Whether the mobile soil is at rest, and if not, why. A front that stands still is no rest: it also
-// stands still while a failing mass gathers speed behind it, and while soil flows where no
-// percentile of x looks.
+// Whether the mobile soil is at rest, and if not, why. A stationary front is not enough: it is also
+// stationary while a failing mass gathers speed behind it, and while soil flows that does not affect
+// the percentiles of x.
 #pragma once
 
 #include <optional>
@@ -18,27 +18,27 @@ struct MovingBody {
     double x = 0.0;      ///< of its centre of mass [m]
 };
 
-/// The heaviest one of the soils that count; mass 0 when nothing is that fast.
+/// The heaviest body of the given soils; mass 0 when none is that fast.
 MovingBody heaviest_moving_body(const Body& body, const std::vector<std::uint8_t>& counts,
                                 double speed);
 
-/// What kinetic energy at the end is measured by [J]: the energy released, and where little or
-/// nothing was (a stable slope), what makes rest.kinetic_share of it the mobile soil's energy at
+/// Reference for the kinetic energy at the end [J]: the energy released, and if that is small or
+/// zero (a stable slope), the energy of which rest.kinetic_share is the mobile soil's energy at
 /// rest.speed: a fall of 2.5 cm with the usual 0.005 and 0.05 m/s.
 double energy_scale(const scene::Rest& rest, double released, double mobile_mass);
 
 /// Over the last rest.window: kinetic energy of the mobile soil below rest.kinetic_share of the
 /// energy released and below rest.peak_share of its largest so far, both percentiles of the runout
 /// within rest.change; now: no connected body of more than rest.body_share of the mobile mass faster
-/// than rest.speed; and the run older than rest.earliest. Empty: at rest; otherwise the first of
-/// these that does not hold, in words that go on after "the soil moves: ".
+/// than rest.speed; and the run older than rest.earliest. Empty: at rest; otherwise the first
+/// violated condition, in words that continue "the soil moves: ".
 ///
-/// The peak matters where little kinetic energy is a lot. Of what they release a collapsing column has
-/// 22 % in motion at its peak, a softening slope 9 %, the dam of Mochikoshi 4 %: a twentieth of the
-/// peak is then 1.1 % to 0.2 % of the release, and speeds are 22 % of the highest. A viscous flow
-/// may never have 0.5 % in motion, and a mass that starts to slide is at its peak.
-/// Soil that is slower than rest.speed on average may ring on at its peak, as elastic soil does that
-/// never slid, so long as it does not gather speed: what begins to slide has grown within the window.
+/// The peak matters where a small kinetic energy is significant. A collapsing column has 22 % of the
+/// released energy in motion at its peak, a softening slope 9 %, the dam of Mochikoshi 4 %: a
+/// twentieth of the peak is then 1.1 % to 0.2 % of the release, and speeds are 22 % of the highest. A
+/// viscous flow may never have 0.5 % in motion, and a mass that starts to slide is at its peak. Soil
+/// that is slower than rest.speed on average may oscillate at its peak, like elastic soil that never
+/// slid, unless it accelerates: a starting slide has grown within the window.
 std::optional<std::string> why_moving(const History& history, const Energy& start, const Body& body,
                                       const std::vector<std::uint8_t>& counts,
                                       const scene::Rest& rest);

@@ -1,4 +1,4 @@
-// How far the soil has run, by stated definitions.
+// Runout of the soil, by exact definitions.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace breach::mpm {
 /// Distances beyond the toe [m], of the mobile regions only.
 struct Runout {
     double all = 0.0;        ///< mass-weighted 99th percentile of signed x - x_toe over all of it
-    double beyond = 0.0;     ///< the same over what lies at x > x_toe; 0 when nothing does
+    double beyond = 0.0;     ///< the same over the soil at x > x_toe; 0 when there is none
     double beyond_95 = 0.0;  ///< 95th percentile of it
     double beyond_50 = 0.0;  ///< its median
     double largest = 0.0;    ///< of any point
-    double all_by_count = 0.0;   ///< 99th percentile over all points, whatever their mass
+    double all_by_count = 0.0;   ///< 99th percentile over all points, not weighted by mass
     double volume_beyond = 0.0;  ///< of soil at x > x_toe [m3]
 };
 
-/// Per region of the section: does its soil count for the runout?
+/// Whether the soil of each region of the section counts for the runout.
 std::vector<std::uint8_t> mobile_regions(const scene::Scene& scene);
 
 Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, double toe_x);

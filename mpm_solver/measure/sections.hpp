@@ -1,5 +1,5 @@
-// What passes the scene's sections: hydrographs per metre of width. Volumes are of soil as it lay
-// (V_0, which no step changes), so what has passed is what lies beyond, whatever has loosened since.
+// Flow past the scene's sections: hydrographs per metre of width. Volumes are initial ones (V_0,
+// which no step changes), so the volume passed is that beyond, however much the soil has loosened.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@
 
 namespace breach::mpm {
 
-/// Steps between two samples of the momentum that passes; a point passes in about ten times as many.
+/// Steps between two samples of the momentum flux; a point passes in about ten times as many.
 inline constexpr std::int64_t steps_between_fluxes = 4;
 
-/// Soil beyond a section, per metre of width. A point is a square of its volume: it passes bit by bit,
-/// and what stands up to a section is not beyond it.
+/// Soil beyond a section, per metre of width. A point is a square of its volume and passes gradually;
+/// soil in front of the section is not beyond it.
 struct Beyond {
     double volume = 0.0;  ///< [m2]
     double mass = 0.0;    ///< [kg/m]
@@ -28,8 +28,8 @@ struct SectionRecord {
     double time = -1.0;        ///< of the last sample of the flux [s]
     // One per row of the history:
     std::vector<double> discharge;  ///< mean since the row before, towards +x [m2/s]
-    std::vector<double> depth;      ///< as a gauge sees it [m]
-    std::vector<double> velocity;   ///< as a gauge sees it [m/s]
+    std::vector<double> depth;      ///< as at a gauge [m]
+    std::vector<double> velocity;   ///< as at a gauge [m/s]
     std::vector<double> volume;     ///< passed since the first look, net [m2]
     std::vector<double> mass;       ///< the same [kg/m]
 };
@@ -40,10 +40,10 @@ using SectionRecords = std::vector<SectionRecord>;
 Beyond beyond(const Points& points, const FlowView& view, double x);
 
 /// Volume that the points' momentum carries through x per time and metre [m2/s]: the rate of
-/// Beyond::volume, by the velocities instead of the places.
+/// Beyond::volume, from velocities instead of places.
 double flux_at(const Body& body, const FlowView& view, double x);
 
-/// Adds the flux of the time since the last sample, by the trapezoidal rule.
+/// Adds the flux since the last sample, by the trapezoidal rule.
 void sample_sections(const std::vector<scene::FlowSection>& sections, const Body& body,
                      const FlowView& view, double now, SectionRecords& records);
 
@@ -51,23 +51,23 @@ void sample_sections(const std::vector<scene::FlowSection>& sections, const Body
 void read_sections(const std::vector<scene::FlowSection>& sections, const Points& points,
                    const FlowView& view, double now, double since, SectionRecords& records);
 
-/// Largest mean discharge over the time in which the fastest flow passes two cells: from row to row the
-/// discharge jitters with the points that happen to cross.
+/// Largest mean discharge over the time in which the fastest flow passes two cells: single rows of the
+/// discharge scatter with the number of points that cross.
 struct Peak {
     double discharge = 0.0;  ///< towards +x [m2/s]
     double time = 0.0;       ///< middle of the window [s]
     double window = 0.0;     ///< [s]
 };
-/// `times`: of the rows. The fastest flow is one of `arrival_depth`, where any is so deep: what flies
-/// ahead of it would shorten the time. Nothing when nothing passed towards +x.
+/// `times`: of the rows. The fastest flow has at least `arrival_depth`, if any is so deep: soil that
+/// flies ahead of it would shorten the time. Nothing when nothing passed towards +x.
 std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
                             const FlowView& view, double arrival_depth);
 
-/// What the momentum carried through, less what has come to lie beyond, as a share of all that moved
-/// to and fro [-]. Nothing when nothing passed.
+/// Volume by the momentum flux minus the volume beyond, as a share of all volume that moved in both
+/// directions [-]. Nothing when nothing passed.
 std::optional<double> closure_of(const SectionRecord& record);
 
-/// "<prefix>section.<name>.discharge" and so on: the rows; with `State::whole` what goes on, too.
+/// "<prefix>section.<name>.discharge" and so on: the rows; with `State::whole` running sums, too.
 enum class SectionState { rows, whole };
 void store(const std::vector<scene::FlowSection>& sections, const SectionRecords& records,
            const std::string& prefix, SectionState state, exchange::Archive& archive);

@@ -1,4 +1,4 @@
-// The table of an accuracy study for people's eyes.
+// The table of an accuracy study as text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

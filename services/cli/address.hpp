@@ -1,4 +1,4 @@
-// Where the server is and how its paths are spelt.
+// The server's address, and URLs of its paths.
 #pragma once
 
 #include <initializer_list>

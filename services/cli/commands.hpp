@@ -1,5 +1,5 @@
-// What each word of the command line does: asks the server, shows the answer. Watching, logs and
-// export have files of their own. Every command returns the exit code for when nothing was thrown.
+// The commands of the command line: each queries the server and prints the answer. Watching, logs
+// and export have files of their own. Every command returns its exit code, or throws.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +16,10 @@ namespace breach::cli {
 
 struct SubmitOptions {
     std::filesystem::path study;
-    std::filesystem::path scene = {};  ///< instead of a study: a study is made around it
+    std::filesystem::path scene = {};  ///< instead of a study: a study is generated for it
     std::vector<std::string> overrides;
     std::string idempotency_key;              ///< empty: none
-    std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: as it says
+    std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: the study's
     std::string route = "/v1/runs";           ///< or "/v1/sweeps"
     bool send_files = false;                  ///< even to a server on this machine
 };
@@ -27,19 +27,19 @@ struct SubmitOptions {
 /// Prints the new run's id, and returns it.
 std::string submit(Server& server, const SubmitOptions& options, const Console& console);
 
-/// What the study would cost and, of an uncertainty study, how many tasks it would make: nothing is
+/// Prints the cost of the study and, for an uncertainty study, the number of its tasks: nothing is
 /// submitted. Faults as for submitting.
 fault::ExitCode show_plan(Server& server, const SubmitOptions& options, const Console& console);
 
-/// So many samples in all for an uncertainty study; prints those that are new to it.
+/// Extends an uncertainty study to so many samples in all; prints the new ones.
 fault::ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
                                const Console& console);
 
-/// More transfer times [s] for a sweep; prints those that are new to it.
+/// Adds transfer times [s] to a sweep; prints the new ones.
 fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
                        const Console& console);
 
-/// "600" CPU seconds for a run to spend in all, or "none": no limit.
+/// Sets the CPU seconds that a run may spend in all: "600", or "none" for no limit.
 fault::ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
                               const Console& console);
 
@@ -54,11 +54,11 @@ fault::ExitCode rename(Server& server, const std::string& run, const std::string
 fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_t priority,
                              const Console& console);
 
-/// What a questionable result counts as in the exit code.
+/// Whether a questionable result makes the exit code a failure.
 enum class Questionable { accepted, fails };
 
-/// breakdown (70) when the run, which has ended, failed or was cancelled, or when a result of it is
-/// questionable and that counts; try_again (75) when it stopped for its budget. Says on the side why it is not simply fine.
+/// breakdown (70) when the ended run failed or was cancelled, or has a questionable result and that counts; try_again (75)
+/// when it stopped for its budget. Prints the reason to the notes.
 fault::ExitCode code_of_end(const nlohmann::json& run, Questionable questionable,
                             const Console& console);
 
@@ -73,8 +73,8 @@ struct ResultsOptions {
 /// Exit code: code_of_end
 fault::ExitCode results(Server& server, const ResultsOptions& options, const Console& console);
 
-/// The table of an accuracy study, its ladders and what it recommends; of a blind check its means.
-/// asked_error: instead of the study's; empty: as it says.
+/// The table of an accuracy study, its ladders and its recommendation; for a blind check, its
+/// means. asked_error: instead of the study's; empty: the study's.
 fault::ExitCode show_accuracy(Server& server, const std::string& run,
                               const std::string& asked_error, const Console& console);
 
@@ -82,18 +82,18 @@ struct UncertaintyOptions {
     std::string run;
     std::string quantity;  ///< only this one's statistics; empty: of all
 };
-/// What the samples of an uncertainty study say, as far as its run has come; as CSV the samples.
+/// Results of an uncertainty study's samples, also while its run goes on; as CSV the samples.
 fault::ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
                                  const Console& console);
 
 struct CheckOptions {
     std::string repeats;  ///< means of new draws; empty: no check is requested
-    std::string rung;     ///< "cells:2" instead of the recommended; empty: that
+    std::string rung;     ///< "cells:2" instead of the recommended one; empty: that
     std::string mean_of;  ///< draws in a mean; empty: as recommended
     std::string asked_error;
 };
 
-/// Prints the id of the run that draws a setting of an accuracy study anew, and returns it.
+/// Starts a run that repeats a setting of an accuracy study on new lattices; prints its id.
 std::string check_accuracy(Server& server, const std::string& run, const CheckOptions& options,
                            const Console& console);
 
@@ -120,7 +120,7 @@ struct HydrographOptions {
     std::filesystem::path file;  ///< empty: printed
 };
 
-/// What passed a section of a runout, as rows or as another program takes it.
+/// The flow past a section of a runout, as rows or in another program's format.
 fault::ExitCode hydrograph(Server& server, const HydrographOptions& options,
                            const Console& console);
 
@@ -128,8 +128,8 @@ fault::ExitCode telemetry(Server& server, const TelemetryOptions& options, const
 /// document: a scene or a study.
 fault::ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console);
 
-/// A run's id, from itself, its beginning, or a name, which means the newest run of that name; "latest" means the newest
-/// run. Throws Refused when there is none, or several ids begin so.
+/// A run's id, from the id itself, its beginning, or a name, which means the newest run of that name; "latest" means the
+/// newest run. Throws Refused when there is none, or several ids begin with it.
 std::string run_named(Server& server, const std::string& name);
 
 }  // namespace breach::cli

@@ -1,4 +1,4 @@
-// What a shell needs to complete the words of this program.
+// Shell completion for the words of this program.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,8 +6,8 @@
 
 namespace breach::cli {
 
-/// A script for bash, zsh or fish, made from the words and options themselves. Runs are completed by asking the
-/// server that BREACH_SERVER names, else the default one.
+/// A script for bash, zsh or fish, generated from the words and options. Completes runs by a request to the
+/// server that BREACH_SERVER names, else to the default one.
 std::string completion(const CLI::App& program, const std::string& shell);
 
 }  // namespace breach::cli

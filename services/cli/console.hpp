@@ -1,4 +1,4 @@
-// Where and how a command shows what it was asked for.
+// Output streams and format of a command.
 #pragma once
 
 #include <ostream>
@@ -8,7 +8,7 @@ namespace breach::cli {
 enum class Style { people, json, csv };
 enum class Screen { terminal, plain, quiet };
 
-/// Where the answer goes (out: only what was asked for) and what is said on the side (notes).
+/// out: only the requested answer; notes: everything else.
 struct Console {
     std::ostream& out;
     std::ostream& notes;

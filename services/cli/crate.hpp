@@ -1,5 +1,5 @@
 // RO-Crate 1.1 metadata of an exported run (profile "Process Run Crate" 0.5): which program made
-// which file, when, from what. Builds a JSON document; touches no file.
+// which file, when, from which inputs. Builds a JSON document; touches no file.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// `import`: a section drawn elsewhere becomes a scene file. Reads and writes files; what is done with
-// the drawing is services/import's affair, and no server is asked.
+// `import`: converts a section drawing to a scene file. Reads and writes files; services/import does
+// the conversion, and no server is needed.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,8 @@ struct ImportOptions {
     bool confirmed = false;  ///< --yes
 };
 
-/// At a terminal, asks whether sizes that look like a slip are meant. Writes the scene and tells what was healed, guessed and passed over. With faults only the picture
-/// is written; they are told on the side and the exit code is bad_input.
+/// At a terminal, asks whether sizes that look like a wrong unit are meant. Writes the scene and prints what was healed, guessed and skipped. With faults only the
+/// picture is written; they are printed as notes and the exit code is bad_input.
 fault::ExitCode import_drawing(const ImportOptions& options, const Console& console);
 
 }  // namespace breach::cli

@@ -1,4 +1,4 @@
-// A task's log, as far as it is written or until the task ends.
+// A task's log: its present content, or until the task ends.
 #pragma once
 
 #include <cstdint>

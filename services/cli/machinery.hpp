@@ -1,4 +1,4 @@
-// What the server is doing and how its files came to be: workers, transfers, provenance.
+// Commands about workers, transfers and the provenance of files.
 #pragma once
 
 #include <string>
@@ -7,15 +7,15 @@
 
 namespace breach::cli {
 
-/// What runs where, and the queue.
+/// Running tasks, and the queue.
 fault::ExitCode workers(Server& server, const Console& console);
 
 struct TransfersOptions {
     std::string run;  ///< empty: of all runs
-    std::string why;  ///< only those made for this reason; empty: all
+    std::string why;  ///< only those with this reason; empty: all
     std::size_t most = 50;
 };
-/// Why each transfer was made, how long it waited, what came of it; newest first.
+/// For each transfer why it was made, how long it waited and its runouts; newest first.
 fault::ExitCode transfers(Server& server, const TransfersOptions& options, const Console& console);
 
 /// From a file up to scene and study, one line per step; as JSON: PROV-JSON.

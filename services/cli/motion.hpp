@@ -1,4 +1,4 @@
-// `motion`: what records of earthquakes are measured by, and what a study of several of them says.
+// `motion`: intensity measures of earthquake records, and results of a study of several of them.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace breach::cli {
 struct MotionOptions {
     std::filesystem::path file;   ///< or a folder of them
     std::string run;              ///< instead: of a study of motions
-    std::filesystem::path scene;  ///< write a study that shakes it by each record
+    std::filesystem::path scene;  ///< write a study that applies each record to it
     std::vector<double> pga_g;    ///< scaled to each of these; empty: as recorded
     std::optional<double> scale_to_pga_g;
-    bool corrected = false;  ///< the baseline first
+    bool corrected = false;  ///< baseline correction first
 };
 
 fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console);

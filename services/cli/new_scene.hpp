@@ -13,18 +13,18 @@ namespace breach::cli {
 
 struct NewOptions {
     bool list = false;
-    bool force = false;                                 ///< writes over what is there
+    bool force = false;                                 ///< overwrite existing files
     std::string made_from;                              ///< name of the template
-    nlohmann::json options = nlohmann::json::object();  ///< those that were given
+    nlohmann::json options = nlohmann::json::object();  ///< the given ones
     std::filesystem::path folder;
 };
 
-/// Every template as a word below `new`, its options with unit, range and default; what is given goes
-/// into `chosen`, which must live as long as the word.
+/// Adds every template as a subcommand of `new`, its options with unit, range and default; given
+/// values go into `chosen`, which must live as long as the subcommand.
 void take_templates(CLI::App& word, NewOptions& chosen);
 
 /// Writes scene.json, study.json and, for a shaken scene, motion.csv; prints what to do next. Throws
-/// BadInput for options that close no section and for files that are there.
+/// BadInput for options that give no closed section and for existing files.
 fault::ExitCode make_new(const NewOptions& chosen, const Console& console);
 
 }  // namespace breach::cli

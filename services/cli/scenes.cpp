@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// "dam@2, slope": without a number where it is the newest that is told anyway by the name.
+/// "dam@2, slope": without a number for the newest version, which the name alone refers to.
 std::string names_of(const json& scene) {
     std::string names;
     for (const json& each : scene.at("names"))

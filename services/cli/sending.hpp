@@ -1,4 +1,4 @@
-// Motions and meshes that a study names by path, on their way to a server that does not have them.
+// Uploads motions and meshes that a study names by path to a server that does not have them.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 namespace breach::cli {
 
-/// By which a scene names the file. It is sent only when the server does not know it, and again when
-/// it did not arrive.
+/// Returns the reference by which a scene names the file. Sends it only when the server does not
+/// have it, and again when the upload was incomplete.
 std::string send_file(Server& server, const std::filesystem::path& file, const Console& console);
 
 enum class Sending { where_needed, always };
@@ -20,11 +20,11 @@ enum class Sending { where_needed, always };
 /// The "warnings" of an answer, one line each.
 void show_warnings(const nlohmann::json& answer, const Console& console);
 
-/// A fault that another machine finds and this one may not: the file is not there.
+/// Whether the fault may be due to a file that is on this machine only.
 bool is_about_a_file(const fault::Fault& fault);
 
-/// Posts the study, and shows the warnings of the answer. The files that it names, in its scene or in overrides, are sent first where the
-/// server cannot have them: it is another machine, or says that it does not find them.
+/// Posts the study, and shows the warnings of the answer. First sends the files named in its scene or in overrides if the server cannot
+/// have them: it is another machine, or reports that it does not find them.
 nlohmann::json post_study(Server& server, const std::string& route, nlohmann::json study,
                           const Headers& headers, Sending sending, const Console& console);
 

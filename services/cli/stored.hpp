@@ -1,4 +1,4 @@
-// What lies on the server's disk: listing and removing it.
+// What the server stores on its disk: listing and removing it.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace breach::cli {
 
-/// Runs, and files as "file:sha256/...". cancel_first: and wait for the end, when one goes on.
+/// For runs, and for files as "file:sha256/...". cancel_first: cancels a run in progress and waits.
 enum class IfItRuns { refuse, cancel_first };
-/// Says what goes and how much disk that frees, and takes yes or no on a terminal.
+/// Prints what will be removed and the disk space freed, and asks for yes or no on a terminal.
 enum class Confirm { ask, given };
 fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
                            Confirm confirm, const Console& console);

@@ -1,4 +1,4 @@
-// Tables and numbers for people's eyes: aligned columns of text, nothing else.
+// Tables and numbers as text in aligned columns.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,16 +27,16 @@ std::string as_table(const std::vector<Column>& columns, const std::vector<Cells
 std::string cell(const nlohmann::json& value);
 /// The member's cell; "-" when there is none.
 std::string cell(const nlohmann::json& object, const char* key);
-/// The same of a number that names a row, such as a transfer time: two of them never look alike.
+/// The same for a number that names a row, as a transfer time: different ones never look alike.
 std::string whole_cell(const nlohmann::json& object, const char* key);
 
-/// The server's answer as it is.
+/// Prints the server's answer unchanged.
 void show_json(const nlohmann::json& answer, const Console& console);
 
-/// Without control characters, so that a text from the server cannot move the cursor.
+/// Removes control characters, so that a text from the server cannot move the cursor.
 std::string harmless(std::string_view text);
 
-/// "[#####...............]  25 %"; fraction in [0, 1], anything else is taken to the nearer end.
+/// "[#####...............]  25 %"; fraction in [0, 1], other values are clamped.
 std::string bar(double fraction);
 
 /// The first `width` characters (UTF-8 is not cut in the middle).

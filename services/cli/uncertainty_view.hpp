@@ -1,4 +1,4 @@
-// What an uncertainty study found, for people's eyes.
+// Results of an uncertainty study as text.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

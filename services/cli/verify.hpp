@@ -1,4 +1,4 @@
-// `verify`: the programs against closed forms, published tables and independent programs.
+// `verify`: compares the programs with closed forms, published tables and independent programs.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ struct VerifyOptions {
     bool quick = false;
 };
 
-/// breakdown where a comparison fails.
+/// Returns breakdown where a comparison fails.
 fault::ExitCode verify(const VerifyOptions& options, const Console& console);
 
 }  // namespace breach::cli

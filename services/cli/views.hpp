@@ -1,4 +1,4 @@
-// What the server's answers look like to people. JSON in, text out; asks nobody.
+// The server's answers as text. JSON in, text out; no requests.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,30 +10,30 @@ enum class RunEnd {
     not_yet,
     good,  ///< succeeded, perhaps questionable; or partial: some transfer times have no runout
     bad,   ///< failed or cancelled
-    short_of_budget,  ///< it goes on when its budget is raised, and not before
+    short_of_budget,  ///< continues only when its budget is raised
 };
 
 RunEnd end_of(const nlohmann::json& run);
-/// Its verdict: its results cannot be relied on.
+/// Whether its verdict is that its results cannot be relied on.
 bool is_doubtful(const nlohmann::json& run);
-/// "not usable: does not stand as built, ..." of a run; empty where nothing is against it.
+/// "not usable: does not stand as built, ..." for a run; empty without any objection.
 std::string warning_of(const nlohmann::json& run);
-/// No attempt of it will run any more.
+/// Whether no further attempt of it will run.
 bool is_final_task(const nlohmann::json& task);
 
 /// GET /v1/runs
 std::string as_run_table(const nlohmann::json& runs);
-/// GET /v1/runs/{id}: what it is, how far it is, its tasks, why the failed ones failed, and what to
-/// know before believing the others.
+/// GET /v1/runs/{id}: description, progress, tasks, the faults of the failed ones, and what to know
+/// before relying on the others.
 std::string as_run_page(const nlohmann::json& run);
 /// GET /v1/tasks/{id}
 std::string as_task_page(const nlohmann::json& task);
 /// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
 std::string as_result_table(const nlohmann::json& answer);
-/// The verdict of the same answer with its reasons, but for flags, which the table's legend explains; empty: usable.
+/// The verdict of the same answer with its reasons, except flags, which the table's legend explains; empty: usable.
 std::string as_verdict(const nlohmann::json& answer);
-/// The means of the same answer, with their standard deviations and what is missing in them; empty:
-/// the study has no draws.
+/// The means of the same answer, with their standard deviations and missing repeats; empty: the
+/// study has no repeats.
 std::string as_mean_table(const nlohmann::json& answer);
 /// Lines of telemetry; the columns are the numbers and words of the first line.
 std::string as_telemetry_table(const nlohmann::json& lines);

@@ -1,4 +1,4 @@
-// A run while it runs: on a terminal a few lines that stay in place, else one line per change, with
+// Watches a run: on a terminal a few lines that stay in place, else one line per change, with
 // --json the events.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace breach::cli {
 
-/// Returns when the run has ended: code_of_end. A server that goes away for less than a minute is
-/// waited for; after that Unreachable is thrown.
+/// Returns code_of_end when the run has ended. Waits for a server that does not answer for less
+/// than a minute; then throws Unreachable.
 fault::ExitCode watch(Server& server, const std::string& run, Questionable questionable,
                       const Console& console);
 

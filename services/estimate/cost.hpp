@@ -1,5 +1,5 @@
-// What a scene will cost before anything runs: how much there is to compute, CPU seconds and bytes of
-// each phase, as ranges. From the scene alone, better with its mesh, best with earlier runs of it.
+// Cost of a scene before anything runs: problem size, CPU seconds and bytes of each phase, as ranges.
+// From the scene alone, better with its mesh, best with earlier runs of it.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ struct Range {
     double middle() const;  ///< geometric
 };
 
-/// What is known of a mesh that exists.
+/// Size of an existing mesh.
 struct MeshCounts {
     double elements;
     double nodes;
@@ -35,12 +35,12 @@ struct PhaseCost {
     Range mean_bytes = {0.0, 0.0};
 };
 
-/// Of every phase that the scene has a part for. Ranges reach from half to twice the likeliest. Where
-/// soil flows to rest its time is guessed from its height and from whether it has friction left.
+/// Cost of every phase in the scene. Ranges reach from half to twice the likeliest. Where soil flows
+/// to rest its time is guessed from its height and from whether it has friction left.
 std::vector<PhaseCost> cost_of(const scene::Scene& scene,
                                const std::optional<MeshCounts>& mesh = {});
 
-/// A phase that has run: what it took over what cost_of says of its own scene.
+/// An earlier run of a phase: its cost over the cost_of for its own scene.
 struct Earlier {
     std::string phase;
     std::string scene;  ///< its name
@@ -48,26 +48,26 @@ struct Earlier {
     double bytes_ratio;
 };
 
-/// Moves the ranges to what earlier runs took, from their least to their largest ratio: of a scene of
-/// the same name where there are any, widened by a quarter, or by half for one run alone; else of
-/// others, widened by the factor of two that they know no better. The mean of many goes by the mean
-/// ratio, widened by half. Phases that have not run stay.
+/// Moves the ranges to the ratios of earlier runs, from the least to the largest: of a scene of the
+/// same name if there are any, widened by a quarter, or by half for one run alone; else of other
+/// scenes, widened by a factor of two as they are less similar. The mean of many runs uses the mean
+/// ratio, widened by half. Phases without earlier runs are unchanged.
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier);
 
-/// How often a study runs each phase as far as its document says so: draws, variants (or samples) and
-/// transfer times multiplied; what triggers add is not known.
+/// How often a study runs each phase according to its document: repeats, variants (or samples) and
+/// transfer times multiplied; tasks from triggers are not known.
 struct Repeats {
     double runouts = 1.0;
     double variants = 1.0;
-    std::map<std::string, double> tasks = {};  ///< by phase, where they have been planned: exact
+    std::map<std::string, double> tasks = {};  ///< by phase, where planned: exact
 };
-/// Of a study, checked or not; of anything else one.
+/// For a study, checked or not; for any other document 1.
 Repeats repeats_of(const nlohmann::json& document);
 
-/// Lines for people: one per phase, and their sum.
+/// Text lines: one per phase, and their sum.
 std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Repeats& repeats);
-/// With those lines.
+/// Includes those lines.
 nlohmann::json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats);
 
 }  // namespace breach::estimate

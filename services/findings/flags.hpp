@@ -1,4 +1,4 @@
-// What the flags of one result mean: whether it can be relied on, and which of its numbers are lower bounds.
+// Meaning of a result's flags: whether it can be relied on, and which of its numbers are lower bounds.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,7 +10,7 @@
 
 namespace breach::findings {
 
-/// Of a result.json; empty where there is no result.
+/// The flags in a result.json; empty without a result.
 std::vector<fault::Flag> flags_of(const nlohmann::json& result);
 
 /// "still moving"
@@ -19,7 +19,7 @@ std::string worded(std::string code);
 /// Codes in words, each once: "still moving, numerical share".
 std::string listed(const std::vector<fault::Flag>& flags, fault::Severity severity);
 
-/// Soil that moves on only adds to this quantity of a runout.
+/// Whether this quantity of a runout can only grow while soil moves.
 bool grows(std::string_view quantity);
 
 /// Whether the soil of a runout still moved at its end: quantities that grow are lower bounds then.

@@ -1,4 +1,4 @@
-// Which result of a run governs: the one that first lines, pictures and comparisons are about.
+// The governing result of a run: the one for first lines, pictures and comparisons.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace breach::findings {
 
-/// What decides about one result.
+/// The properties of a result that decide.
 struct Candidate {
     std::optional<double> runout = {};  ///< [m]
     std::optional<double> mean_runout =
@@ -15,7 +15,7 @@ struct Candidate {
     std::optional<double> factor_of_safety = {};
 };
 
-/// The place of the largest runout; of repeated runouts of the largest one in the largest mean; without any runout
+/// Index of the largest runout; of repeated runouts, of the largest one in the largest mean; without any runout,
 /// of the least factor of safety. Nothing: there is neither.
 std::optional<std::size_t> governing(const std::vector<Candidate>& candidates);
 

@@ -1,5 +1,5 @@
-// What a study of several motions says: which measure of a motion goes with liquefaction and runout,
-// from which liquefied depth on soil passes the toe, and how probable that is at a given motion.
+// Findings of a study of several motions: which measure of a motion correlates with liquefaction and
+// runout, the least liquefied depth with soil past the toe, and its probability for a given motion.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +9,7 @@
 
 namespace breach::findings {
 
-/// A FEM and what came of it.
+/// A FEM and its results.
 struct Shaken {
     std::string variant;
     std::vector<double> measures;  ///< of the input, in the order of motion::named_measures
@@ -19,11 +19,11 @@ struct Shaken {
     bool lower_bound = false;  ///< of the runout
 };
 
-/// Fewer say nothing.
+/// With fewer motions there are no findings.
 inline constexpr std::size_t fewest_motions = 5;
 
 /// {"rows", "measures": [{"name", "title", "unit", "with_depth", "with_runout", "fragility"}], "best",
-/// "onset", "saturation", "sentences"}; what each is: services/orchestrator/http/openapi.json. shaken:
+/// "onset", "saturation", "sentences"}, described in services/orchestrator/http/openapi.json. shaken:
 /// at least fewest_motions.
 nlohmann::json motions_of(const std::vector<Shaken>& shaken);
 

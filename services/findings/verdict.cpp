@@ -74,7 +74,7 @@ std::string capital(std::string text) {
 
 std::string ended(const std::string& text) { return text + (text.ends_with('.') ? "" : "."); }
 
-/// An entry that nobody means is wrong whatever comes out; other warnings leave the number usable.
+/// An implausible entry makes the result unusable; with other warnings the number can be used.
 Usable worth_of(const fault::Flag& flag) {
     if (flag.code == "implausible") return Usable::no;
     return flag.severity == Severity::questionable ? Usable::questionable : Usable::with_remarks;

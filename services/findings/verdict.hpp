@@ -1,5 +1,5 @@
-// Whether the results of a run can be used, and the reasons in sentences, the worst first. Store and report gather the
-// facts; nobody but this file judges them.
+// Whether the results of a run can be used, and the reasons in sentences, the worst first. Store and report collect
+// the facts; only this file judges them.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace breach::findings {
 
-/// One flag of one phase, with all results that carry it.
+/// One flag of one phase, with the number of results that carry it.
 struct Raised {
     fault::Flag flag;  ///< of the first of them
     std::string phase;
     std::int64_t results = 1;
-    std::int64_t of_results = 1;  ///< that the phase gave
+    std::int64_t of_results = 1;  ///< total number of the phase's results
     std::string first = {};       ///< label of the first
 };
 
@@ -29,15 +29,15 @@ struct Unstable {
     std::string variant;  ///< of the least; empty: the scene itself
 };
 
-/// A variant whose FEM ended before all its transfer times, or without that a trigger fired.
+/// A variant with a FEM that ended before all its transfer times, or without a trigger that fired.
 struct NoTransfer {
     std::string variant;
     bool stood;  ///< the FEM ended without a failure
     std::string reason;
-    std::string pointer = "/triggers";  ///< what asked for a transfer
+    std::string pointer = "/triggers";  ///< entry that requested a transfer
 };
 
-/// Transfers before the liquefied zone had most of the depth that it came to in the same FEM (its milestone "liquefied").
+/// Transfers before the liquefied zone had most of its final depth in the same FEM (its milestone "liquefied").
 struct Early {
     std::int64_t transfers;
     std::int64_t of_transfers;
@@ -45,7 +45,7 @@ struct Early {
     double liquefied_at;  ///< that milestone [s]
 };
 
-/// What no result came of.
+/// Tasks without a result.
 struct Broken {
     std::string phase;
     std::int64_t results;
@@ -73,7 +73,7 @@ const char* name_of(Usable usable);
 const char* phrase_of(Usable usable);
 
 struct Reason {
-    Usable usable;  ///< what it makes of the run
+    Usable usable;  ///< the best verdict that it allows
     std::string
         code;  ///< a flag's, or that of a judgement: does_not_stand, early_transfer, no_transfer, ...
     std::string brief;  ///< "7 of 8 runouts still moving: lower bounds"
@@ -89,7 +89,7 @@ struct Verdict {
 
 Verdict verdict_of(const Facts& facts);
 
-/// What makes a run less than usable, in one line; empty where nothing does.
+/// Why a run is less than usable, in one line; empty if it is usable.
 std::string line_of(const Verdict& verdict);
 
 /// {"usable", "words", "reasons": [{"usable", "code", "brief", "text", "pointer", "count"}]}

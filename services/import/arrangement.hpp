@@ -1,5 +1,5 @@
-// Chains of points laid over each other: near vertices become one, near edges pass through them,
-// edges that cross get a common node. What is left divides the plane into faces. Knows no soils.
+// Overlay of chains of points: near vertices are merged, near edges pass through them, edges that
+// cross get a common node. The result divides the plane into faces. Knows no soils.
 #pragma once
 
 #include <utility>
@@ -20,7 +20,7 @@ struct Chain {
 /// A vertex that was moved to a node, or an edge that was bent to one.
 struct Meeting {
     std::size_t chain;  ///< whose vertex or edge
-    std::size_t with;   ///< chain that has drawn the node
+    std::size_t with;   ///< chain that the node belongs to
     Vec2 at;            ///< the node [m]
     Vec2 was;           ///< the vertex, or its foot on the edge [m]
     bool on_edge;
@@ -33,7 +33,7 @@ struct Snapped {
     bool settled;  ///< no edge is nearer to a foreign node than the tolerance, none cross
 };
 
-/// The vertex that was drawn first stays; others come to it when they are within `tolerance` [m].
+/// The vertex that was drawn first stays; others within `tolerance` [m] are moved to it.
 Snapped snapped(const std::vector<Chain>& chains, double tolerance);
 
 using Edge = std::pair<std::size_t, std::size_t>;  ///< nodes, the lower one first
@@ -49,10 +49,10 @@ struct Face {
     double area;                    ///< [m2]
 };
 
-/// Bounded faces; `edges` each once. Parts that nothing joins lie in each other's faces unseen.
+/// Bounded faces; `edges` each once. Unconnected parts may lie undetected in each other's faces.
 std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edge>& edges);
 
-/// Rings that bound the union of faces, tight at nodes where it touches itself: outer ones
+/// Rings that bound the union of faces, split at nodes where it touches itself: outer ones
 /// counter-clockwise, holes clockwise.
 std::vector<std::vector<std::size_t>> union_of(const std::vector<Vec2>& nodes,
                                                const std::vector<const Face*>& faces);

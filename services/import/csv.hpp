@@ -8,11 +8,11 @@
 
 namespace breach::importing {
 
-/// A header names the columns, in any order; separated by commas, semicolons (decimal commas then) or
-/// tabs; lines that begin with # are remarks. A region's outline ends with another region's name or a
-/// blank line. Rows without a region column belong to the layer `alone`. Soil is closed, lines are not.
-/// Levels may be called z; other columns are passed over. Two columns of one meaning are a fault, and
-/// rows with more fields than the header names.
+/// A header names the columns, in any order; separators are commas, semicolons (then with decimal
+/// commas) or tabs; lines that begin with # are remarks. A region's outline ends with another region's
+/// name or a blank line. Rows without a region column belong to the layer `alone`. Soil is closed,
+/// lines are not. Levels may be called z; other columns are ignored. Two columns of one meaning are a
+/// fault, and so are rows with more fields than the header.
 Drawing read_csv(std::string_view text, const LayerMap& layers, const Unit& unit,
                  const std::string& alone = "");
 

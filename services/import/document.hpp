@@ -1,4 +1,4 @@
-// Healed soils and lines as a scene document, with what had to be guessed.
+// Healed soils and lines as a scene document, with the guessed entries.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -22,7 +22,7 @@ struct Document {
 /// The materials of a scene, or of a document that is nothing but materials.
 const nlohmann::json& materials_in(const nlohmann::json& document);
 
-/// given: what materials_in reads. /section always; /lem where the ground has a slope; /mpm where a terrain was drawn, its cells this
+/// given: what materials_in reads. Always /section; /lem if the ground has a slope; /mpm if a terrain was drawn, with cells of this
 /// share of an element.
 Document document_of(const std::string& name, const nlohmann::json& given,
                      const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);

@@ -1,5 +1,5 @@
-// What was drawn elsewhere, before it is soil: polylines by layer, each with its place in the file.
-// Knows nothing of materials, tolerances or scenes.
+// An imported drawing before it becomes soil: polylines by layer, each with its place in the file.
+// Independent of materials, tolerances and scenes.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ namespace breach::importing {
 using fault::Fault;
 using mechanics::Vec2;
 
-/// Which line of which file says it, and as what ("LWPOLYLINE 2F").
+/// Line of the file and entity ("LWPOLYLINE 2F").
 struct Origin {
     std::size_t line = 0;
     std::string entity;
@@ -28,7 +28,7 @@ struct Outline {
     Origin origin;
 };
 
-/// A layer that nobody said anything about, with where it is first drawn on.
+/// A layer without a meaning, and the first place on it.
 struct UnknownLayer {
     std::size_t entities = 0;
     Vec2 first;  ///< [m]
@@ -36,16 +36,16 @@ struct UnknownLayer {
 };
 
 struct Drawing {
-    std::vector<Outline> outlines;  ///< of layers that mean something
+    std::vector<Outline> outlines;  ///< of layers with a meaning
     std::map<std::string, UnknownLayer> unknown;
-    std::set<std::string> layers;  ///< all on which something is drawn
+    std::set<std::string> layers;  ///< all layers with drawn objects
     std::vector<Fault> faults;
-    std::vector<std::string> remarks;  ///< what was passed over or assumed
-    std::string unit = "m";            ///< that its coordinates were in
+    std::vector<std::string> remarks;  ///< skipped objects and assumptions
+    std::string unit = "m";            ///< unit of its coordinates
     bool knows_unit = true;
 };
 
-/// Outlines and their points that are taken: more are no section.
+/// Most outlines and points that are accepted: more are no section.
 constexpr std::size_t most_outlines = 2000, most_points = 4000;
 
 /// "line 12"
@@ -60,7 +60,7 @@ std::string metres(double length);
 std::string extent(double length);
 /// "1200.5 m2"
 std::string square_metres(double area);
-/// Bytes of whatever code page as UTF-8: what is none is taken for Latin-1.
+/// Bytes of any code page as UTF-8: bytes that are not UTF-8 are read as Latin-1.
 std::string as_utf8(std::string_view bytes);
 std::string lower(std::string text);
 

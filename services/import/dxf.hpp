@@ -1,6 +1,6 @@
 // The polylines of a DXF drawing: LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE of model space, in metres.
-// Everything else on a layer that means something is a fault or, where it is only writing, told as
-// passed over. Whether outlines close or touch is not judged here.
+// Everything else on a layer with a meaning is a fault or, if it is only text, reported as skipped.
+// Does not check whether outlines close or touch.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@ namespace breach::importing {
 
 struct DxfOptions {
     std::optional<Unit> unit = {};  ///< instead of the file's
-    /// Arcs become chords that are off by so much [m]; none: they are refused.
+    /// Arcs become chords with at most this error [m]; none: arcs are refused.
     std::optional<double> flatten = {};
 };
 
-/// Group codes: Autodesk, DXF Reference (2012), ENTITIES section. `text` as form_faults lets it pass.
+/// Group codes: Autodesk, DXF Reference (2012), ENTITIES section. `text` has passed form_faults.
 Drawing read_dxf(std::string_view text, const LayerMap& layers, const DxfOptions& request);
 
 }  // namespace breach::importing

@@ -1,5 +1,5 @@
-// A DXF file in text form as what it is made of: pairs of group code and value, from one code 0 to the
-// next. What a record means is not known here.
+// Reads a DXF text file as records: pairs of group code and value, from one code 0 to the next. Does
+// not interpret records.
 #pragma once
 
 #include <string_view>
@@ -25,7 +25,7 @@ struct Record {
 class Records {
   public:
     explicit Records(std::string_view text);
-    /// False at the end of the file, or where it cannot be read any further: then `fault` says why.
+    /// False at the end of the file, or where it cannot be read further: then `fault` says why.
     bool next(Record& record);
     const std::vector<Fault>& faults() const { return faults_; }
 

@@ -1,5 +1,5 @@
-// What a drawing does not say and a scene needs: where a slip surface is searched, how large elements
-// are, the grid of a runout. Each is a guess from the ground's line, and told as one.
+// Entries that a scene needs and a drawing lacks: where a slip surface is searched, the element size,
+// the grid of a runout. Each is guessed from the ground's line, and reported as a guess.
 #pragma once
 
 #include <array>
@@ -10,23 +10,23 @@
 
 namespace breach::importing {
 
-/// For the questions of core/geometry/section.hpp.
+/// For the queries of core/geometry/section.hpp.
 geometry::Outlines outlines_of(const std::vector<Soil>& soils);
 
-/// Upper border of the soils from left to right; pieces where nothing lies between are left out [m].
+/// Upper border of the soils from left to right; stretches without soil are left out [m].
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils);
 
-/// Air between soil and soil below it, where it is highest.
+/// The highest gap of air between soil and soil below it.
 struct Void {
     Vec2 at;
     double height;             ///< [m]
     std::size_t above, below;  ///< indices of soils
 };
-/// None where nowhere more than `tolerance` [m].
+/// None where no gap is higher than `tolerance` [m].
 std::optional<Void> highest_void(const std::vector<Soil>& soils, double tolerance);
 
-/// The slope with the greatest fall between a height and the foot on one side of it: where its face
-/// ends, though the ground beyond may fall on.
+/// The slope with the greatest fall between a height and the foot on one side of it: the foot is
+/// where its face ends, even if the ground beyond keeps falling.
 struct Slope {
     Vec2 crest, toe;
     double fall() const { return crest.y() - toe.y(); }
@@ -34,7 +34,7 @@ struct Slope {
 /// None where the ground is level (a fall below a hundredth of its length).
 std::optional<Slope> slope_of(const std::vector<Vec2>& ground);
 
-/// The top has no slope and the bottom has one: depths, positive downwards, taken for levels.
+/// The top has no slope and the bottom has one: depths, positive downwards, read as levels.
 bool looks_upside_down(const std::vector<Soil>& soils);
 
 struct Ranges {

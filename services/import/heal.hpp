@@ -1,5 +1,5 @@
-// Outlines of soil that nearly fit together, made to fit: common vertices, no gaps, no overlaps. What
-// was done is told with its place and size; what is larger than the tolerance is a fault.
+// Makes outlines of soil fit together that nearly do: common vertices, no gaps, no overlaps. Reports
+// each change with place and size; deviations beyond the tolerance are faults.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Soil {
     Origin origin;
 };
 
-/// One thing that healing did.
+/// One change by healing.
 struct Change {
     std::string kind;  ///< gap, overlap, junction, sliver, short_side, spike, orientation, end
     std::vector<std::string> regions;
@@ -33,22 +33,22 @@ struct Healed {
     std::vector<Fault> faults;
 };
 
-/// `tolerance` [m]: what is nearer is meant to touch. `terrain`: a line from left to right that soil may
+/// `tolerance` [m]: nearer places are meant to touch. `terrain`: a line from left to right that soil may
 /// lie on; empty: none.
 Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>& terrain = {});
 
-/// Faces with the soil that each belongs to: what healing and cutting into layers end with.
+/// Faces with the soil that each belongs to: the result of healing and of cutting into layers.
 struct Shares {
     std::vector<Vec2> nodes;
     std::vector<Face> faces;
-    std::vector<int> owners;  ///< per face, index of a soil; -1: nobody's
+    std::vector<int> owners;  ///< per face, index of a soil; -1: none
 };
 
-/// Thin pieces that hang on their soil by a corner go to the neighbour with the longest common border.
+/// Moves thin pieces joined to their soil at a corner only to the neighbour with the longest border.
 void give_slivers_away(Shares& shares, const std::vector<Soil>& soils, double tolerance,
                        std::vector<Change>& changes);
 
-/// Outer rings of what a soil has got, the largest first; `holes`: it encloses something.
+/// Outer rings of a soil's faces, the largest first; `holes`: it encloses something.
 std::vector<Polygon> pieces_of(const Shares& shares, int owner, bool& holes);
 
 }  // namespace breach::importing

@@ -292,7 +292,7 @@ class Import {
     void fit() {
         drawn_ = soils_;
         Healed healed = importing::healed(soils_, request_.tolerance, lines_.terrain);
-        std::erase_if(healed.faults, [&](const Fault& each) {  // open ones are told already
+        std::erase_if(healed.faults, [&](const Fault& each) {  // open ones are reported already
             return each.cause.ends_with("encloses no area") && is_told(each.pointer);
         });
         tell(healed);

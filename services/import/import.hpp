@@ -1,6 +1,6 @@
-// A section drawn elsewhere (DXF, CSV) becomes a scene: read, healed, cut into layers, checked. Pure:
-// texts in, a scene or its faults out. Files, options and pictures are the command line's and the
-// service's affair.
+// Converts a section drawing (DXF, CSV) to a scene: read, healed, cut into layers, checked. Pure:
+// texts in, a scene or its faults out. The command line and the service handle files, options and
+// pictures.
 //
 // The namespace is not called `import`, which is a word of C++20.
 #pragma once
@@ -27,11 +27,11 @@ struct Request {
     std::vector<std::string> layers =
         {};  ///< "REGION=5,10,15": by depth below the phreatic line [m]
     std::optional<Sent> phreatic = {}, terrain = {}, ground = {};  ///< CSV with x, y
-    std::string unit = "";               ///< empty: what the drawing says, metres for CSV
+    std::string unit = "";               ///< empty: the drawing's, metres for CSV
     double tolerance = 0.05;             ///< nearer is meant to touch [m]
-    std::optional<double> flatten = {};  ///< arcs become chords that are off by so much [m]
+    std::optional<double> flatten = {};  ///< arcs become chords with at most this error [m]
     std::string name = "";               ///< of the scene; empty: of the file
-    bool confirmed = false;              ///< sizes that look like a slip are meant
+    bool confirmed = false;              ///< sizes that look like a wrong unit are meant
 };
 
 struct Imported {
@@ -39,16 +39,16 @@ struct Imported {
     /// unit, unit_from ("asked", "drawing", "default"), size [length, height, m], tolerance, healed,
     /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
     nlohmann::json report;
-    /// What looks like a slip and is not confirmed; they are faults as well.
+    /// Unconfirmed sizes that look like a wrong unit; they are faults as well.
     std::vector<fault::Fault> to_confirm;
     std::vector<fault::Fault> faults;  ///< pointers: "line 12", an option's name, or into the scene
-    scene::Scene sketch;  ///< to be drawn: the scene, or the outlines as they were sent
+    scene::Scene sketch;  ///< for a picture: the scene, or the outlines as they were sent
 };
 
-/// Never throws for what was sent.
+/// Never throws for any request.
 Imported import_section(const Request& request);
 
-/// The report for people, one thing a line; of `healed` the first `most`.
+/// The report as text lines; of `healed` the first `most`.
 std::vector<std::string> lines_of(const nlohmann::json& report, std::size_t most);
 
 }  // namespace breach::importing

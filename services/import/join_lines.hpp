@@ -1,5 +1,5 @@
-// Lines of a layer put end to end: what is drawn in pieces becomes one outline, closed where it comes
-// back to its beginning.
+// Joins the lines of a layer end to end: pieces become one outline, closed if it returns to its
+// beginning.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace breach::importing {
 
-/// Outlines of one layer in, as few as possible out; ends within `tolerance` [m] are one. Closed ones
-/// pass. The origin of a joined outline is that of its first piece.
+/// Joins the outlines of one layer into as few as possible; ends within `tolerance` [m] are one.
+/// Closed outlines are unchanged. The origin of a joined outline is that of its first piece.
 std::vector<Outline> joined(std::vector<Outline> pieces, double tolerance);
 
 }  // namespace breach::importing

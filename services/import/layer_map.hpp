@@ -1,4 +1,4 @@
-// What a layer of a drawing stands for: a material or a line of the section.
+// Meaning of a drawing's layer: a material or a line of the section.
 #pragma once
 
 #include <map>
@@ -22,8 +22,8 @@ struct Meaning {
 /// line (phreatic, terrain, ground) of its own name.
 class LayerMap {
   public:
-    /// `entries`: "LAYER=material", "LAYER=phreatic|terrain|ground|none". Adds to `faults` what is no
-    /// such entry.
+    /// `entries`: "LAYER=material", "LAYER=phreatic|terrain|ground|none". Adds a fault to `faults`
+    /// for any other form.
     LayerMap(const std::vector<std::string>& entries, const std::set<std::string>& materials,
              std::vector<Fault>& faults);
 

@@ -1,4 +1,4 @@
-// Numbers and lengths as drawings write them.
+// Numbers and lengths in drawings.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct Unit {
 /// m, mm, cm, dm, km, in, ft, yd, mi, us-ft (US survey foot).
 std::optional<Unit> unit_named(const std::string& name);
 std::string unit_names();
-/// Of DXF's $INSUNITS; none for 0 (unitless) and what no section is drawn in.
+/// Unit of DXF's $INSUNITS; none for 0 (unitless) and for units that no section is drawn in.
 std::optional<Unit> unit_of_code(int code);
 
 }  // namespace breach::importing

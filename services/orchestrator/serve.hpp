@@ -1,4 +1,4 @@
-// `breachline serve`: puts the parts together and runs until SIGINT or SIGTERM.
+// `breachline serve`: assembles the service and runs until SIGINT or SIGTERM.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ struct ServeSettings {
 };
 
 /// Prints {"event":"listening","url",...} on stdout when requests are answered. Returns the exit
-/// code; throws what keeps it from starting.
+/// code; throws when it cannot start.
 int serve(const ServeSettings& settings);
 
 }  // namespace breach::orchestrator

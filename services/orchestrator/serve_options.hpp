@@ -1,4 +1,4 @@
-// What `breachline serve` can be told, on the command line or in a settings file.
+// Options of `breachline serve`, from the command line or a settings file.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,14 +9,14 @@ namespace breach::orchestrator {
 
 class ServeOptions {
   public:
-    /// `self`: this executable; what is shared is looked for beside it.
+    /// `self`: this executable; shared files are expected beside it.
     explicit ServeOptions(const std::filesystem::path& self);
     ServeOptions(const ServeOptions&) = delete;
     ServeOptions& operator=(const ServeOptions&) = delete;
 
     /// Adds the subcommand and, to the program, --config FILE with its section [serve].
     CLI::App* add_to(CLI::App& program);
-    /// Which key of the settings file is none, with its line and the one that was probably meant.
+    /// Message about an unknown key of the settings file, with its line and the nearest known key.
     static std::string explained(const CLI::ConfigError& error, const CLI::App& program,
                                  const CLI::App& serving);
     /// After parsing. Throws BadInput and IoError.

@@ -1,4 +1,4 @@
-// The envelopes that runouts left (envelope.csv), one by one and over an ensemble.
+// The envelopes of runouts (envelope.csv), one by one and over an ensemble.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace breach::outflow {
 
-/// Of one runout, per column; not a number where a time never came.
+/// Of one runout, per column; NaN for a time that was not reached.
 struct Envelope {
     std::vector<double> x{};                      ///< ascending [m]
     std::vector<double> largest_depth{};          ///< [m]
@@ -30,18 +30,18 @@ void for_each_quantity(AnyEnvelope& envelope, Visit&& visit) {
     visit("final_depth", "m", envelope.final_depth);
 }
 
-/// Throws BadInput where it is no such table, IoError where it cannot be read.
+/// Throws BadInput if it is no such table, IoError if it cannot be read.
 Envelope read_envelope(const std::filesystem::path& file);
 
-/// One quantity over the samples; not a number where so few samples were reached that the percentile
-/// falls among those that never were.
+/// One quantity over the samples; NaN where so few samples were reached that the percentile falls
+/// among the others.
 struct Band {
     std::string quantity;
     std::string unit;
     std::vector<double> p10{};
     std::vector<double> p50{};
     std::vector<double> p90{};
-    /// Samples with a value of their own: of times those that were reached, else all.
+    /// Samples with a value of their own: for times those that were reached, else all.
     std::vector<std::size_t> rests_on{};
 };
 
@@ -52,12 +52,12 @@ struct Ensemble {
     std::vector<Band> bands{};           ///< one per quantity, in the order of for_each_quantity
 };
 
-/// Percentiles by linear interpolation between order statistics (as numpy's default) over all samples: one
-/// whose flow never reached an x is 0 deep and slow there, and arrives after all others. Samples on
-/// other grids are read between their columns; beyond its grid a sample is not reached.
+/// Percentiles by linear interpolation between order statistics (as numpy's default) over all samples: a
+/// sample with flow that never reached an x has depth and velocity 0 there, and arrives after all others.
+/// Samples on other grids are interpolated; beyond its grid a sample is not reached.
 Ensemble ensemble_of(std::span<const Envelope> samples);
 
-/// {"x": [...], "largest_depth": {"unit", "values"}}; what is not a number is null.
+/// {"x": [...], "largest_depth": {"unit", "values"}}; NaN is null.
 nlohmann::json as_json(const Envelope& envelope);
 /// {"samples", "x", "reached", "bands": {"arrival": {"unit", "p10", "p50", "p90", "rests_on"}}}
 nlohmann::json as_json(const Ensemble& ensemble);

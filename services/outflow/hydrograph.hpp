@@ -1,4 +1,4 @@
-// The hydrographs that a runout left at its sections (history.h5).
+// The hydrographs of a runout at its sections (history.h5).
 #pragma once
 
 #include <filesystem>
@@ -17,10 +17,10 @@ struct Hydrograph {
     std::vector<double> discharge{};  ///< mean since the entry before, towards +x [m2/s]
     std::vector<double> depth{};      ///< [m]
     std::vector<double> velocity{};   ///< [m/s]
-    std::vector<double> volume{};     ///< of soil as it lay, passed so far, net [m2]
+    std::vector<double> volume{};     ///< of soil before the runout, passed so far, net [m2]
     std::vector<double> mass{};       ///< [kg/m]
     std::string
-        warning{};  ///< why the runout's numbers are not to be relied on; empty: no reason is known
+        warning{};  ///< why the runout's numbers should not be relied on; empty: no reason is known
 };
 
 /// Calls visit(name, unit, values) for every column beside the time.
@@ -34,7 +34,7 @@ void for_each_column(AnyHydrograph& hydrograph, Visit&& visit) {
 /// Names of the sections that a history has.
 std::vector<std::string> sections_in(const exchange::Archive& history);
 
-/// Throws BadInput, naming `file` and the sections there are, where there is no such one.
+/// Throws BadInput, naming `file` and its sections, if the section does not exist.
 Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& section,
                          const std::string& file);
 
@@ -48,7 +48,7 @@ struct BreachWidth {
     double high;
 };
 
-/// Of a number or [low, best, high]. Throws BadInput at `pointer`.
+/// From a number or [low, best, high]. Throws BadInput at `pointer`.
 BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
                               const std::string& pointer);
 

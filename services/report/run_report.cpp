@@ -25,7 +25,7 @@ void lay_over(const Run& other, Document& document) {
     }
 }
 
-/// Runouts, grounds and variants of another run, told apart by its name.
+/// Runouts, grounds and variants of another run, distinguished by its name.
 void add_companion(const std::filesystem::path& folder, const std::optional<Paper>& paper,
                    Document& document) {
     const Run run = read_run(folder);

@@ -5,7 +5,7 @@
 
 namespace breach::report {
 
-/// What the page will hold. Throws IoError or BadInput.
+/// The content of the page. Throws IoError or BadInput.
 Document document_of(const Run& run, const Choice& choice);
 
 enum class Files { beside_the_page, none };

@@ -1,4 +1,4 @@
-// From an outline to a scene: layers, materials with what is assumed of them, and each phase's part.
+// Converts an outline to a scene: layers, materials with assumptions, and each phase's part.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,11 +8,11 @@
 
 namespace breach::templates {
 
-/// The scene; `name` and its title stand in it.
+/// The scene, with `name` and its title.
 nlohmann::ordered_json scene_of(const Values& values, const Outline& outline,
                                 const std::string& name);
 
-/// The study that runs it, named and entitled alike; the scene is "scene.json" beside it.
+/// The study that runs it, with the same name and title; its scene is "scene.json" beside it.
 nlohmann::ordered_json study_of(const Values& values, const nlohmann::ordered_json& scene);
 
 }  // namespace breach::templates

@@ -1,5 +1,5 @@
-// What can be made of a template, and what may be said of it: options with unit, default, range and a
-// sentence each. Nothing here knows a scene.
+// The templates and their options: unit, default, range and a sentence each. Independent of
+// scenes.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -26,18 +26,18 @@ struct Option {
 struct Template {
     std::string name;
     std::string title;
-    std::vector<Option> options;  ///< those that others follow come first
+    std::vector<Option> options;  ///< options that others follow come first
 };
 
 const std::vector<Template>& catalogue();
 /// Throws BadInput that lists the names.
 const Template& named(const std::string& name);
 
-/// "height / 3": how a default that follows comes about; empty: it is a number.
+/// "height / 3": the rule of a default that follows another option; empty: it is a number.
 std::string rule_of(const Option& option);
 
 /// {"templates": [{"name", "title", "options": [{"name", "topic", "type", "unit", "default", "rule",
-/// "follows", "share", "minimum", "maximum", "help"}]}]}; what it says and what each key is: README.md.
+/// "follows", "share", "minimum", "maximum", "help"}]}]}; described in README.md.
 nlohmann::json as_json(const std::vector<Template>& templates);
 
 }  // namespace breach::templates

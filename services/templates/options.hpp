@@ -1,5 +1,5 @@
-// The options that somebody gave, completed with the template's defaults and checked one by one and
-// against each other.
+// The given options, completed with the template's defaults and checked one by one and against each
+// other.
 #pragma once
 
 #include <map>
@@ -18,10 +18,10 @@ class Values {
     explicit Values(const Template& of) : template_(&of) {}
     double operator[](const std::string& name) const { return values_.at(name); }
     bool has(const std::string& name) const { return values_.contains(name); }
-    /// What the template does not offer is off.
+    /// Options that the template lacks are off.
     bool is_on(const std::string& name) const { return has(name) && values_.at(name) > 0.5; }
     int whole(const std::string& name) const;
-    /// What the template does not offer is none.
+    /// Options that the template lacks are 0.
     double or_none(const std::string& name) const { return has(name) ? values_.at(name) : 0.0; }
     void set(const std::string& name, double value) { values_[name] = value; }
     const Template& of() const { return *template_; }
@@ -35,14 +35,14 @@ class Values {
 /// Faults point at "/height" and the like. Throws BadInput with all of them.
 Values completed(const Template& of, const nlohmann::json& given);
 
-/// Options that do not go together, gathered until all are known.
+/// Collects options that do not fit together.
 class Refusal {
   public:
     explicit Refusal(const Values& values) : values_(&values) {}
     /// The option's own value is put before the cause: "is 12 m, ...".
     void unless(bool holds, const std::string& option, const std::string& cause,
                 const std::string& remedy);
-    /// Throws BadInput when there is anything to refuse.
+    /// Throws BadInput if there are any.
     void speak() const;
 
   private:

@@ -1,5 +1,5 @@
-// What a template draws: a section in parts with its water, before it is a scene. x points downstream,
-// the toe lies at (0, 0) on the foundation's surface.
+// The outline of a template: a section in parts with its water, before it becomes a scene. x points
+// downstream, the toe is at (0, 0) on the foundation's surface.
 #pragma once
 
 #include <string>
@@ -24,7 +24,7 @@ struct Outline {
     std::vector<Part> parts;  ///< they touch, without gaps; above the foundation
     Line ground;              ///< from the model's left end to the toe
     Line phreatic;            ///< from the left end to beyond the toe
-    std::string wet;          ///< the part whose soil below the phreatic line can liquefy
+    std::string wet;          ///< the part with soil that can liquefy below the phreatic line
     Vec2 crest;               ///< its downstream edge
     double crest_from;        ///< x of its upstream edge
     double left;              ///< x of the model's left end
@@ -39,15 +39,15 @@ struct Terrain {
     double rise, fall;  ///< metres per metre
 };
 
-/// Gives a whole outline its phreatic line: level from the left end to `from`, then Dupuit's parabola
-/// (h^2 linear in x), or straight through the piezometer's level where one is given, to the
-/// foundation's surface at x = `exit`; nowhere above the ground, beyond its exit on the foundation.
+/// Adds a phreatic line to an outline: level from the left end to `from`, then Dupuit's parabola (h^2
+/// linear in x), or straight through the piezometer's level where one is given, to the foundation's
+/// surface at x = `exit`; nowhere above the ground, and on the foundation beyond its exit.
 void add_water(const Values& values, const Vec2& from, double exit, Outline& outline);
 
-/// Refused where the ground rises into the upper half of the starter dam.
+/// A fault where the ground rises into the upper half of the starter dam.
 void check_heel(Refusal& refusal, double heel_level, double starter);
 
-/// Divides the tailings into beach and slimes, where slimes are asked for.
+/// Divides the tailings into beach and slimes, if slimes are requested.
 void part_slimes(const Values& values, const Vec2& contact, double heel, Outline& outline);
 
 /// The material of the starter dam.

@@ -1,4 +1,4 @@
-// A scene and the study that runs it, from the options of a template.
+// Generates a scene and its study from the options of a template.
 #pragma once
 
 #include <map>
@@ -16,11 +16,11 @@ struct Made {
     std::string motion;              ///< text of motion.csv; empty: the scene is not shaken
 };
 
-/// `options`: an object, {"height": 30}; what is left out has its default. "name" names scene and
-/// study. Throws BadInput with every fault, its pointer that of the option.
+/// `options`: an object, {"height": 30}; missing options have their defaults. "name" names scene
+/// and study. Throws BadInput with every fault, its pointer that of the option.
 Made make(const std::string& name, const nlohmann::json& options);
 
-/// As people read it: one entry per line where it is short. Ends with a line end.
+/// JSON for people: one entry per line where it is short. Ends with a line end.
 std::string as_text(const nlohmann::ordered_json& document);
 
 }  // namespace breach::templates

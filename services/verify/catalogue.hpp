@@ -1,4 +1,4 @@
-// What the programs are compared with: closed forms, published tables, independent programs.
+// The comparisons of `verify`: with closed forms, published tables, independent programs.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace breach::verify {
 
-/// Where a number stands in a folder that programs have left.
+/// Location of a number in a program's output folder.
 struct Place {
     std::string file;    ///< result.json, telemetry.jsonl, or a CSV file
     std::string at;      ///< JSON pointer; of a CSV file its column
     std::string key;     ///< entry (JSON lines) or column (CSV) that chooses the line; empty: none
-    double value = 0.0;  ///< that it has there, between two lines by a straight line
+    double value = 0.0;  ///< value of the key in that line; between two lines linear
 };
 
 struct Quantity {
@@ -23,19 +23,19 @@ struct Quantity {
     double right;
     double allowed;       ///< largest |difference|
     bool relative;        ///< `allowed` is a share of |right|
-    std::string because;  ///< why so much is allowed
-    double scale = 1.0;   ///< the programs' number times this is what is compared
-    /// What the number converges to: the order of its error over the case's levels is compared.
+    std::string because;  ///< reason for this tolerance
+    double scale = 1.0;   ///< factor on the programs' number before the comparison
+    /// Limit of the number: compares the order of its error over the case's levels.
     std::optional<double> limit = {};
 };
 
-/// One of the runs whose errors tell an order of convergence.
+/// One run of a series with an order of convergence.
 struct Level {
-    double size;  ///< that is refined, in any unit
+    double size;  ///< the refined size, in any unit
     std::vector<std::string> set;
 };
 
-/// The right answer of a case that must be refused or stopped.
+/// The expected refusal or stop of a case.
 struct Refusal {
     int exit_code;
     std::vector<std::string> says;  ///< words of its message
@@ -61,8 +61,8 @@ struct Topic {
     std::vector<Case> cases;
 };
 
-/// Every *.json of the folder, by name. Throws BadInput where an entry lacks its source, right value or
-/// tolerance with a reason, or two cases have one id.
+/// Every *.json of the folder, by name. Throws BadInput where an entry lacks its source, expected value
+/// or tolerance with a reason, or two cases have one id.
 std::vector<Topic> catalogue_in(const std::filesystem::path& folder);
 
 }  // namespace breach::verify

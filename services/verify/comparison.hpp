@@ -1,4 +1,4 @@
-// Runs the catalogue's cases through the programs and compares what they leave.
+// Runs the catalogue's cases with the programs and compares the results.
 #pragma once
 
 #include <functional>
@@ -11,10 +11,10 @@ namespace breach::verify {
 struct Found {
     const Quantity* quantity;
     std::optional<double> value = {};
-    std::string problem = {};  ///< why there is none
+    std::string problem = {};  ///< why there is no value
 
     double difference() const { return *value - quantity->right; }
-    /// |difference| over what is allowed; infinite where there is no value.
+    /// |difference| over the tolerance; infinite if there is no value.
     double used() const;
     bool passed() const { return used() <= 1.0; }
 };
@@ -32,11 +32,11 @@ struct Settings {
     unsigned slots = 1;
 };
 
-/// In the catalogue's order. said: after each case.
+/// In the catalogue's order. said: called after each case.
 std::vector<Outcome> compare(const std::vector<Topic>& catalogue, const Settings& settings,
                              const std::function<void(const Outcome&, std::size_t of)>& said);
 
-/// "lem_tool 1.0.0+abc (numerics 8), ...": what the programs say of themselves.
+/// "lem_tool 1.0.0+abc (numerics 8), ...": versions as the programs report them.
 std::string versions_of(const Settings& settings);
 
 }  // namespace breach::verify

@@ -16,7 +16,7 @@ struct About {
 
 struct Sum {
     std::size_t comparisons = 0, passed = 0;
-    double worst = 0.0;  ///< largest share of what is allowed that is used
+    double worst = 0.0;  ///< largest used share of a tolerance
     double cpu_seconds = 0.0;
 };
 Sum sum_of(const std::vector<Outcome>& outcomes);

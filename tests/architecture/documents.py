@@ -1,4 +1,4 @@
-"""Every page that a comment, a page or a message names exists, every link between pages leads somewhere, and every tutorial is run."""
+"""Every page that a comment, a page or a message names exists, every link between pages and its anchor exist, and every tutorial is run."""
 import os
 import pathlib
 import re
@@ -8,7 +8,7 @@ import sys
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 # A path of letters that ends in .md, as prose and code write it. What programs write at run time is no page of ours.
 named = re.compile(r"(?<![\w./-])((?:[\w.-]+/)*[\w-]+\.md)\b")
-link = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+link = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 templates = root / "workflows/verification/pages"  # their links are those of the pages in docs/verification that they become
 written_at_run_time = {"index.md"}
 code = {".hpp", ".cpp", ".in", ".py", ".mjs", ".js", ".txt", ".json", ".sh"}
@@ -21,6 +21,16 @@ def tracked():
     return [f for f in root.rglob("*") if f.is_file() and "build" not in f.relative_to(root).parts]
 
 
+def anchors(page):
+    """Of the headings of a page, by GitHub's rule: lower case, no punctuation, - for a space; repeated ones get -1, -2."""
+    found = set(re.findall(r'<a (?:id|name)="([^"]+)"', text := re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S)))
+    for heading in re.findall(r"^#{1,6} +(.*?)(?: +#+)? *$", text, re.M):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)
+        slug = re.sub(r"[^\w\- ]", "", plain.lower()).replace(" ", "-")
+        found.add(slug if slug not in found else next(f"{slug}-{k}" for k in range(1, 99) if f"{slug}-{k}" not in found))
+    return found
+
+
 def main():
     faults, names = [], 0
     for file in tracked():
@@ -30,10 +40,13 @@ def main():
         here = file.relative_to(root)
         if file.suffix == ".md":
             folder = root / "docs/verification" if file.parent == templates else file.parent
-            for target in link.findall(text):
+            for target, anchor in link.findall(text):
                 names += 1
-                if "://" not in target and not (folder / target).exists():
+                page = folder / target if target else file
+                if "://" not in target and not page.exists():
                     faults.append(f"{here}: the link {target} leads nowhere")
+                elif anchor and page.suffix == ".md" and "://" not in target and anchor not in anchors(page):
+                    faults.append(f"{here}: {target}#{anchor}: the page has no such heading")
             continue
         for page in set(named.findall(text)) - written_at_run_time:
             names += 1

@@ -1,12 +1,16 @@
-"""What a person reads is in plain English (CONTRIBUTING.md, Style): few words, short sentences, the field's terms.
+"""What a person reads is in plain English (CONTRIBUTING.md, Style): few words, short sentences, the field's terms. Pages, messages,
+descriptions, comments and names of tests.
 
     words_test.py              every rule; exit 1 where one is broken
     words_test.py --count      words per page"""
+import ast
 import fnmatch
+import io
 import json
 import re
 import statistics
 import sys
+import tokenize
 
 import documents
 from documents import root
@@ -52,6 +56,11 @@ TWINS = {
 MESSAGES = ["core", "element_bench", "fem_solver", "lem_tool", "mpm_solver", "services", "transfer_tool"]
 DESCRIPTIONS = ["workflows/schema/scene.schema.json", "workflows/schema/study.schema.json", "workflows/schema/element_test.schema.json",
                 "services/orchestrator/http/openapi.json"]
+# Code that stays as it is: keys of measured results, and this list of words.
+FROZEN = ("tests/benchmark/features/", "tests/verification/mpm/stiffness_test.py", "tests/architecture/words_test.py")
+SAID_BY = ("services/web/static/", "services/python/")  # literals of JavaScript and Python that a person reads
+TOKEN = re.compile(r'(?P<comment>//[^\n]*(?:\n[ \t]*//[^\n]*)*|/\*.*?\*/)|(?P<raw>R"(\w*)\(.*?\)\3")'
+                   r"|(?P<literal>\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'|`(?:[^`\\]|\\.)*`)", re.S)
 # Where a banned word is the right one: (file, text around it).
 EXCEPTIONS = [
     ("services/orchestrator/study/read_study.cpp", "a blind check draws one setting"),
@@ -178,6 +187,50 @@ def faults_of_messages():
                 yield from faults_of_words(name, literal, BANNED | TWINS)
 
 
+def texts_of_python(text):
+    """(comment?, text) of each comment and literal; a docstring is a comment."""
+    tree = ast.parse(text)
+    documented = (ast.Module, ast.ClassDef, ast.FunctionDef)
+    for node in ast.walk(tree):
+        if isinstance(node, documented):
+            yield True, ast.get_docstring(node) or ""
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield False, node.value
+    lines = {token.start[0]: token.string for token in tokenize.generate_tokens(io.StringIO(text).readline) if token.type == tokenize.COMMENT}
+    yield True, "\n".join(part for line, part in lines.items() for part in ([] if line - 1 in lines else [""]) + [part])
+
+
+def texts_of_code(text):
+    """The same of C++ and JavaScript. In C++ a ' between digits is no quote."""
+    for found in TOKEN.finditer(re.sub(r"(?<=\d)'(?=\d)", "", text)):
+        if not found["raw"]:
+            yield found["comment"] is not None, found["comment"] or re.sub(r"\$\{[^{}]*\}", "VALUE", found["literal"][1:-1])
+
+
+def names_of_tests(name, text):
+    if name.endswith(".cpp"):
+        for found in re.finditer(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", text, re.M):
+            yield " ".join(re.findall(r"[A-Z]?[a-z0-9]+|[A-Z]+(?![a-z])", f"{found[1]} {found[2]}"))
+    elif name.endswith(".py"):
+        yield from (found[1].replace("_", " ") for found in re.finditer(r"def (test_\w+)", text))
+    elif name.endswith(".mjs"):
+        yield from (found[1] for found in re.finditer(r'^test\("([^"]*)"', text, re.M))
+
+
+def faults_of_code():
+    for name in tracked("*.cpp", "*.hpp", "*.py", "*.js", "*.mjs"):
+        if name.startswith(FROZEN):
+            continue
+        text = (root / name).read_text()
+        said = name.startswith(SAID_BY)
+        for is_comment, each in (texts_of_python if name.endswith(".py") else texts_of_code)(text):
+            if is_comment or (said and " " in each.strip()):
+                plain = re.sub(r"\s*\n\s*(?://+<?|#)?\s*", " ", re.sub(r"`[^`\n]*`|\"[^\"\n]*\"", "", each))
+                yield from faults_of_words(name, plain, BANNED)
+        for each in names_of_tests(name, text):
+            yield from faults_of_words(f"{name}: name of a test", each, BANNED)
+
+
 def main():
     if "--count" in sys.argv:
         for name in tracked("*.md"):
@@ -185,7 +238,7 @@ def main():
                 text = (root / name).read_text()
                 print(f"{number_of_words(text):6} {'generated ' if is_generated(text) else ''}{name}")
         return 0
-    faults = [*faults_of_pages(), *faults_of_descriptions(), *faults_of_messages()]
+    faults = [*faults_of_pages(), *faults_of_descriptions(), *faults_of_messages(), *faults_of_code()]
     print("\n".join(faults) or "plain")
     return 1 if faults else 0
 

@@ -180,7 +180,7 @@ test("faults stand at their field and at their line, live and when refused; the 
     assert.equal(await page.locator("#study-lines mark").count(), 1, "the other one is still there");
 });
 
-test("a motion is sent, named in the scene by its content, and told; what is none is refused at its field", async () => {
+test("a motion is sent, named in the scene by its content, and shown; what is none is refused at its field", async () => {
     const shaken = JSON.parse(study_text);
     shaken.scene.fem.motion = { file: "", scale_to_pga_g: 0.2 };
     await load(shaken);

@@ -58,7 +58,7 @@ test("what the service finds wrong stands at its fields, in its variants too", a
     assert.match(await page.locator("#form .variants-table tbody tr").nth(1).locator(".field-faults").textContent(), /-3/);
 });
 
-test("a scene is made from a template, its options are fields, and a bad one is told at its field", async () => {
+test("a scene is made from a template, its options are fields, and a bad one is reported at its field", async () => {
     await go_to_step(page, "Section");
     await page.selectOption("#template-choice", "upstream_dam");
     await until("the dam, drawn", async () => (await page.locator("#drawing-picture path.region").count()) > 4);
@@ -74,7 +74,7 @@ test("a scene is made from a template, its options are fields, and a bad one is 
     await screenshot_at("form_template");
 });
 
-test("a shaken dam's motion is told, and another one sent in its place", async () => {
+test("a shaken dam's motion is shown, and another one sent in its place", async () => {
     await go_to_step(page, "Water");
     await page.getByLabel("with fem", { exact: true }).selectOption({ label: "yes" });
     await until("a motion", async () => /^file:sha256/.test((await value()).scene.fem?.motion?.file ?? ""));

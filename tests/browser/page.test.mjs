@@ -609,7 +609,7 @@ test("variants at one transfer time stand side by side, each with its name", asy
     await screenshot(page, "page_variants_side_by_side");
 });
 
-test("twelve variants have curves that can be told apart, by colour and by shape", async () => {
+test("twelve variants have curves that differ, by colour and by shape", async () => {
     await open_run(api.add_run(twelve_curves, { began: Date.now() - 60000 }).id);
     await until("all markers", async () => (await page.locator("#runout-plot svg.plot > .marker").count()) === 84);
     const looks = await page.evaluate(() => [...document.querySelectorAll("#runout-plot svg.plot > .marker")].map((one) =>
@@ -739,7 +739,7 @@ test("every number leads to its files, hashes and settings", async () => {
     await page.keyboard.press("Escape");
 });
 
-test("a transfer belongs to the FEM that it was taken from, whatever that is called", async () => {
+test("a transfer belongs to the FEM that it was taken from, under any name", async () => {
     await open_run(variants_run());
     const found = await page.evaluate(async () => {
         const { fem_of } = await import("/static/provenance.js");

@@ -31,7 +31,7 @@ async function open_samples(count, settings = {}, more = {}) {
     return run;
 }
 
-test("samples that nothing was transferred of have ended, and are counted apart from those that failed", async () => {
+test("samples without a transfer have ended, and are counted separately from those that failed", async () => {
     await open_samples(64, {}, { stood: ["s0010", "s0011"] });
     const doubts = await text_of("#uncertainty-doubts");
     assert.match(doubts, /2 samples of 64 left no result/);
@@ -39,7 +39,7 @@ test("samples that nothing was transferred of have ended, and are counted apart 
     assert.match(await text_of("#uncertainty-left-out-title"), /4 samples/);
 });
 
-test("how many samples there are, and what that leaves unsaid, stands above the numbers", async () => {
+test("the number of samples, and its limits, are shown above the numbers", async () => {
     const run = await open_samples(64);
     assert.match(await text_of("#uncertainty-counts"), /^60 of 64 samples ended with a result/);
     const doubts = await text_of("#uncertainty-doubts");
@@ -124,7 +124,7 @@ test("what stands along x says on how many samples it rests", async () => {
     await screenshot(page, "uncertainty");
 });
 
-test("too few samples have no percentiles, and it is said", async () => {
+test("too few samples have no percentiles, and the page says so", async () => {
     await open_samples(5);
     assert.match(await text_of("#uncertainty-refused"), /3 samples are not enough for the 50th percentile/);
     assert.ok(await page.isHidden("#uncertainty-percentiles"));

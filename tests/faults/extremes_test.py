@@ -73,7 +73,7 @@ class Extremes(unittest.TestCase):
     def raw_get(self, path):
         return self.service.raw(f"GET {path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
 
-    def test_slow_requests_hold_up_nobody(self):
+    def test_slow_requests_delay_no_other(self):
         head = b"POST /v1/runs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
         slow = [self.service.connect(head[: 5 + i]) for i in range(40)]  # headers that do not end
         slow += [self.service.connect(head + b"Content-Length: 1000\r\n\r\n{") for _ in range(40)]  # nor the body

@@ -265,7 +265,7 @@ TEST(Faults, BreakdownKeepsTheTransfersWhoseSnapshotsExist) {
     EXPECT_EQ(task_labelled(end, "fem").at("attempts").size(), 1u);  // 70 is never retried
 }
 
-TEST(Faults, TryAgainAndCrashAreRetriedButNotForEver) {
+TEST(Faults, TryAgainAndCrashAreRetriedALimitedNumberOfTimes) {
     const Sandbox sandbox;
     Service service(sandbox);
     // The misbehaviour is in the title, which no phase reads: to the cache these are equal.

@@ -71,7 +71,7 @@ class FullDisk(unittest.TestCase):
             after = service.submit(study())
             for run in (before, *acknowledged, after):
                 end = service.wait_for_end(run)
-                if end["state"] in ("failed", "partial"):  # a phase that met the full disk said so, and may be told to try again
+                if end["state"] in ("failed", "partial"):  # a phase that met the full disk said so; a later request may retry it
                     faults = [each["fault"] for each in end["tasks"] if each["state"] == "failed"]
                     self.assertEqual({each["exit_code"] for each in faults}, {74}, faults)
                     self.assertEqual(service.ask(f"/v1/runs/{run}/retry", {})[0], 202)

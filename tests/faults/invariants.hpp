@@ -1,4 +1,4 @@
-// What must be true of a service's memory and of its files, whatever was killed when.
+// Invariants of a service's store and files after any kill.
 #pragma once
 
 #include "services/orchestrator/store/store.hpp"
@@ -6,9 +6,9 @@
 
 namespace breach::testing {
 
-/// `breachline check` of a service that has stopped, its outputs read whole; every finding is a failure of the running
-/// test: a move that the lifecycle does not allow, two live attempts of one task, a success told twice, a state that is
-/// not the last event's, counts that are not those of the tasks, an artifact whose hash is not its own, a stray folder.
+/// `breachline check` of a stopped service, its outputs read whole; every finding is a failure of the running test: a
+/// move that the lifecycle does not allow, two live attempts of one task, a success stored twice, a state that is not
+/// the last event's, wrong counts of tasks, an artifact with another hash, a stray folder.
 void expect_sound_history(const Sandbox& sandbox);
 
 }  // namespace breach::testing

@@ -84,7 +84,7 @@ class Listeners(unittest.TestCase):
         self.assertEqual(got[0][2]["events"][0]["run"], run)
         self.assertEqual(self.service.ask("/v1/events?after=999999&wait=1")[2]["events"], [])
 
-    def test_two_hundred_are_served_and_the_next_is_told_to_come_again(self):
+    def test_two_hundred_are_served_and_the_next_must_come_again(self):
         streams = [Stream(self.service) for _ in range(200)]
         self.assertEqual({each.status for each in streams}, {200})
         refused = Stream(self.service)
@@ -107,7 +107,7 @@ class Listeners(unittest.TestCase):
 
         until(has_a_seat)  # seats are given back
 
-    def test_one_that_does_not_read_holds_up_no_other(self):
+    def test_one_that_does_not_read_delays_no_other(self):
         stalled = [self.service.connect(request % (b"?after=0", b"")) for _ in range(20)]
         reader = Stream(self.service, b"?after=0")
         for _ in range(5):

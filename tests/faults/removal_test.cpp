@@ -111,7 +111,7 @@ TEST(Removal, IsRefusedWhileTheRunGoesOnOrIsPinned) {
     EXPECT_TRUE(fs::is_empty(sandbox.data() / "runs"));
 }
 
-TEST(Removal, AListenerIsToldAndTheKeyIsFreeAgain) {
+TEST(Removal, AListenerGetsTheEventAndTheKeyIsFreeAgain) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string wanted = study("", {0.25}).dump();

@@ -1,4 +1,4 @@
-"""Named tokens: each may do what its right says, is told what it lacks, stands in the history of what it did, and may be
+"""Named tokens: each may do what its right says, gets an answer that names the missing right, is in the history of its requests, and may be
 made and taken away while the service runs."""
 import json
 import pathlib

@@ -1,7 +1,7 @@
-// What the fuzz targets share: the one function that libFuzzer and replay.cpp call, files
-// for readers that want a path, and a purse of bytes to decide with. A target returns when its input
-// was taken or refused as bad input; whatever else is thrown is a defect, as is what a sanitizer
-// finds.
+// Shared by the fuzz targets: the one function that libFuzzer and replay.cpp call, files for readers
+// that need a path, and the input as a source of decisions. A target returns when its input was
+// accepted or refused as bad input; any other exception is a defect, and so is a sanitizer's
+// finding.
 #pragma once
 
 #include <unistd.h>
@@ -20,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace breach::fuzz {
 
-/// A promise that the code makes and this input broke.
+/// Fails where this input breaks a promise of the code.
 inline void require(bool kept, const char* promise) {
     if (!kept) throw std::logic_error(std::string("broken promise: ") + promise);
 }
@@ -54,7 +54,7 @@ class File {
     std::filesystem::path path_;
 };
 
-/// The input spent byte by byte on decisions; zeros when it is used up.
+/// The input consumed byte by byte for decisions; zeros when it is used up.
 class Purse {
   public:
     Purse(const std::uint8_t* data, std::size_t size) : rest_(data, data + size) {}

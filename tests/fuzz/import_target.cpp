@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const fault::Fault& each : imported.faults)
         fuzz::require(!each.cause.empty() && !each.remedy.empty() &&
                           nlohmann::json(each.cause + each.pointer).dump().size() > 2,
-                      "a fault says why, in UTF-8, and how to mend it");
+                      "a fault says why, in UTF-8, and what to write instead");
     const report::Draft draft{{shown, {}, ""}, imported.sketch, imported.faults};
     if (report::can_be_drawn(draft)) report::as_svg(draft, {});
     return 0;

@@ -1,4 +1,4 @@
-"""How much one `breachline serve` bears: a table of rates and latencies, all on loopback, over in less than a minute.
+"""The load that one `breachline serve` can carry: a table of rates and latencies, all on loopback, over in less than a minute.
 
     load.py [--brief] [--clients N] [--seconds S] [--data DIR]
 
@@ -101,7 +101,7 @@ class Service:
 
 
 class Table:
-    """The last column does not hang on what else the machine does: CPU time of the service since the row before, per
+    """The last column does not depend on other load of the machine: CPU time of the service since the row before, per
     request."""
 
     def __init__(self, service):

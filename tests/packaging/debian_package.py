@@ -44,7 +44,7 @@ class Unit:
                 self.command = value
 
     def command_line(self, **changed):
-        """As systemd expands it: ${X} is one word whatever it holds, $X as many words as it holds."""
+        """As systemd expands it: ${X} is one word with any content, $X as many words as it contains."""
         words = []
         variables = {**self.variables, **changed}
         for word in self.command.split():

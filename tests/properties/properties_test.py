@@ -36,7 +36,7 @@ def moved_by(run):
 
 
 def comes_to_its_answer(bench, case):
-    """Whatever happens on the way, the rows, means, state and verdict are those of the answer."""
+    """After any events on the way, the rows, means, state and verdict are those of the answer."""
     extended = bool({"extend", "extend_at_once"} & set(case["disturbances"]))
     for study, run in journey(bench, case):
         end = bench.wait(run)

@@ -86,7 +86,7 @@ class Files(unittest.TestCase):
         self.assertEqual((comparison.only_here, comparison.only_there), ([("x", 0.5), ("x", 2.0)], [("x", 0.9)]))
         self.assertIn("x 1 and 0.7 s: runout 20 m, 23 m, difference +3 m", repr(comparison))
 
-    def test_variants_in_no_row_are_told(self):
+    def test_variants_in_no_row_are_listed(self):
         folder = self.export("a", rows((0.5, "succeeded", 12.5, "loose")))
         (folder / "results.json").write_text(json.dumps({"columns": COLUMNS, "rows": rows((0.5, "succeeded", 12.5, "loose")),
                                                          "without_transfer": [{"variant": "dense", "reason": "its trigger expired"}]}))

@@ -99,7 +99,7 @@ TEST_F(SlurmFaults, SweepIsWholeAndWhatIsReadyTogetherIsOneArray) {
     EXPECT_TRUE(asked_for_resources);
 }
 
-TEST_F(SlurmFaults, JobThatEndsBeforeItsAnswerHoldsUpNoOther) {
+TEST_F(SlurmFaults, JobThatEndsBeforeItsAnswerDelaysNoOther) {
     // sbatch has answered for the FEM, and its answer is held back until the FEM has ended, its
     // exit record was read and the executor has forgotten it. What waits behind it, with other
     // resources and so in another call of sbatch, must still be asked for.
@@ -175,7 +175,7 @@ TEST_F(SlurmFaults, ControllerThatIsGoneIsWaitedFor) {
         EXPECT_EQ(each.at("attempts").size(), 1u) << each.at("label");
 }
 
-TEST_F(SlurmFaults, CommandsThatHangHoldUpNoRequest) {
+TEST_F(SlurmFaults, CommandsThatHangDelayNoRequest) {
     begin("hang");
     const auto service = this->service();
     const std::string run = service->submit(study("", {0.5}));

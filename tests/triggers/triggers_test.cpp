@@ -371,7 +371,7 @@ TEST(Trigger, BisectFindsTheEdgeWithFewerRunsThanSnapshots) {
 }
 
 /// The runout is 10 + t_T^2, by_cell moves it by 2 cm x shift: the shifts are 0, 0.4588 and 0.0176.
-TEST(Trigger, BisectIsDecidedByTheMeanOfTheDrawsAndTellsWhereTheirBandStraddlesTheLevel) {
+TEST(Trigger, BisectIsDecidedByTheMeanOfTheRepeatsAndReportsWhereTheirBandStraddlesTheLevel) {
     const Live live;
     Service service(live.sandbox);
     json study = with_triggers(

@@ -7,7 +7,7 @@ import tempfile
 from phases import check, result, root, run
 
 SLOPE = root / "workflows/scenes/slope.json"
-# Weak soil that does not soften, in the words of the accuracy study: no band hangs on the cells.
+# Weak soil that does not soften, in the words of the accuracy study: no band depends on the cells.
 STUDY = json.loads((root / "workflows/accuracy/slope_flow.json").read_text())
 WEAK = [word for each in STUDY["accuracy"]["base"] if each.startswith("/materials/") for word in ("--set", each)]
 MOMENT = 0.8  # s

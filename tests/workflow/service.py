@@ -36,7 +36,7 @@ class Service:
             return answer.read().decode()
 
     def post(self, path, body):
-        """(status, answer), whatever the status; of a picture its text."""
+        """(status, answer), for any status; of a picture its text."""
         request = urllib.request.Request(self.url + path, data=json.dumps(body).encode(), headers={"Content-Type": "application/json"})
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:

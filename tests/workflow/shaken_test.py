@@ -46,7 +46,7 @@ def scene_of(folder):
             # Soil that shears beside elastic soil drags points of it along, within a quarter of a cell: all of it yields here,
             # the neighbours a little later than the layer.
             "ground": {"density": 2200, "law": cohesive(1000, 0.25, 35)}, "block": {"density": 2000, "law": cohesive(100, 0.25, 35)},
-            # light, so that all of it yields at once and no band hangs on elements or cells; stiff enough at its free ends
+            # light, so that all of it yields at once and no band depends on elements or cells; stiff enough at its free ends
             "layer": {"density": 400, "law": cohesive(30, 0.3, 28)}},
         "section": {"regions": [box("ground", "ground", -20, 0, 20, 2, [40, 2]), box("layer", "layer", -10, 2, 10, 3, [20, 2]),
                                 box("block", "block", -10, 3, 10, 5, [20, 2])]},

@@ -115,7 +115,7 @@ inline Traits traits(const DruckerPrager& law) {
             .symmetric_tangent = law.psi == law.phi,
             .tells_plastic_strain = true};
 }
-/// Of plane strain, to which the cone is fitted.
+/// In plane strain, to which the cone is fitted.
 inline std::optional<Strength> limit_strength(const DruckerPrager& law) {
     return Strength{law.c, std::tan(law.phi)};
 }

@@ -381,7 +381,7 @@ template <Softens softens, class Real>
     return update;
 }
 
-/// Out of line: it is long, and whole blocks that stay elastic pass it by.
+/// Not inlined: it is long, and blocks that stay elastic skip it.
 template <class Isa, Softens softens>
 [[gnu::noinline]] void return_block(const MohrCoulombNumbers& law,
                                     const mohr_coulomb_lanes::ConeOf<Lanes<Isa::lanes>>& cone,

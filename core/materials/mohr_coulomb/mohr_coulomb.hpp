@@ -1,4 +1,4 @@
-// Mohr-Coulomb with tension cut-off for one point. What does not change from point to point is
+// Mohr-Coulomb with tension cut-off for one point. What is the same for all points is
 // resolved once (`ready`), and the elastic step is inline.
 #pragma once
 
@@ -21,7 +21,7 @@ struct MohrCoulomb {
                             ///< / tan(phi)
     std::optional<Softening> softening;
     /// point: in the MPM c, phi and their residuals are each point's own (strength/profile.hpp);
-    /// the law's serve who knows no points
+    /// code without points uses the law's
     StrengthOf strength_of = StrengthOf::law;
     double tension_share = 0.0;  ///< see Tension
 };

@@ -17,14 +17,14 @@ using Strain = Components<double>;
 Strain inward(const Voigt& d_epsilon);
 bool may_be_tried(const Strain& d, const Options& options);
 
-/// The direction of a strain's deviator as a stress of unit measure; zero where it has none.
+/// The direction of a strain's deviator as a stress of unit measure; zero for a zero deviator.
 Components<double> direction_of(const Strain& d);
 
-/// A guess of a sub-step is no smaller: what a call of round-off (or of nothing) would leave as a
-/// guess costs the next call all its evaluations in doublings.
+/// Lower limit of the guessed sub-step: after a call with a strain of round-off (or zero) a smaller
+/// guess would cost the next call all its evaluations in doublings.
 inline constexpr double least_guess = 1e-8;  // strain
 
-/// One call in the making: what a lane of a walk does not carry.
+/// One call in progress: the data that a lane of a walk does not carry.
 struct Task {
     Update* update;  ///< the state being changed, and what is counted
     Strain plastic;  ///< strain that is left after the elastic part
@@ -33,8 +33,8 @@ struct Task {
 /// Elastic part. True if there is plastic strain to walk through.
 bool open_call(const Ready& law, const State& old, const Strain& d, Task& task);
 
-/// Takes a state on the surface that unloads along the strain `rest`: how much of it is elastic. 1:
-/// all of it; 0: nothing, what looked like unloading was neutral. The state is moved.
+/// Takes a state on the surface that unloads along the strain `rest`; returns the elastic share. 1:
+/// all of it; 0: none, the apparent unloading was neutral. Moves the state.
 double unload(const Ready& law, const Strain& rest, State& state);
 
 /// Closes a call: void ratio, floor, tension, and the old state if it failed.
@@ -128,7 +128,7 @@ template <class R>
     return Next::again;
 }
 
-/// Whether lane i has come to its end, after `advance` or to begin again, and how.
+/// Whether lane i has ended, after `advance` or before `begin`, and how.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
                                         const Options& options, Task& task) {
@@ -139,7 +139,7 @@ template <class R>
     return stuck || over;
 }
 
-/// What calls.hpp asks for.
+/// The interface of calls.hpp.
 struct Calls {
     using Ready = norsand::Ready;
     using State = norsand::State;

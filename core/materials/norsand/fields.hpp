@@ -1,4 +1,4 @@
-// All numbers of a NorSand state in one fixed order, for whoever stores it.
+// All numbers of a NorSand state in one fixed order, for storing them.
 #pragma once
 
 #include "core/materials/norsand/norsand.hpp"

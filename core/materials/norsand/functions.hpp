@@ -176,7 +176,7 @@ struct Surface {
     Axes<R> axes;
 };
 
-/// direction: taken for the deviatoric stress where that vanishes (section 5).
+/// direction: replaces the deviatoric stress where that vanishes (section 5).
 template <class R>
 [[gnu::always_inline]] inline Surface<R> surface_at(const Ready& law, const Place<R>& at,
                                                     const Components<R>& direction) {
@@ -186,7 +186,7 @@ template <class R>
     out.p = trace(at.sigma) * R(1.0 / 3.0);
     out.s = deviator(at.sigma, out.p);
     out.q = shear_measure(out.s);
-    // Far below the floor nothing is believed; logarithms must exist all the same.
+    // Far below the floor values have no meaning; logarithms must exist all the same.
     const R p = larger(out.p, R(1e-3 * par.p_min));
     const auto flat = out.q < R(no_deviator) * p;
     out.axes = axes_of(choose(flat, direction, out.s));

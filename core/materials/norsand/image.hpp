@@ -1,4 +1,4 @@
-// The size of the surface that goes with a stress or with the limiting hardness (sections 4 and
+// The size of the yield surface for a stress or for the limiting hardness (sections 4 and
 // 9), for one point.
 #pragma once
 
@@ -12,7 +12,7 @@ double image_share(const Ready& law, double chi_i, double psi_i);
 /// chi_i psi_i / M_i,tc: how far the limiting hardness lies below p, in its logarithm.
 double limiting_share(const Ready& law, double chi_i, double psi_i);
 
-/// A stress in the p-q plane that a surface is to pass through.
+/// A stress in the p-q plane through which a surface passes.
 struct Bullet {
     double p;    ///< [Pa]
     double eta;  ///< q/p

@@ -1,5 +1,5 @@
-// NorSand (norsand.hpp) as one of the laws. Its points remember a norsand::State (memory.hpp), and
-// its undrained strength follows from that (state_parameter.hpp).
+// NorSand (norsand.hpp) as one of the laws. Its points remember a norsand::State (memory.hpp), from
+// which its undrained strength follows (state_parameter.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,8 +20,8 @@ struct NorSand {
     mechanics::Elasticity elasticity;  ///< of the stages before norsand::initialise: G = G_ref
     norsand::Ready ready;              ///< S is the material's; stages may set another (with_S)
     norsand::Options options;
-    std::optional<double> psi_0;  ///< state parameter of the beginning [-]; one of the three
-    std::optional<double> e_0;    ///< void ratio of the beginning [-]
+    std::optional<double> psi_0;  ///< initial state parameter [-]; exactly one of the three
+    std::optional<double> e_0;    ///< initial void ratio [-]
     double R = 1.0;               ///< overconsolidation [-]
     std::optional<Table> psi_0_profile{};  ///< psi_0 along depth or elevation
 };
@@ -34,7 +34,7 @@ inline double K_0(const NorSand& law) { return law.elasticity.nu / (1.0 - law.el
 inline double level_ground_p(const NorSand& law, double sigma_v0) {
     return (1.0 + 2.0 * K_0(law)) / 3.0 * sigma_v0;
 }
-/// The state parameter where sigma'_v0 consolidated level ground [-].
+/// The state parameter of level ground consolidated under sigma'_v0 [-].
 inline double psi_at(const NorSand& law, const Place& place) {
     if (law.psi_0_profile) return law.psi_0_profile->at(place);
     if (!law.e_0) return law.psi_0.value_or(0.0);
@@ -62,7 +62,7 @@ inline std::optional<Strength> limit_strength(const NorSand& law) {
 }
 inline const Softening* softening(const NorSand&) { return nullptr; }
 inline StrengthEntries strength_entries(NorSand&) { return {}; }
-/// Its surface follows what its points remember: a stress alone is neither inside nor outside.
+/// Its surface depends on the memory of its points: a stress alone is neither inside nor outside.
 inline double yield_excess(const NorSand&, const State&) {
     return -std::numeric_limits<double>::infinity();
 }
@@ -73,7 +73,7 @@ inline double least_mean_stress(const NorSand& law) { return law.ready.parameter
 inline double mean_stress(const NorSand& law, const Voigt& sigma) {
     return std::max(-(sigma[0] + sigma[1] + sigma[2]) / 3.0, least_mean_stress(law));
 }
-/// psi_0 is that of its place.
+/// psi_0 of the law's profile at the place.
 template <class PlaceOf>
 NorSand at_place(const NorSand& law, const PlaceOf& place_of) {
     if (!law.psi_0_profile) return law;
@@ -84,22 +84,22 @@ NorSand at_place(const NorSand& law, const PlaceOf& place_of) {
             .e_0 = {},
             .R = law.R};
 }
-/// What a stress was like that a point begins with.
+/// The initial stress of a point as the law reads it.
 inline norsand::Beginning beginning(const NorSand& law, const Voigt& sigma) {
     const double p = mean_stress(law, sigma);
     const double e_0 =
         law.e_0 ? *law.e_0 : law.psi_0.value_or(0.0) + critical_void_ratio(law.ready, p);
     return norsand::initialise(law.ready, sigma, e_0, law.R);
 }
-/// The volume strain of elastic stages is of no account: psi_0 belongs to the stress that is there.
+/// The volume strain of elastic stages is ignored: psi_0 belongs to the initial stress.
 inline norsand::State first_memory(const NorSand& law, const Voigt& sigma, double) {
     return beginning(law, sigma).state;
 }
 inline Voigt stress(const NorSand&, const norsand::State& memory) {
     return norsand::stress(memory);
 }
-/// A call that the law wants cut, in halves and these again, as far as the evaluations go; what is no more than round-off
-/// changes nothing.
+/// Halves a call that the law wants cut, and the halves again, until the evaluations are used up; strains of round-off size
+/// change nothing.
 inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::State& old,
                                           const Voigt& d_epsilon, int cuts_left,
                                           int& evaluations_left) {
@@ -120,7 +120,7 @@ inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::Sta
 inline void integrate(const NorSand& law, std::span<const norsand::State> old,
                       std::span<const Voigt> d_epsilon, std::span<norsand::Update> updates) {
     norsand::integrate(law.ready, old, d_epsilon, law.options, updates);
-    constexpr int most_cuts = 10, most_calls = 50;  // as dear as so many that used all they may
+    constexpr int most_cuts = 10, most_calls = 50;  // cost of so many calls at their limit
     for (std::size_t i = 0; i < updates.size(); ++i) {
         if (updates[i].outcome != norsand::Outcome::unresolved) continue;
         int evaluations_left = most_calls * law.options.most_evaluations;
@@ -133,12 +133,12 @@ inline Matrix4 elastic_tangent(const NorSand& law, const norsand::State& memory)
 inline double shear_modulus(const NorSand& law, const norsand::State& memory) {
     return norsand::read(law.ready, memory).G;
 }
-/// Of the stress ratio that `initialise` lets stand.
+/// For the stress ratio that `initialise` allows.
 inline double friction(const NorSand& law, const norsand::State& memory) {
     const norsand::Reading reading = norsand::read(law.ready, memory);
     return sine_at(0.98 * std::max(std::min(reading.eta_L, reading.M_i), 0.05));
 }
-/// Nothing stays beside it: a stress that did not fit was cut down to one that does.
+/// Nothing is kept separately: a stress outside the limit was reduced to it.
 inline double stress_outside(const NorSand&, const norsand::State&) { return 0.0; }
 inline bool has_fallen(const NorSand&, const norsand::State& memory) { return memory.has_fallen; }
 
@@ -148,7 +148,7 @@ inline Instability instability(const NorSand& law, const norsand::State& state) 
     Instability out{at.psi, ratio, false};
     const double half = 0.5 * (state.yy - state.xx);  // tension positive, like the strain
     if (std::hypot(half, state.xy) <= 1e-7 * at.p) return out;
-    // A strain in the plane along the deviator at constant volume, and what the tangent answers.
+    // The tangent's response to a strain in the plane along the deviator at constant volume.
     const Voigt along(half, -half, 0.0, -2.0 * state.xy);
     const Voigt s(at.p - state.xx, at.p - state.yy, at.p - state.zz, -state.xy);
     const Voigt rate = plastic_tangent(law.ready, state, along) * along;

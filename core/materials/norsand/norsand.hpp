@@ -25,7 +25,7 @@ struct CurvedLine {
     double p_ref = 100e3;  ///< [Pa]
 };
 
-/// Section 5: how the plastic strain is shared among the principal directions.
+/// Section 5: how the plastic strain is divided among the principal directions.
 enum class FlowRule {
     js,      ///< strain-rate ratios of Jefferies & Shuttle 2002
     radial,  ///< along the deviatoric stress
@@ -34,7 +34,7 @@ enum class FlowRule {
 
 /// Section 4: what unloading inside the bullet does.
 enum class Unloading {
-    elastic,  ///< nothing but elasticity
+    elastic,  ///< elasticity alone
     capped,   ///< the surface shrinks with the limiting hardness
 };
 
@@ -57,7 +57,7 @@ struct Parameters {
     double p_min = 500.0;  ///< least mean effective stress [Pa]
 };
 
-/// Parameters with what follows from them alone, computed once per zone and stage.
+/// Parameters with everything derived from them alone, computed once per zone and stage.
 struct Ready {
     Parameters parameters;
     double K_over_G;  ///< 2 (1 + nu) / (3 (1 - 2 nu))
@@ -85,14 +85,14 @@ double critical_void_ratio(const Ready& law, double p);
 double critical_slope(const Ready& law, double p);
 /// Mean stress of the critical state line at the void ratio e [Pa].
 double critical_pressure(const Ready& law, double e);
-/// Largest lambda chi_tc / M_tc that is believed; at 1 the image state is singular.
+/// Largest accepted lambda chi_tc / M_tc; at 1 the image state is singular.
 inline constexpr double most_chi_lambda = 0.9;
 /// Lode angle [rad] of the critical state in plane strain and simple shear.
 double plane_critical_angle(const Ready& law);
 /// M at a Lode angle [rad].
 double critical_ratio(const Ready& law, double theta);
 
-/// What a stress state was like that a point of the law was to be made of.
+/// How the law read an initial stress.
 struct Beginning {
     State state;
     double eta;        ///< q/p as given
@@ -103,14 +103,14 @@ struct Beginning {
 };
 
 /// Section 9: the state that holds the effective stress sigma [Pa, tension positive] at the void
-/// ratio e_0, overconsolidated by R >= 1. eta_limit <= 0: too loose for the law to stand at all,
-/// and the state is not usable.
+/// ratio e_0, overconsolidated by R >= 1. eta_limit <= 0: too loose for the law to carry any
+/// stress, and the state is not usable.
 Beginning initialise(const Ready& law, const Voigt& sigma, double e_0, double R = 1.0);
 
 /// Effective stress [Pa, tension positive].
 Voigt stress(const State& state);
 
-/// What a state means, sections 1 to 4.
+/// Quantities derived from a state, sections 1 to 4.
 struct Reading {
     double p, q;   ///< [Pa]
     double theta;  ///< Lode angle [rad], +30 deg in triaxial compression
@@ -136,10 +136,10 @@ struct Options {
 enum class Outcome {
     done,
     refused,     ///< the increment is not finite or too large; the state is the old one
-    unresolved,  ///< it cannot be followed so; the state is the old one: cut the step
+    unresolved,  ///< the increment cannot be integrated; the state is the old one: cut the step
 };
 
-/// What a call cost and where it had to give way.
+/// Cost of a call, and how often a limit of the model applied.
 struct Counts {
     int evaluations = 0;
     int sub_steps = 0;
@@ -158,7 +158,7 @@ struct Update {
 };
 
 /// New state after the strain increment [-, tension positive, engineering shear]. Pure: the same
-/// answer however often it is asked. Never returns a state with NaN.
+/// answer for every call with the same arguments. Never returns a state with NaN.
 Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options);
 

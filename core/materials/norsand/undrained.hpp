@@ -1,5 +1,5 @@
-// What a state of NorSand can carry when it is sheared on in the plane without drainage, and what
-// is left of that at the critical state of its void ratio.
+// Strength of a NorSand state in further undrained shear in the plane, and its strength at the
+// critical state of its void ratio.
 #pragma once
 
 #include "core/materials/norsand/norsand.hpp"
@@ -12,8 +12,8 @@ double plane_shear(const State& state);
 
 /// The law's own path from `state` at constant volume along its deviator in the plane, with the
 /// law's S. Critical: tau = M cos(theta) / sqrt(3) p_c(e) (docs/reference/methods/norsand.md, section
-/// 15). `bound` [Pa]: a mean effective stress that no path is believed beyond (that at which
-/// dilating soil has sucked its water to p = 0); strengths are at most the critical ones there.
+/// 15). `bound` [Pa]: upper limit of the mean effective stress on a path (where dilating soil has
+/// sucked its water to p = 0); strengths are at most the critical ones there.
 UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
 /// The same of many states, side by side: to the last bit what each alone gives.
 std::vector<UndrainedStrength> undrained_strengths(const Ready& law, std::span<const State> states,
@@ -22,8 +22,8 @@ std::vector<UndrainedStrength> undrained_strengths(const Ready& law, std::span<c
 /// Shear stress on the plane across y, |tau_xy| [Pa].
 double simple_shear(const State& state);
 
-/// The same of undrained simple shear, epsilon_xx = epsilon_yy = epsilon_zz = 0: what soil that was
-/// consolidated under a level ground carries on a plane along it.
+/// The same in undrained simple shear, epsilon_xx = epsilon_yy = epsilon_zz = 0: for soil
+/// consolidated under level ground, on a horizontal plane.
 UndrainedStrength simple_shear_strength(const Ready& law, const State& state, double bound);
 
 }  // namespace breach::materials::norsand

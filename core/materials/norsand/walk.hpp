@@ -124,7 +124,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const R error = larger(gap, size_gap);
     MaskOf<R> stands =
         first_stands & (trace(place.sigma) > none) & (place.p_i > none) & (second.flow.A > none);
-    // What failed shrinks as far as it may; what is exact grows as far as it may.
+    // A rejected step shrinks as far as it may; an exact one grows as far as it may.
     const R room = select(stands, error, R(1e6) * tolerance);
     const R growth = R(0.9) * root(tolerance / larger(room, R(1e-6) * tolerance));
     const R factor = larger(smaller(growth, R(2.0)), R(0.1));
@@ -140,7 +140,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const R rest = one - next;
     const MaskOf<R> over = stands & (rest <= R(1e-12));
     time = select(over, one, select(stands, next, time));
-    // A place too far off the surface was exact by its error: halve.
+    // The error estimate of a place too far off the surface was too small: halve.
     const R shrunk = step * smaller(factor, R(0.5));
     proposed = select(moving, select(stands, step * factor, shrunk), proposed);
     step = select(moving, smaller(proposed, one - time), step);

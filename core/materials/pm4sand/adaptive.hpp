@@ -1,5 +1,5 @@
-// The adaptive scheme around its walk: how a call is opened, how unloading inside it is taken, and
-// how it is closed. One point and several side by side share this text.
+// The adaptive scheme around its walk: opening of a call, unloading inside it, closing of it. One
+// point and several side by side share this code.
 #pragma once
 
 #include "core/materials/calls.hpp"
@@ -8,7 +8,7 @@
 
 namespace breach::materials::pm4sand {
 
-/// One call in the making: what a lane of a walk does not carry.
+/// One call in progress: the data that a lane of a walk does not carry.
 struct Task {
     Update* update;          ///< the state being changed, and what is counted
     Strain<double> plastic;  ///< strain that is left after the elastic part
@@ -42,7 +42,7 @@ template <class R>
     return {lanes::lane(a.d, i), lanes::lane(a.x, i)};
 }
 
-/// Puts what a reversal moves into lane i.
+/// Puts what a reversal changes into lane i.
 template <class R>
 [[gnu::always_inline]] inline void load_reversal(const State& s, int i, Fixed<R>& f) {
     pm4sand::set_lane(f.alpha_app, i, deviator(s.alpha_app));
@@ -104,7 +104,7 @@ template <class R>
                             .stalled = number(walk.stalled)};
 }
 
-/// What an excursion did to a lane of a walk.
+/// Change of a walk's lane by an excursion.
 template <class R>
 [[gnu::always_inline]] inline Excursion::End excursion(const Ready& law, int i, Walk<R>& walk,
                                                        Task& task) {
@@ -132,8 +132,8 @@ template <class R>
     return path.end;
 }
 
-/// Section 11 on the plastic path, wherever in a call that is: the memory of a point does not hang
-/// on how its strain is cut into calls.
+/// Section 11 on the plastic path, anywhere in a call: the memory of a point does not depend on how
+/// its strain is cut into calls.
 template <class R>
 [[gnu::always_inline]] inline bool reverses(const Ready& law, int i, Walk<R>& walk, Task& task) {
     State& s = task.update->state;
@@ -166,7 +166,7 @@ template <class R>
     return Next::leave;
 }
 
-/// Whether lane i has come to its end, after `advance` or to begin again, and how.
+/// Whether lane i has ended, after `advance` or before `begin`, and how.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
                                         const Options& options, Task& task) {
@@ -177,7 +177,7 @@ template <class R>
 
 inline bool may_be_tried(const Strain<double>& d, const Options&) { return is_finite(d); }
 
-/// What calls.hpp asks for.
+/// The interface of calls.hpp.
 struct Calls {
     using Ready = pm4sand::Ready;
     using State = pm4sand::State;

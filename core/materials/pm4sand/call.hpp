@@ -1,5 +1,5 @@
-// What both integrators share around their sub-steps, for one point: what a reversal does, the
-// elastic part of the path, and the closing of a call (sections 10, 11, 13.1, 13.3, 14).
+// Shared by both integrators around their sub-steps, for one point: reversals, the elastic part of
+// the path, and the closing of a call (sections 10, 11, 13.1, 13.3, 14).
 #pragma once
 
 #include "core/materials/pm4sand/functions.hpp"
@@ -31,7 +31,7 @@ inline double yield_function(const Ready& law, const Stress& sigma, const Plane&
 /// Normal of section 4 with its degenerate cases.
 Plane normal(const Ready& law, const Stress& sigma, const Plane& alpha);
 
-/// Section 11: what a reversal towards n does to the initial back-stress ratios, at the state's p,
+/// Section 11: updates the initial back-stress ratios for a reversal towards n, at the state's p,
 /// alpha and z.
 void reverse(const Plane& n, State& state);
 

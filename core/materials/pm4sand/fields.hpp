@@ -1,4 +1,4 @@
-// All numbers of a PM4Sand state in one fixed order, for whoever stores it.
+// All numbers of a PM4Sand state in one fixed order, for storing them.
 #pragma once
 
 #include "core/materials/pm4sand/pm4sand.hpp"

@@ -81,16 +81,16 @@ template <class R>
     const R depth = larger(R(par.Q) - logarithm(p_hat * R(100.0 / par.p_atm)), R(0.01));
     const R xi = R(par.R) / depth - D;
     const auto dense = xi <= R(0.0);
-    // Of soil that has opened to nothing (an inverted element) it would lie within the cone, onto
-    // whose other side every projection would then throw alpha.
+    // For soil that has expanded without limit (an inverted element) it would lie within the cone,
+    // and every projection would move alpha to the cone's other side.
     const R M_b = larger(
         R(law.M_c) * exponential(xi * select(dense, R(-par.n_b), R(-0.25 * par.n_b))), R(par.m));
     const R M_d = R(law.M_c) * exponential(xi * select(dense, R(par.n_d), R(4.0 * par.n_d)));
     return {xi, M_b, M_d};
 }
 
-/// What stays fixed while rates are evaluated (lagged by a call or by a sub-step), and the factors
-/// of sections 5 to 7 that follow from it alone.
+/// Constants while rates are evaluated (updated once per call or per sub-step), and the factors of
+/// sections 5 to 7 that follow from them alone.
 template <class R>
 struct Fixed {
     Deviator<R> alpha_app, alpha_true, alpha_prev, z_in;
@@ -145,7 +145,7 @@ template <class R>
     return G * smaller(F_sed, R(1.0));
 }
 
-/// Plastic modulus, dilatancy and what the rates need of them.
+/// Plastic modulus, dilatancy and the quantities that the rates need from them.
 template <class R>
 struct Flow {
     R B;  ///< b:n
@@ -164,7 +164,7 @@ struct Point {
     R G, M_cur;
 };
 
-/// Section 6 without the clip. nearest: the back-stress counts as at least so far from its bound [-].
+/// Section 6 without the clip. nearest: least distance of the back-stress from its bound [-].
 template <class R>
 [[gnu::always_inline]] inline void plastic_modulus(const Ready& law, const Fixed<R>& f,
                                                    const Point<R>& at, const R& p_hat, const R& M_b,

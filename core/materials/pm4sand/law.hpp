@@ -39,7 +39,7 @@ inline std::optional<Strength> limit_strength(const PM4Sand& law) {
 }
 inline const Softening* softening(const PM4Sand&) { return nullptr; }
 inline StrengthEntries strength_entries(PM4Sand&) { return {}; }
-/// Its surfaces follow what its points remember: a stress alone is neither inside nor outside.
+/// Its surfaces depend on the memory of its points: a stress alone is neither inside nor outside.
 inline double yield_excess(const PM4Sand&, const State&) {
     return -std::numeric_limits<double>::infinity();
 }
@@ -66,7 +66,7 @@ inline bool has_fallen(const PM4Sand&, const pm4sand::State&) { return false; }
 inline double stress_outside(const PM4Sand&, const pm4sand::State& memory) {
     const auto& b = memory.sigma_b;
     const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});
-    // A stress that fits leaves the round-off of its own split into mean and deviator.
+    // A stress inside the surfaces leaves the round-off of its own split into mean and deviator.
     return size <= 1e-9 * memory.p ? 0.0 : size;
 }
 

@@ -55,7 +55,7 @@ Parameters defaults(double D_R, double G_0, double h_po);
 /// manual gives (0.53, 0.40, 0.63 at D_R 0.35, 0.55, 0.75).
 double default_h_po(double D_R);
 
-/// Parameters with what follows from them alone, computed once per zone.
+/// Parameters with everything derived from them alone, computed once per zone.
 struct Ready {
     Parameters parameters;
     double M_c;           ///< 2 sin(phi_cv)
@@ -119,11 +119,11 @@ enum class Scheme {
 };
 
 /// State that holds the effective stress sigma [Pa, tension positive]. epsilon_v: compressive
-/// volumetric strain that the void ratio remembers from earlier stages [-]. Stresses below p_min
-/// or outside the surfaces are moved onto them; the difference stays as sigma_b, so that `stress`
-/// returns sigma unchanged (zz apart). Loose of critical a stress may lie beyond the bound, up to
-/// M_d: it has reversed on the bound then, as alpha is drawn onto that at once (adaptive; the
-/// reference scheme sees a reversal there). Exactly one call per point.
+/// volumetric strain that the void ratio remembers from earlier stages [-]. Stresses below p_min or
+/// outside the surfaces are moved onto them; the difference stays as sigma_b, so that `stress`
+/// returns sigma unchanged (zz apart). In soil loose of critical a stress may lie beyond the bound,
+/// up to M_d: then it has reversed on the bound, as alpha is moved onto it at once (adaptive; in
+/// the reference scheme the reversal is there). Exactly one call per point.
 State initialise(const Ready& law, const Voigt& sigma, double epsilon_v = 0.0,
                  Scheme scheme = Scheme::adaptive);
 
@@ -140,12 +140,12 @@ enum class Outcome {
     unresolved,  ///< evaluations used up; the state is the old one: cut the step
 };
 
-/// What a call cost and where it had to give way.
+/// Cost of a call, and how often a limit of the model applied.
 struct Counts {
     int evaluations = 0;
     int sub_steps = 0;
     int rejected = 0;
-    int forced = 0;     ///< sub-steps accepted at the smallest size although too inexact
+    int forced = 0;     ///< sub-steps accepted at the smallest size with too large an error
     int projected = 0;  ///< stress taken back to the bounding surface
     int softened = 0;   ///< multiplier's denominator at or below its floor
     int stalled = 0;    ///< mean stress held at its floor
@@ -160,7 +160,7 @@ struct Update {
 };
 
 /// New state after the strain increment [-, tension positive, engineering shear]; zz is not read.
-/// Pure: the same answer however often it is asked. Never returns a state with NaN.
+/// Pure: the same answer for every call with the same arguments. Never returns a state with NaN.
 Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options);
 

@@ -52,12 +52,12 @@ struct Stiffness {
     }
 };
 
-/// A point reverses where (alpha - alpha_in^true):n falls below this. A hundredth of the cone beneath
-/// zero: alpha that shrinks with its bounding surface right after a reversal is none.
+/// A point reverses where (alpha - alpha_in^true):n falls below this: a hundredth of the cone below
+/// zero, as alpha that shrinks with its bounding surface right after a reversal does not reverse.
 inline double reversed_below(const Ready& law) { return -0.01 * law.parameters.m; }
 
-/// The least distance of a back-stress from its bound: a hundredth of the cone. A point on the bound itself has an h without
-/// limit; a step that takes that for its own turns alpha with n, and the stress slides along the bound as if it were elastic.
+/// The least distance of a back-stress from its bound: a hundredth of the cone. On the bound itself h is unbounded; in a step
+/// with such an h alpha turns with n, and the stress slides along the bound as if it were elastic.
 inline double nearest_to_bound(const Ready& law) { return 0.01 * law.parameters.m; }
 
 template <class R>
@@ -72,7 +72,7 @@ class Walk {
     Strain<R> d;  ///< the call's plastic strain
     R size;       ///< its magnitude
     Fixed<R> fixed;
-    // What the last sub-step found.
+    // Results of the last sub-step.
     R G;
     R proposed;  ///< step that the error control would take next
     R evaluations, sub_steps, rejected, forced, projected, softened, stalled;
@@ -153,7 +153,7 @@ inline typename Walk<R>::Evaluation Walk<R>::evaluate(const Unknowns<R>& y,
     const R push = nr * d.v;
     const R elastic = twice_G * ne - K_plane * push;  // f' along the elastic path
     out.unloads = elastic < R(0.0);
-    // Section 8, remark: what the reference does on average over its calls.
+    // Section 8, remark: the mean of the reference over its calls.
     const R driving = select(push > R(0.0), elastic, twice_G * ne - K * push);
     out.L = positive(driving) / larger(Hd, least);
 
@@ -286,7 +286,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
                     R(law_.parameters.m * inverse_sqrt2) * magnitude(gap.theta) +
                     R(0.3) * norm(gap.z) * fixed.inverse_z;
 
-    // A NaN is neither exact nor finite: it shrinks the step, and ends the walk at the smallest.
+    // A NaN is neither exact nor finite: it shrinks the step, and the walk ends at the smallest.
     const R tolerance(options_.tolerance);
     const R least = least_step();
     const MaskOf<R> exact = error <= tolerance;

@@ -1,6 +1,6 @@
-// The strength of one soil, written once: what it is at a place before failure (peak) and after it
-// (residual), and the strains between the two. Pure numbers; where a place lies is core/scene's
-// (ground.hpp), and which phase uses what is in docs/reference/strengths.md.
+// The strength of one soil, written once: its value at a place before failure (peak) and after it
+// (residual), and the strains between the two. Pure numbers; core/scene finds the place
+// (ground.hpp), and docs/reference/strengths.md says which phase uses what.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace breach::materials {
 
-/// What strengths depend on, before anything has moved.
+/// Quantities that strengths depend on, in the initial state.
 struct Place {
     double depth;      ///< below ground [m]
     double elevation;  ///< y [m]
@@ -54,7 +54,7 @@ struct BySounding {
 struct StrengthCurve {
     std::variant<Effective, Undrained, Table, BySounding> kind;
     double least = 0.0;   ///< of s_u [Pa]
-    double factor = 1.0;  ///< on c and s_u: what a study varies [-]
+    double factor = 1.0;  ///< on c and s_u: for studies to vary [-]
 };
 Strength strength_at(const StrengthCurve& curve, const Place& place);
 
@@ -62,9 +62,9 @@ inline bool is_undrained(const StrengthCurve& curve) {
     const auto* effective = std::get_if<Effective>(&curve.kind);
     return effective == nullptr || effective->phi == 0.0;
 }
-/// The same at every place.
+/// Whether it is the same at every place.
 bool is_uniform(const StrengthCurve& curve);
-/// Depends on sigma'_v0.
+/// Whether it depends on sigma'_v0.
 bool needs_stress(const StrengthCurve& curve);
 
 /// Accumulated epsilon_q over which a point goes from peak to residual.
@@ -80,10 +80,10 @@ struct StrengthProfile {
     std::optional<SofteningStrains> softening{};  ///< only with a residual
 };
 
-/// What a material point keeps of its profile; the residual is the peak where it does not soften.
+/// The strength that a material point keeps; the residual is the peak where it does not soften.
 using PointStrength = StrengthOfPoint<double>;
 /// before: softens from peak to residual, if the profile has strains for it. liquefied: has the
-/// residual strength from the start; the peak without one.
+/// residual strength from the start; without a residual, the peak.
 enum class Liquefaction { before, liquefied };
 PointStrength strength_of_point(const StrengthProfile& profile, const Place& place,
                                 Liquefaction liquefaction);

@@ -18,8 +18,8 @@ enum class Relation {
     idriss_boulanger_2008_cpt_redistribution,  ///< the same, significant
 };
 
-/// What a relation is of, and where it was fitted. Outside it is not used: the sounding's value is
-/// held at the range's end. Beyond the stress nothing is held; whoever asks must be told.
+/// Sounding and range of a relation. Values outside the range are held at its end. Nothing is held
+/// beyond the largest stress; the caller must report it.
 struct RelationFacts {
     const char* name;             ///< for people
     const char* sounding;         ///< what its number is, with the unit

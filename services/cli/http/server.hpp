@@ -1,4 +1,4 @@
-// The server as this program sees it: requests and answers. The only part that knows HTTP.
+// HTTP client for the server. No other file of this program uses HTTP.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@
 
 namespace breach::cli {
 
-/// The server did not answer, or said that it cannot for now (429 and 5xx).
+/// The server did not answer, or cannot for now (429 and 5xx).
 class Unreachable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -32,7 +32,7 @@ class Refused : public std::runtime_error {
           faults_(std::move(faults)),
           type_(std::move(type)) {}
     int status() const { return status_; }
-    /// "/problems/..."; empty: the server did not say.
+    /// "/problems/..."; empty: the answer has none.
     const std::string& type() const { return type_; }
     const std::vector<fault::Fault>& faults() const { return faults_; }
 
@@ -49,16 +49,16 @@ struct TextAnswer {
 };
 
 struct KnownFile {
-    std::string reference;    ///< by which scenes name it; empty: the server does not have it whole
-    std::size_t arrived = 0;  ///< of one that it does not have whole [bytes]
+    std::string reference;    ///< by which scenes name it; empty: the file is incomplete
+    std::size_t arrived = 0;  ///< of an incomplete file [bytes]
 };
 
 using Headers = std::map<std::string, std::string>;
 
-/// Every call throws Unreachable, Refused, or IoError when the answer is not what the API promises.
+/// Every call throws Unreachable, Refused, or IoError when the answer violates the API.
 class Server {
   public:
-    /// authority: PEM file of the authorities whose certificates are trusted; empty: those that the system trusts.
+    /// authority: PEM file of the trusted certificate authorities; empty: those that the system trusts.
     Server(const Address& address, const std::optional<std::string>& token,
            const std::filesystem::path& authority = {});
     ~Server();
@@ -84,7 +84,7 @@ class Server {
     std::unique_ptr<Connection> connection_;
 };
 
-/// How long one long-poll may be held open by the server; answers are waited for longer than that.
+/// Longest time that the server holds a long-poll open; the client waits longer for the answer.
 inline constexpr std::chrono::seconds longest_poll{20};
 
 }  // namespace breach::cli

@@ -1,4 +1,4 @@
-// Whom a request comes from: the secret that it carries against the tokens that there are.
+// Identifies the caller of a request by its secret among the known tokens.
 #pragma once
 
 #include <chrono>
@@ -19,13 +19,13 @@ struct Caller {
 
 class Callers {
   public:
-    /// secret: of --token-file, admin; empty: none. file: of named tokens; empty: none. Without both, whoever can
-    /// connect may do everything. Throws as read_tokens does.
+    /// secret: of --token-file, admin; empty: none. file: of named tokens; empty: none. Without both, anyone who
+    /// can connect may do everything. Throws as read_tokens does.
     Callers(const std::string& secret, std::filesystem::path file);
 
     bool needs_token() const { return !single_.empty() || !file_.empty(); }
-    /// Nothing: the secret is nobody's. It takes as long for every wrong one. Changes of the file count within a second;
-    /// a file that cannot be used (any more) leaves those before it in force, and the log says so.
+    /// Nothing: no token has this secret. Takes equally long for every wrong one. Changes of the file take effect within
+    /// a second; if the file becomes unusable, the tokens before it stay valid, and the log says so.
     std::optional<Caller> caller(const std::string& secret) const;
 
   private:

@@ -1,4 +1,4 @@
-// breachline token new | list | rm: the file of tokens, edited.
+// breachline token new | list | rm: edits the file of tokens.
 #pragma once
 
 #include <CLI/CLI.hpp>

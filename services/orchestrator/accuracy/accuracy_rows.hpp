@@ -1,5 +1,5 @@
-// The table of an accuracy study as plain data: every rung with its value, its error and its cost;
-// what each ladder says; which setting to take. And what a blind check made of that.
+// The table of an accuracy study as plain data: every rung with its value, error and cost; the
+// error of each ladder; the recommended setting. And the result of a blind check.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@
 
 namespace breach::orchestrator {
 
-/// The mean of several runs with a setting on lattices of their own.
+/// The mean of several runs of a setting, each on its own lattice.
 struct MeanOfDraws {
     std::size_t draws;
-    double error;        ///< what it is off at most, in nine of ten times; relative
-    double cpu_seconds;  ///< of all the draws; those of points share a FEM
+    double error;        ///< largest error in nine of ten cases; relative
+    double cpu_seconds;  ///< of all the repeats; those of points share a FEM
 };
 
 struct AccuracyRow {
@@ -25,22 +25,22 @@ struct AccuracyRow {
     std::optional<statistics::Repeats> value = {};  ///< of the draws that have one
     std::optional<Cost> cost = {};                  ///< mean over the draws; of memory the most
     std::optional<double> error = {};  ///< of the mean of the draws, relative to the reference
-    /// What its own ladder says it is off: with the finest rung as reference the difference from
-    /// that, and what that one is off itself
+    /// Error from its own ladder: the difference from the finest rung as reference, plus the error
+    /// of that one
     std::optional<statistics::Share> of_own_ladder = {};
-    /// What the base's rungs of the other ladders are off, together: what this row shares with them
+    /// Error of the base's rungs in the other ladders, together: shared by this row
     double error_of_other_ladders = 0.0;
     /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
-    /// a reference rung is what its ladder says of the finest.
+    /// a reference rung is its ladder's error of the finest.
     std::optional<double> error_of_a_run = {};
     std::optional<double> bias = {};  ///< the same without the scatter
-    /// Of the fewest draws whose mean keeps the asked error; nothing: not even many do
+    /// Of the fewest repeats with a mean within the asked error; nothing: not even many suffice
     std::optional<MeanOfDraws> mean_within_asked = {};
     bool is_reference = false;  ///< errors are measured from it: its own is not known
-    bool below_noise = false;   ///< the error is not told apart from the noise of the repeats
-    bool questionable = false;  ///< a run of it carries a flag that forbids to rely on it
+    bool below_noise = false;   ///< the error does not exceed the noise of the repeats
+    bool questionable = false;  ///< a run of it has a flag that makes it unreliable
     bool on_front = false;      ///< of error against CPU seconds
-    std::string reason = {};    ///< why a draw has no value, or there is no error
+    std::string reason = {};    ///< why a repeat has no value, or there is no error
 
     bool has_all_draws() const { return value && value->count == setting.variants.size(); }
 };
@@ -50,11 +50,11 @@ struct LadderSummary {
     std::optional<double> reference;
     bool reference_is_questionable = false;  ///< its rung carries such a flag
     std::string message;                     ///< the course in a sentence
-    /// What the rung is off that is the base; nothing: no rung is the base, or its error is not known
+    /// Error of the rung that is the base; nothing: no rung is the base, or its error is unknown
     std::optional<statistics::Share> of_base;
-    /// Errors are measured from its finest rung, and what that one is off is not known without sizes
+    /// Errors are relative to its finest rung, and the error of that one is unknown without sizes
     bool lacks_sizes = false;
-    bool base_lacks_sizes = false;  ///< such a ladder has the base, too
+    bool base_lacks_sizes = false;  ///< such a ladder includes the base, too
 };
 
 struct AccuracyTable {
@@ -66,8 +66,8 @@ struct AccuracyTable {
     std::string recommendation;              ///< in a sentence
 };
 
-/// Its error is known and can be relied on: all its draws have a value, and neither it nor what it is
-/// measured from is questionable.
+/// Its error is known and reliable: all its repeats have a value, and neither it nor its reference is
+/// questionable.
 inline bool can_be_offered(const AccuracyTable& table, const AccuracyRow& row) {
     return row.error_of_a_run && row.cost && row.has_all_draws() && !row.questionable &&
            !table.ladders[row.setting.ladder].reference_is_questionable;
@@ -78,7 +78,7 @@ struct BlindMean {
     std::optional<double> value = {};   ///< nothing: a draw has none
     std::optional<double> error = {};   ///< relative to the reference
     bool kept = false;                  ///< the error is at most the one that was asked for
-    bool questionable = false;          ///< a draw carries a flag that forbids to rely on it
+    bool questionable = false;          ///< a repeat has a flag that makes it unreliable
     std::string reason = {};            ///< why there is no value
 };
 

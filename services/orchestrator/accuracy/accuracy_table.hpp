@@ -1,5 +1,5 @@
-// The table of an accuracy study (accuracy_rows.hpp), read from the store each time, so that it
-// grows with the run.
+// The table of an accuracy study (accuracy_rows.hpp), read from the store each time, so it includes
+// the results so far.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@
 
 namespace breach::orchestrator {
 
-/// Nothing: the run is no accuracy study, or there is none.
+/// Nothing: the run is no accuracy study, or does not exist.
 /// asked_error: instead of the study's own.
 std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder& data,
                                             const std::string& run,

@@ -1,6 +1,6 @@
-// What new draws of a setting make of an accuracy study's promise: a run whose study has the entry
-// "check" averages its draws in order, so many at a time, and each mean is within the asked error
-// of the reference or not.
+// Checks the error of an accuracy study with new repeats of a setting: a run whose study has the
+// entry "check" averages its repeats in order, so many at a time; each mean is within the asked
+// error of the reference or not.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -15,20 +15,20 @@ namespace breach::orchestrator {
 
 constexpr std::size_t most_repeats_of_a_check = 100;
 
-/// Which setting is checked: a row of the table, so many draws of it in a mean.
+/// The setting to check: a row of the table, and the number of its repeats in a mean.
 struct CheckRequest {
-    std::size_t repeats = 10;  ///< so many means; with mean_of as many draws as a study may have
+    std::size_t repeats = 10;  ///< number of means; with mean_of as many draws as a study may have
     std::optional<std::string> ladder = {};
     std::optional<std::size_t> step = {};  ///< from 1; with the ladder: instead of the recommended
     std::optional<std::size_t> mean_of = {};
 };
 
-/// The study that draws the setting on lattices that the accuracy study has not used. Throws
+/// The study that repeats the setting on lattices that the accuracy study has not used. Throws
 /// BadInput, with pointers into the request, when there is no such setting, or none is recommended.
 nlohmann::json study_of_check(const Store& store, const std::string& run,
                               const AccuracyTable& table, const CheckRequest& request);
 
-/// Nothing: the run is no such check, or there is none.
+/// Nothing: the run is no such check, or does not exist.
 std::optional<BlindCheck> blind_check(const Store& store, const DataFolder& data,
                                       const std::string& run);
 

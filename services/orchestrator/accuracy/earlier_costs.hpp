@@ -1,4 +1,4 @@
-// What finished runs took, over what is estimated for their own scenes: what new estimates learn from.
+// Cost of finished runs relative to the estimates for their own scenes: the basis of new estimates.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@ namespace breach::orchestrator {
 class EarlierCosts {
   public:
     /// Of the newest runs, some tasks of each phase that succeeded by computing (not from the cache),
-    /// spread over their transfer times: what runs out costs ten times what stays. The answer is quick
-    /// the second time.
+    /// spread over their transfer times: soil that runs out costs ten times soil that stays. Cached: a
+    /// second call is fast.
     std::vector<estimate::Earlier> of(const Store& store);
 
   private:
@@ -27,7 +27,7 @@ class EarlierCosts {
         std::vector<estimate::Earlier> earlier;
     };
     std::mutex mutex_;
-    std::map<std::string, Known> runs_;  ///< what they said when they had as many tasks done
+    std::map<std::string, Known> runs_;  ///< ratios, and the number of tasks done then
 };
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// What each variant of an accuracy study gave, and what it took: from the results of its tasks.
+// Result and cost of each variant of an accuracy study, from its tasks.
 #pragma once
 
 #include <map>
@@ -11,8 +11,8 @@
 
 namespace breach::orchestrator {
 
-/// What the runs of a setting took, phase by phase and together. An answer from the cache counts as
-/// what it took when it was computed.
+/// Cost of the runs of a setting, phase by phase and together. A task from the cache counts with
+/// its original cost.
 struct Cost {
     double cpu_seconds = 0.0;
     double wall_seconds = 0.0;

@@ -1,6 +1,6 @@
-// How far a runout of any sweep is off, where something tells it: an accuracy study of the same
-// scene at the same setting, the repeats that the sweep itself asks for, or its neighbours in transfer
-// time. Else nothing, with the reason.
+// Error of a runout of any sweep, if known from an accuracy study of the same scene at the same
+// setting, from the sweep's own repeats, or from its neighbours in transfer time. Else nothing, with
+// the reason.
 #pragma once
 
 #include <functional>
@@ -14,15 +14,15 @@ namespace breach::orchestrator {
 
 using AllRows = std::function<const std::vector<ResultRow>&()>;
 
-/// Fills the columns runout_error and runout_error_from. An accuracy study is found by recipe: its
-/// rung and the row have equal recipes of MPM and transfer, and of the FEM but for the times of its
-/// snapshots. So its error, measured at one transfer time, is told at others, too.
+/// Fills the columns runout_error and runout_error_from. Finds an accuracy study by recipe: its
+/// rung and the row have equal recipes of MPM and transfer, and of the FEM except the times of its
+/// snapshots. So its error, measured at one transfer time, is used at others, too.
 ///
-/// rows: some of the run's, or all; all_rows: gives all, which neighbours and draws are among. It is
-/// called only where they are needed.
+/// rows: some of the run's, or all; all_rows: returns all, including neighbours and repeats. Called
+/// only if needed.
 ///
-/// means: of the run's draws, with columns of the same names (records/mean_columns.hpp). A mean is
-/// off by the bias that an accuracy study tells and by what scatter leaves of so few draws.
+/// means: of the run's repeats, with columns of the same names (records/mean_columns.hpp). The
+/// error of a mean is the bias from an accuracy study and the remaining scatter of so few repeats.
 void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
                         std::vector<ResultRow>& rows, std::vector<ResultRow>& means,
                         const AllRows& all_rows);

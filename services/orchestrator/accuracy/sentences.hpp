@@ -1,4 +1,4 @@
-// What an accuracy study found, in sentences for people.
+// Findings of an accuracy study in sentences.
 #pragma once
 
 #include <string>

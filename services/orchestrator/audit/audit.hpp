@@ -1,5 +1,5 @@
-// Whether the database, its history and the files still say the same. Looks at everything and changes
-// nothing; what can be mended without loss, `mend` mends.
+// Checks that the database, its history and the files agree. `audited` reads everything and changes
+// nothing; `mend` repairs faults that can be repaired without loss.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace breach::orchestrator {
 
-/// Something that is not as it must be.
+/// One inconsistency.
 struct Finding {
     std::string part;    ///< "database", "history", "counts", "output", "file", "stray"
-    std::string where;   ///< a path, or what the database calls it
+    std::string where;   ///< a path, or a name in the database
     std::string cause;   ///< "is missing"
     std::string remedy;  ///< what a person can do
     bool mendable = false;
@@ -26,20 +26,20 @@ struct Audit {
     std::int64_t runs = 0;
     std::int64_t tasks = 0;
     std::int64_t events = 0;
-    std::int64_t outputs = 0;  ///< files that ended tasks have given
-    std::int64_t files = 0;    ///< that were sent
+    std::int64_t outputs = 0;  ///< outputs of ended tasks
+    std::int64_t files = 0;    ///< files that were sent
     bool in_service =
-        false;  ///< a service has the folder: what is younger than a minute is passed over
+        false;  ///< a service has the folder: what is younger than a minute is skipped
     std::vector<Finding> findings;
 };
 
 /// Reads one state of the database, also while a service works on it. Throws BadInput when there is
-/// none, StoreError when it cannot be read at all.
+/// no database, StoreError when it cannot be read.
 Audit audited(const DataPaths& data, Look look);
-/// The lock of the folder is proof that no service runs: nothing is passed over.
+/// The lock of the folder proves that no service runs: nothing is skipped.
 Audit audited(const DataFolder& data, Look look);
 
-/// Moves what no run knows to <data>/strays/ and counts the tasks of each run anew.
+/// Moves files that belong to no run to <data>/strays/ and recounts the tasks of each run.
 void mend(const DataFolder& data, const std::vector<Finding>& findings);
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// breachline check: what `audited` finds, told to a person or as JSON.
+// breachline check: prints the findings of `audited` as text or as JSON.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,8 +17,8 @@ struct CheckOptions {
     CLI::App* add_to(CLI::App& program);
 };
 
-/// done: all is sound; bad_input: something is not. Throws BadInput, IoError (a service runs and
-/// --repair was asked for) and StoreError.
+/// done: no findings; bad_input: some. Throws BadInput, IoError (a service runs and --repair was
+/// given) and StoreError.
 fault::ExitCode check(const CheckOptions& options);
 
 }  // namespace breach::orchestrator

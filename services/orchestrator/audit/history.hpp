@@ -1,5 +1,5 @@
-// The event log, read again from its beginning: every move must be one that the lifecycle allows, and
-// must begin where the one before it ended.
+// Replays the event log from its beginning: every move must be allowed by the lifecycle, and must
+// begin in the state in which the one before ended.
 #pragma once
 
 #include <map>
@@ -16,9 +16,9 @@ class History {
     /// In the order of their numbers.
     void take(const Event& event);
 
-    /// Where the log says that the task is; none: it has not moved.
+    /// The task's state by the log; none: it has not moved.
     std::optional<TaskState> state_of(const std::string& task) const;
-    /// What was not as it must be, a sentence each.
+    /// Violations of these rules, a sentence each.
     const std::vector<std::string>& violations() const { return violations_; }
 
   private:

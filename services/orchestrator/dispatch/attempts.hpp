@@ -1,6 +1,6 @@
 // The attempts that may have a process: starts, watches, retries, stops and settles them. Every
 // decision is stored before it is acted upon, so that a restart only has to look at the store and at
-// what is really running.
+// the running processes.
 #pragma once
 
 #include <chrono>
@@ -17,7 +17,7 @@ namespace breach::orchestrator {
 
 class Attempts {
   public:
-    /// settings: outlive it. over: called with each task that has ended, for its outputs.
+    /// settings: must outlive it. over: called with each task that has ended, for its outputs.
     Attempts(Store& store, const DataFolder& data, Executor& executor, ProgressBoard& board,
              const DispatchSettings& settings, std::function<void(const Task&)> over)
         : store_(store),
@@ -27,22 +27,22 @@ class Attempts {
           settings_(settings),
           over_(std::move(over)) {}
 
-    /// In place of what it knows: what the store says was going on.
+    /// Replaces its state by the attempts in progress according to the store.
     void adopt();
     /// One commit before the processes are started and one after, for all of them.
     void start(const std::vector<Task>& tasks);
-    /// Looks at those whose folders have changed, and once a second at all.
+    /// Looks at attempts with changed folders, and once a second at all.
     void look();
-    /// Asks all to end because the service does.
+    /// Asks all to end because the service stops.
     void stop_all();
 
     bool empty() const { return live_.empty(); }
-    /// That they leave.
+    /// The capacity left beside them.
     Capacity capacity() const;
-    /// Readable when a folder of theirs has changed.
+    /// Readable when one of their folders has changed.
     int descriptor() const { return watch_.descriptor(); }
-    /// Seconds from ready to given to the executor; from the snapshot's appearance on its disk to
-    /// the start of what waited for it.
+    /// Seconds from ready to the handover to the executor; from the snapshot's appearance on the
+    /// disk to the start of the task that waited for it.
     const Histogram& queue_wait() const { return queue_wait_; }
     const Histogram& snapshot_to_start() const { return snapshot_to_start_; }
 

@@ -1,8 +1,8 @@
-// The cache: a ready task whose question was answered before takes that answer instead of running.
-// The question is the task's recipe and the SHA-256 of its input file; the answer is the output of
-// a task that succeeded (a FEM whose mesh entangled did), or that broke down (exit code 70) as this one would. Every file of the
-// answer is hashed again before it is served: one that is missing or altered is refused, and the
-// task runs. The looking and hashing has a thread of its own.
+// The cache: a ready task takes the result of an equal earlier task instead of running. Equal tasks have the
+// same recipe and the same SHA-256 of the input file; the result is the output of a task that succeeded (a FEM
+// whose mesh entangled did), or its breakdown (exit code 70). Every file of the result is hashed again before
+// it is served: a missing or altered one is refused, and the task runs. A thread of its own searches and
+// hashes.
 #pragma once
 
 #include <functional>
@@ -13,15 +13,15 @@
 
 namespace breach::orchestrator {
 
-/// A task about to run must not find, and write into, the files of an answer that was placed and not
-/// taken because the service was killed in between: they may be links to another run's.
+/// Removes files of a result that was placed but not taken because the service was killed in
+/// between: a task must not write into them, as they may be links to another run's.
 void drop_placed_outputs(const DataFolder& data, const Task& task);
 
-/// Of one look-up: what there was to answer the task with.
+/// Result of one look-up.
 struct LookedUp {
     std::string task;
     std::string input_sha256;
-    std::size_t answers = 0;  ///< damaged ones counted
+    std::size_t answers = 0;  ///< including damaged ones
 };
 
 class Cache {
@@ -30,10 +30,10 @@ class Cache {
     /// whether it was answered.
     Cache(Store& store, const DataFolder& data, std::function<void(LookedUp)> examined);
 
-    /// Quick: false when no earlier task can have the answer, so that hashing the input is not
-    /// worth while.
+    /// Fast: false when no earlier task can have the result, so that hashing the input is not worth
+    /// while.
     bool may_answer(const Task& task) const;
-    /// Quick: whether there is another number of answers than the look-up found.
+    /// Fast: whether the number of earlier results differs from that of the look-up.
     bool has_changed_since(const LookedUp& earlier, const Task& task) const;
     void examine(Task task);
 
@@ -42,14 +42,14 @@ class Cache {
     void look_up(const Task& task, LookedUp& found);
     /// Why the outputs of `earlier` cannot be used; nothing when they can.
     std::optional<std::string> damage_to(const Task& earlier) const;
-    /// False: `earlier` or the task is not what it was any more; nothing of it is left.
+    /// False: `earlier` or the task has changed; no file of it is left.
     bool take(const Task& earlier, const Task& task) const;
     void place_outputs(const Task& earlier, const Task& task) const;
 
     Store& store_;
     const DataFolder& data_;
     std::function<void(LookedUp)> examined_;
-    TaskQueue queue_;  // last: its thread stops before what it uses goes
+    TaskQueue queue_;  // last: its thread stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

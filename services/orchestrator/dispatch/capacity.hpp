@@ -1,4 +1,4 @@
-// What attempts may occupy together and how they are given out, and what is left for more.
+// Resources that attempts may use together, how they are assigned, and what is left for more.
 #pragma once
 
 #include <chrono>
@@ -17,28 +17,28 @@ struct DispatchSettings {
     double grace_seconds = 5;                   ///< between TERM and KILL
     std::int64_t most_tries = 4;
     std::chrono::milliseconds retry_delay{500};  ///< doubled with each further try
-    Numerics numerics = {};                      ///< of the programs in `bin`, as they say it
+    Numerics numerics = {};                      ///< of the programs in `bin`, as they report it
 };
 
 class Capacity {
   public:
-    /// Of these settings, which outlive it; nothing runs.
+    /// settings: must outlive it. Initially nothing runs.
     explicit Capacity(const DispatchSettings& settings)
         : settings_(settings),
           cores_(static_cast<std::int64_t>(settings.slots)),
           memory_mb_(settings.memory_mb) {}
 
     void take(const Task& task);
-    /// As many of the phase run as may.
+    /// Whether the phase has as many attempts as it may.
     bool is_full(const std::string& phase) const;
     std::vector<std::string> full_phases() const;
-    /// One that asks for more than there is runs alone.
+    /// A task that needs more than there is runs alone.
     bool has_room_for(const Task& task) const;
     std::size_t free_cores() const;
 
   private:
     const DispatchSettings& settings_;
-    std::int64_t cores_;  ///< below 0: one that asks for more runs alone
+    std::int64_t cores_;  ///< below 0: a task that needs more runs alone
     std::int64_t memory_mb_;
     std::map<std::string, std::size_t> running_;  ///< by phase
 };

@@ -1,4 +1,4 @@
-// The machine's clock of the day, which somebody may set while the service runs.
+// The machine's clock of the day, which may be set while the service runs.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace breach::orchestrator {
 
-/// Both clocks at a moment. Whatever is asked of that moment is asked of one reading: between two the clock may be set.
+/// Both clocks at one moment. Use one reading per moment: between two readings the clock may be set.
 struct ClockReading {
     std::chrono::milliseconds of_day;  ///< since 1970
     std::chrono::milliseconds monotonic;
@@ -21,7 +21,7 @@ class ClockOfDay {
         : ahead_(now.of_day - now.monotonic), true_since_(now.of_day) {}
 
     /// [s] since that moment [ms since 1970]. Nothing: the clock was set after it, so that the difference is no duration; or it is
-    /// before this object, when nobody watched the clock.
+    /// before this object was made, when the clock was not watched.
     std::optional<double> seconds_since(std::int64_t moment,
                                         ClockReading now = ClockReading::now());
 

@@ -1,5 +1,5 @@
-// Moves the runs on, on one thread, round by round: watches the attempts, releases what waits, asks
-// triggers and batches for more tasks, starts what is ready and fits.
+// Advances the runs, on one thread, round by round: watches the attempts, releases waiting tasks,
+// adds tasks for triggers and batches, starts ready tasks that fit.
 #pragma once
 
 #include <atomic>
@@ -22,14 +22,14 @@ class Dispatcher {
     Dispatcher(const Dispatcher&) = delete;
     Dispatcher& operator=(const Dispatcher&) = delete;
 
-    /// Stops the running attempts with their checkpoints saved; the next start goes on with them.
+    /// Stops the running attempts with their checkpoints saved; the next start continues them.
     void stop();
-    /// Look again: a run was submitted or cancelled.
+    /// Starts a new round: a run was submitted or cancelled.
     void wake();
-    /// Look at every blocked task again: some were set back.
+    /// Checks every blocked task again: some were set back.
     void settle_all();
     const DispatchSettings& settings() const { return settings_; }
-    /// Of the executor; nothing: it has no queue of its own.
+    /// The executor's queue; nothing: it has none of its own.
     std::optional<std::vector<QueuedJob>> jobs() const { return executor_.jobs(); }
     const Histogram& queue_wait() const { return attempts_.queue_wait(); }
     const Histogram& snapshot_to_start() const { return attempts_.snapshot_to_start(); }
@@ -46,7 +46,7 @@ class Dispatcher {
     const DataFolder& data_;
     Executor& executor_;
     DispatchSettings settings_;
-    Notifier notifier_;                // before those whose threads notify it: it goes after them
+    Notifier notifier_;                // before those whose threads notify it: destroyed after them
     Mailbox<std::string> registered_;  ///< tasks that the registrar has finished with
     Registrar registrar_;
     Attempts attempts_;
@@ -55,7 +55,7 @@ class Dispatcher {
     BatchWatch batches_;
     std::chrono::steady_clock::time_point round_began_{};
     std::atomic<bool> unsettled_ = false;
-    std::jthread thread_;  // last: stops before what it uses goes
+    std::jthread thread_;  // last: stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// An attempt that may have a process: the order that starts it, and the fault that is stored of it.
+// An attempt that may have a process: the order that starts it, and the fault to be stored.
 #pragma once
 
 #include "services/orchestrator/dispatch/capacity.hpp"
@@ -12,28 +12,28 @@ struct LiveAttempt {
     Task task;
     std::int64_t number;
     AttemptFolder folder;
-    bool resumes;  ///< goes on from the checkpoint of an earlier attempt, if there is one
+    bool resumes;  ///< continues from the checkpoint of an earlier attempt, if there is one
     int attempt_watch;
     int output_watch;
     std::streamoff lines_read = 0;
-    bool submission_noted = false;  ///< the executor's taking it, in the attempt's row
-    bool start_noted = false;       ///< its process, in the task's row
+    bool submission_noted = false;  ///< stored in the attempt's row that the executor took it
+    bool start_noted = false;       ///< stored in the task's row that it has a process
     bool begun = false;
     bool outputs_changed = true;  ///< a new file may release a child
     bool asked_to_stop = false;
     bool over = false;
 };
 
-/// A checkpoint that was refused (damaged, or an earlier version's) is not tried twice.
+/// A checkpoint that was refused (damaged, or of an earlier version) is not tried twice.
 bool may_resume(const Store& store, const std::string& task, std::int64_t number);
 
-/// The run's scene, and beside it the files that it names by their content.
+/// Writes the run's scene, and beside it the files that it names by their content.
 void lay_out_scene(const Store& store, const DataFolder& data, const std::string& run);
 
 Order order_for(const LiveAttempt& live, const Store& store, const DataFolder& data,
                 const DispatchSettings& settings);
 
-/// What the phase itself says (fault.json), else the last line of its log.
+/// The fault that the phase reports (fault.json), else the last line of its log.
 TaskFault fault_of(const LiveAttempt& live, const ExitRecord& record, const DataFolder& data);
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// How other threads wake the dispatcher, and the mailboxes in which they leave results for it.
+// Wakes the dispatcher from other threads, and mailboxes for their results.
 #pragma once
 
 #include <sys/eventfd.h>
@@ -32,7 +32,7 @@ template <class Letter>
 class Mailbox {
   public:
     explicit Mailbox(const Notifier& notifier) : notifier_(notifier) {}
-    /// Any thread may.
+    /// From any thread.
     void put(Letter letter) {
         {
             const std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
-// How far the running tasks say they are. In memory only: after a restart the phases' own lines
-// fill it again.
+// Progress of the running tasks as they report it. In memory only: after a restart the phases' next
+// lines fill it again.
 #pragma once
 
 #include <map>

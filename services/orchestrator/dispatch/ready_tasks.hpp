@@ -1,5 +1,5 @@
-// Which ready tasks are started now: those that there is room for, and that neither the cache nor an
-// equal task that is being computed will answer.
+// Selects the ready tasks to start now: those that fit, and that neither the cache nor an equal task
+// in progress will answer.
 #pragma once
 
 #include <set>
@@ -16,7 +16,7 @@ class ReadyTasks {
     ReadyTasks(Store& store, const DataFolder& data, const Notifier& notifier);
 
     /// In order of priority and age; the first that does not fit holds back those behind it, so that
-    /// small tasks cannot keep a large one waiting for ever.
+    /// small tasks cannot keep a large one waiting permanently.
     std::vector<Task> to_start(Capacity capacity);
     /// Tasks that the cache has answered since the last call, or that were moved on meanwhile.
     std::vector<std::string> answered();
@@ -29,9 +29,9 @@ class ReadyTasks {
     const Notifier& notifier_;
     Mailbox<LookedUp> looked_up_;                 ///< what the cache has finished with
     std::set<std::string> in_the_cache_;          ///< tasks that it looks up now
-    std::map<std::string, LookedUp> not_cached_;  ///< tasks that nothing found answers
+    std::map<std::string, LookedUp> not_cached_;  ///< tasks without an earlier result
     std::size_t wait_for_equals_ = 0;             ///< in the last round
-    Cache cache_;                                 // last: its thread stops before what it uses goes
+    Cache cache_;                                 // last: its thread stops before what it uses
 };
 
 }  // namespace breach::orchestrator

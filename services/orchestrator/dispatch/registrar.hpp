@@ -1,5 +1,5 @@
-// Hashes and stores the outputs of tasks whose process has ended, well or not, on a thread of its
-// own: hashing a large output must not hold up the dispatcher.
+// Hashes and stores the outputs of tasks whose process has ended, on a thread of its own: hashing a
+// large output must not delay the dispatcher.
 #pragma once
 
 #include <functional>
@@ -26,7 +26,7 @@ class Registrar {
     Store& store_;
     const DataFolder& data_;
     std::function<void(const std::string&)> done_;
-    TaskQueue queue_;  // last: its thread stops before what it uses goes
+    TaskQueue queue_;  // last: its thread stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

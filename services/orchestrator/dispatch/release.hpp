@@ -1,4 +1,4 @@
-// What waits, and no longer has to: for a parent, for a file of it, for the time of a retry.
+// Releases tasks that waited for a parent, for a file of it, or for the time of a retry.
 #pragma once
 
 #include <stop_token>
@@ -8,9 +8,9 @@
 
 namespace breach::orchestrator {
 
-/// Releases or skips what waits for this task, and what waits for that.
+/// Releases or skips the tasks that wait for this task, and those that wait for them.
 void settle_children(Store& store, const DataFolder& data, const std::string& parent);
-/// Of every task that others wait for.
+/// The same for every task that others wait for.
 void settle_all_children(Store& store, const DataFolder& data, const std::stop_token& stop);
 void release_due_retries(Store& store);
 

@@ -59,8 +59,8 @@ void Retention::look(const std::stop_token& stop) {
     shrink_database(stop);
 }
 
-/// breachline-backup copies the database first and the files after it. One that was killed does not
-/// hold up removals for ever.
+/// breachline-backup copies the database first and the files after it. A killed backup does not
+/// block removals permanently.
 bool Retention::is_being_backed_up() const {
     std::error_code error;
     const auto since = fs::last_write_time(data_.root() / "backup-under-way", error);

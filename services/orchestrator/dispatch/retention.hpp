@@ -1,7 +1,7 @@
-// Gives disk back: removes the folders of runs that were removed from the store, removes runs that
-// are older or more than the service was told to keep, files that were sent and that nobody names,
-// and the database's free pages. A thread of its own; every order is stored before it is carried
-// out, so that a restart goes on with it.
+// Frees disk space: deletes the folders of runs that were removed from the store, removes runs
+// beyond the age or size that the service keeps, uploaded files that nothing names, and the
+// database's free pages. A thread of its own; every order is stored before it is executed, so that
+// a restart continues it.
 #pragma once
 
 #include <condition_variable>
@@ -47,7 +47,7 @@ class Retention {
     std::mutex mutex_;
     std::condition_variable_any woken_;
     bool wanted_ = true;
-    std::jthread thread_;  // last: stops before what it uses goes
+    std::jthread thread_;  // last: stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

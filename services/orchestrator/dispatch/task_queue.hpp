@@ -1,4 +1,4 @@
-// Tasks that a thread of their own works through, in the order of their arrival.
+// A queue of tasks with a thread that handles them in the order of their arrival.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace breach::orchestrator {
 
-/// Before what failed for a reason outside (a full disk) is tried again.
+/// Pause before a task that failed for an external reason (a full disk) is tried again.
 inline constexpr auto pause_after_trouble = std::chrono::seconds(1);
 
 enum class Handled { done, again_later };
@@ -32,7 +32,7 @@ class TaskQueue {
     std::mutex mutex_;
     std::condition_variable_any arrived_;
     std::deque<Task> waiting_;
-    std::jthread thread_;  // last: stops before what it uses goes
+    std::jthread thread_;  // last: stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

@@ -1,5 +1,5 @@
-// What the end of an attempt means for its task. Reads nothing but the exit record and whether the
-// attempt went on from a checkpoint.
+// Consequence of an attempt's end for its task, from the exit record and whether the attempt
+// resumed from a checkpoint.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@ namespace breach::orchestrator {
 
 enum class Verdict {
     well,         ///< outputs are there
-    badly,        ///< the same would happen again
-    retryable,    ///< a machine's or a moment's fault: killed, out of memory, "try again", or a
-                  ///< checkpoint that cannot be gone on from
-    interrupted,  ///< the service stopped it because the service stops
+    badly,        ///< a repeat would fail the same way
+    retryable,    ///< due to the machine or the moment: killed, out of memory, "try again", or a
+                  ///< checkpoint that cannot be resumed
+    interrupted,  ///< stopped because the service stops
 };
 
 Verdict judge(const ExitRecord& record, bool resumed);

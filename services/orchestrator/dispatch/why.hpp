@@ -1,4 +1,4 @@
-// "Why did it run (again)?": what tells a task apart from the most similar earlier one.
+// "Why did it run (again)?": the differences of a task from the most similar earlier one.
 #pragma once
 
 #include "services/orchestrator/store/store.hpp"

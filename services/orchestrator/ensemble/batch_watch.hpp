@@ -1,10 +1,10 @@
-// Gives uncertainty studies more variants: inverse studies the next value of the parameter, until the
-// target is met (ensemble/inverse_search.hpp); those with "until" more samples, a batch at a time, until the percentile is
-// known well enough or all samples that were asked for are drawn. Runs on the dispatcher's thread.
+// Adds variants to uncertainty studies: to inverse studies the next value of the parameter, until the target is met
+// (ensemble/inverse_search.hpp); to those with "until" more samples, a batch at a time, until the percentile is accurate
+// enough or all requested samples exist. Runs on the dispatcher's thread.
 //
-// In the store it is a trigger, a criterion on results (its spec has a "percentile" or a "target") that stands on the
-// run's first task: while it is armed the run is not over, and cancelling disarms it. What it decides is a function of the results that are stored:
-// after a kill -9 it comes to the same.
+// In the store it is a trigger, a criterion on results (its spec has a "percentile" or a "target") attached to the run's first task: while it
+// is armed the run is not over, and cancelling disarms it. Its decisions are a function of the stored results: after a kill -9 they are the
+// same.
 #pragma once
 
 #include <map>
@@ -24,8 +24,8 @@ class BatchWatch {
     BatchWatch(Store& store, const DataFolder& data, const Numerics& numerics)
         : store_(store), data_(data), numerics_(numerics) {}
 
-    /// Looks at the runs whose samples have all ended; true: tasks were added. Cheap when nothing was
-    /// stored since the last look. A run that cannot go on (a full disk) holds up no other, and is
+    /// Checks the runs whose samples have all ended; true: tasks were added. Cheap when nothing was
+    /// stored since the last look. A run that cannot continue (a full disk) delays no other, and is
     /// looked at again.
     bool look();
 
@@ -41,7 +41,7 @@ class BatchWatch {
     Store& store_;
     const DataFolder& data_;
     const Numerics& numerics_;
-    std::int64_t seen_event_ = -1;                 ///< until then all are settled
+    std::int64_t seen_event_ = -1;                 ///< all events up to this one are settled
     std::map<std::string, std::string> troubles_;  ///< of the last look, by run
 };
 

@@ -1,5 +1,5 @@
-// An uncertainty study as far as its run has come: each sample with what it has drawn and what came
-// of it. Read from the store each time, so that it grows with the run.
+// The results of an uncertainty study so far: each sample with its sampled values and its result.
+// Read from the store each time, so that it is up to date.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,12 +17,12 @@ enum class Fate { done, failed, no_transfer, open };
 struct SampleRow {
     std::string name;      ///< of its variant, "s0001"
     std::string state;     ///< that of its row of the results; "queued": it has none yet
-    Fate fate;             ///< failed: it ended without a result, whatever the reason; no_transfer:
-                           ///< its FEM came to its end and not to what the transfer waits for
+    Fate fate;             ///< failed: it ended without a result, for any reason; no_transfer:
+                           ///< its FEM ended before what the transfer waits for
     std::string reason;    ///< why it has no result
     nlohmann::json drawn;  ///< by parameter: a number, an option's name, a lattice's number
     std::optional<ResultRow> row;
-    /// Whatever became of its runout: those without one must not be missing in it.
+    /// Independent of its runout, so that samples without one are included.
     FactorsOfSafety safety;
 };
 
@@ -32,22 +32,22 @@ struct Ensemble {
     std::vector<SampleRow> samples;  ///< in the order of their numbers
 };
 
-/// Nothing: the run is not there, or its study has no samples.
+/// Nothing: the run does not exist, or its study has no samples.
 std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run);
 
-/// Results that statistics are told of: numbers of the table of results that are answers of the
-/// study, not indicators of its error, and that a sample has.
+/// Results with statistics: numbers of the table of results that are results of the study, not
+/// indicators of its error, and that at least one sample has.
 std::vector<const ResultColumn*> quantities_of(const Ensemble& ensemble);
-/// The one that is looked at first: as the study says, else the first.
+/// The quantity shown first: the study's, else the first.
 std::string first_quantity(const Ensemble& ensemble);
 
 /// A sample's number; nothing: it has none.
 std::optional<double> result_of(const SampleRow& sample, std::string_view quantity);
 
-/// Its soil still moved when it ended, which only adds to this quantity.
+/// Whether its soil still moved at the end, so that this quantity can only grow.
 bool is_lower_bound(const SampleRow& sample, std::string_view quantity);
 
-/// The samples with their draws and results as a table of its own, one row each.
+/// The samples with their values and results as a table of its own, one row each.
 struct SampleTable {
     std::vector<std::string> names;  ///< that the columns point to
     std::vector<ResultColumn> columns;

@@ -1,5 +1,5 @@
-// What the samples of an uncertainty study say of its results: percentiles, exceedance, importance
-// and tornado of each, and the same in sentences.
+// Statistics of an uncertainty study's results: percentiles, exceedance, importance and tornado of
+// each, and the same in sentences.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,8 +8,8 @@
 
 namespace breach::orchestrator {
 
-/// The answer of GET /v1/runs/{id}/uncertainty. scene: of the run. quantity: of this one only; empty:
-/// of all. An inverse study has no statistics: its values are not drawn.
+/// The answer of GET /v1/runs/{id}/uncertainty. scene: of the run. quantity: only this one; empty:
+/// all. An inverse study has no statistics: its values are not sampled.
 nlohmann::json findings_of(const Ensemble& ensemble, const nlohmann::json& scene,
                            const std::string& quantity = {});
 

@@ -1,4 +1,4 @@
-// An inverse study as far as its run has come: the values that were run, and what they say.
+// An inverse study so far: the values that were run, and what follows from them.
 #pragma once
 
 #include "services/orchestrator/ensemble/ensemble.hpp"

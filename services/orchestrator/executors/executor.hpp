@@ -1,5 +1,5 @@
-// Where attempts run: this machine (local) or a cluster (Slurm). The dispatcher knows no more of it
-// than this; tests/slurm/conformance_test.cpp says what every executor must do.
+// Interface for running attempts: on this machine (local) or on a cluster (Slurm). The dispatcher
+// uses only this interface; tests/slurm/conformance_test.cpp tests every executor.
 #pragma once
 
 #include "services/orchestrator/executors/order.hpp"
@@ -7,7 +7,7 @@
 namespace breach::orchestrator {
 
 enum class Life {
-    handed_over,  ///< noted by the executor, but not yet taken by what will run it
+    handed_over,  ///< stored by the executor, but not yet taken by the machine or the cluster
     queued,       ///< taken; waits for its turn
     alive,        ///< some process of the attempt runs
     ended,        ///< the exit record is there
@@ -16,10 +16,10 @@ enum class Life {
 
 struct Vitals {
     Life life;
-    std::string why = {};  ///< it is gone, or what it waits for
+    std::string why = {};  ///< why it is gone, or what it waits for
 };
 
-/// What becomes of running attempts when the service stops.
+/// Effect of a stop of the service on running attempts.
 enum class AtStop { ends_them, leaves_them };
 
 /// An attempt in a cluster's queue.
@@ -27,23 +27,23 @@ struct QueuedJob {
     std::filesystem::path folder;  ///< the attempt's
     std::string number;            ///< the cluster's; empty: not known
     std::string state;             ///< the cluster's word
-    std::string reason;            ///< why it waits, the cluster's word; empty: it does not
+    std::string reason;            ///< why it waits, the cluster's word; empty: it does not wait
 };
 
 class Executor {
   public:
     virtual ~Executor() = default;
-    /// Takes the order over; returns at once. The attempt's row is stored already. Throws IoError
-    /// when it cannot be started.
+    /// Takes the order; returns at once. The attempt's row is stored already. Throws IoError when
+    /// it cannot be started.
     virtual void submit(const AttemptFolder& folder, const Order& order) = 0;
-    /// What is true now; right after a restart too. Silence of a scheduler is never "gone".
+    /// The present state; right after a restart too. Silence of a scheduler is never "gone".
     virtual Vitals probe(const AttemptFolder& folder) = 0;
     /// Asks the whole process tree to end; returns at once.
     virtual void stop(const AttemptFolder& folder, StopReason reason) = 0;
-    /// The attempt was given up: nothing of it may run on, or begin to run.
+    /// For an attempt that was given up: no process of it may continue, or start.
     virtual void clear_away(const AttemptFolder& folder, const std::string& attempt) = 0;
     virtual AtStop at_stop() const = 0;
-    /// As the cluster listed them last; nothing: there is no queue but ours. From any thread.
+    /// As the cluster listed them last; nothing: it has no queue. From any thread.
     virtual std::optional<std::vector<QueuedJob>> jobs() { return std::nullopt; }
 };
 

@@ -18,7 +18,7 @@ class LocalExecutor final : public Executor {
     Vitals probe(const AttemptFolder& folder) override;
     void stop(const AttemptFolder& folder, StopReason reason) override;
     void clear_away(const AttemptFolder& folder, const std::string& attempt) override;
-    /// Their checkpoints are saved first; the next service goes on with them.
+    /// Their checkpoints are saved first; the next service continues them.
     AtStop at_stop() const override { return AtStop::ends_them; }
 
   private:
@@ -30,7 +30,7 @@ class LocalExecutor final : public Executor {
     void reap();
 
     std::filesystem::path self_;
-    /// Our children, to be reaped; liveness never hangs on the pids
+    /// Our children, to be reaped; the pids do not decide whether an attempt is alive
     std::vector<Supervisor> supervisors_;
 };
 

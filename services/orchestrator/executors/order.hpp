@@ -1,4 +1,4 @@
-// What passes between the service and the supervisor of an attempt: the order (before) and the exit
+// Messages between the service and the supervisor of an attempt: the order (before) and the exit
 // record (after), both files in the attempt's folder, so that neither side needs the other to be
 // alive.
 #pragma once
@@ -24,8 +24,8 @@ struct Order {
     std::int64_t priority = 0;   ///< higher goes first
 };
 
-/// Why an attempt is to end. `revoked`: it was given up, and a later attempt may run already. `signal`: not the service but
-/// somebody else asked, such as Slurm at a time limit or a machine that goes down.
+/// Why an attempt must end. `revoked`: it was given up, and a later attempt may run already. `signal`: not the service but
+/// another party stopped it, such as Slurm at a time limit or a machine that shuts down.
 enum class StopReason { cancel, shutdown, revoked, signal };
 std::string_view name_of(StopReason reason);
 
@@ -38,35 +38,35 @@ struct ExitRecord {
     double cpu_seconds = 0.0;
 };
 
-/// What a supervisor says of its phase while it runs, every two seconds.
+/// A supervisor's report about its phase while it runs, every two seconds.
 struct Heartbeat {
     std::string host;
     std::int64_t pid = 0;        ///< of the phase; 0: it has not begun
     double cpu_seconds = 0.0;    ///< so far
-    std::int64_t memory_mb = 0;  ///< that it holds now
+    std::int64_t memory_mb = 0;  ///< resident now
 };
 
 /// The environment variable that marks every process of an attempt.
 constexpr const char* attempt_mark = "BREACHLINE_ATTEMPT";
 
-/// What an attempt of the same number has left, of which the store does not know (it was restored
-/// from a backup): its end would be taken for that of the one which begins.
+/// Removes files of an attempt of the same number that the store does not know (it was restored
+/// from a backup): its end would be mistaken for that of the new attempt.
 void remove_remains(const AttemptFolder& folder);
 
 void write_order(const AttemptFolder& folder, const Order& order);
-/// Of an earlier version, without cores, memory and priority: as by default.
+/// In an order of an earlier version, cores, memory and priority have their defaults.
 Order read_order(const AttemptFolder& folder);
 
 void write_exit_record(const AttemptFolder& folder, const ExitRecord& record);
-/// Nothing while there is none.
+/// Nothing until there is one.
 std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder);
 
-/// Its time is a sign of life even where its text cannot be written (a full disk).
+/// Its time shows that the attempt is alive even if its text cannot be written (a full disk).
 void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat);
 /// Nothing: there is none, or its text was being written.
 std::optional<Heartbeat> read_heartbeat(const AttemptFolder& folder);
 
-/// Asks the supervisor to stop the attempt; a second asking keeps the first reason.
+/// Asks the supervisor to stop the attempt; a second request keeps the first reason.
 void write_stop(const AttemptFolder& folder, StopReason reason);
 std::optional<StopReason> read_stop(const AttemptFolder& folder);
 

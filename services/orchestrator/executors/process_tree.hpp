@@ -1,4 +1,4 @@
-// The processes of this machine as /proc shows them: who descends from us, who carries an attempt's
+// The processes of this machine from /proc: our descendants, and those with an attempt's
 // mark.
 #pragma once
 
@@ -17,13 +17,13 @@ struct Usage {
     double cpu_seconds = 0.0;    ///< of all its threads, without its children
     std::int64_t memory_mb = 0;  ///< resident [1e6 bytes]
 };
-/// Zeros when it is gone.
+/// Zeros if it has ended.
 Usage usage_of(pid_t pid);
 
 std::string host_name();
 
-/// Kills every process but ourselves whose environment says that it was started for this attempt,
-/// wherever it hangs in the tree; also those that were forked meanwhile.
+/// Kills every process except ourselves with the mark of this attempt in its environment, anywhere
+/// in the tree; also those that are forked meanwhile.
 void kill_marked_processes(const std::string& attempt);
 
 }  // namespace breach::orchestrator

@@ -1,5 +1,5 @@
-// What is said to Slurm and how its answers are read: sbatch, squeue and scancel by command line,
-// the interface that every version and every site has.
+// Commands to Slurm and parsing of its answers: sbatch, squeue and scancel by command line, the
+// interface that every version and every site has.
 #pragma once
 
 #include <chrono>
@@ -12,8 +12,8 @@
 
 namespace breach::orchestrator {
 
-/// A job as we know it: the name is ours and unique, Slurm's numbers are not (a controller that
-/// lost its memory gives them again). Attempts that were submitted together are tasks of one array.
+/// Identity of a job: its name is ours and unique, Slurm's numbers are not (a controller that lost
+/// its memory assigns them again). Attempts that were submitted together are tasks of one array.
 struct JobName {
     std::string name;
     std::int64_t index = 0;
@@ -23,22 +23,22 @@ struct JobName {
 struct ListedJob {
     std::string number;  ///< for scancel: "123", or "123_4" in an array
     std::string state;   ///< Slurm's word: "PENDING", ...
-    std::string reason;  ///< why it waits: "Priority"; empty: it does not
+    std::string reason;  ///< why it waits: "Priority"; empty: it does not wait
 };
 
-/// Attempts that go to Slurm as one job.
+/// Attempts submitted to Slurm as one job.
 struct Batch {
     std::string name;
     std::vector<AttemptFolder> folders;
     std::vector<std::string> attempts;
     Order like;            ///< resources and priority of all of them
-    std::size_t throttle;  ///< of an array: so many tasks at once; 0: no limit
+    std::size_t throttle;  ///< of an array: tasks at the same time; 0: no limit
 };
 
 enum class Reply {
     accepted,
-    refused,   ///< for a reason that asking again will not mend
-    doubtful,  ///< no answer, or one that does not say whether the job exists
+    refused,   ///< for a reason that persists
+    doubtful,  ///< no answer, or one that leaves open whether the job exists
 };
 
 struct Submitted {
@@ -48,15 +48,15 @@ struct Submitted {
 
 class SlurmCommands {
   public:
-    /// `options`: further words for sbatch (partition, account, time limit); `self`: the breachline
-    /// executable as the nodes see it.
+    /// `options`: further words for sbatch (partition, account, time limit); `self`: path of the
+    /// breachline executable on the nodes.
     SlurmCommands(std::vector<std::string> options, std::string self,
                   std::chrono::milliseconds longest);
 
     Submitted submit(const Batch& batch) const;
     /// All jobs of this user, in any state; nothing when Slurm does not answer.
     std::optional<std::map<JobName, ListedJob>> list() const;
-    /// What is over already is no fault; no answer shows at the next look.
+    /// No fault if the job is over already; a missing answer shows at the next look.
     void cancel(const JobName& job, const std::string& number) const;
 
   private:

@@ -38,7 +38,7 @@ bool runs(const std::string& state) {
            state == "STAGE_OUT";
 }
 
-/// Written before sbatch is called: whatever happens to us then, the job can be found by its name.
+/// Written before sbatch is called: even after a crash the job can be found by its name.
 void write_job_name(const AttemptFolder& folder, const JobName& job) {
     exchange::publish_text(folder.slurm_job(),
                            json{{"name", job.name}, {"index", job.index}}.dump() + "\n");
@@ -322,10 +322,10 @@ void SlurmExecutor::submit_what_waits() {
     }
 }
 
-/// One round with sbatch. Between its opening and its closing the jobs are in `asking`, the lock is
-/// free, and anything may become of them: a quick one has ended and is forgotten, another is
-/// stopped. So the closing takes each job as it finds it; whatever a round that does not come to
-/// its closing leaves is found by recover_the_unanswered.
+/// One call of sbatch. Between its opening and its closing the jobs are in `asking`, the lock is
+/// free, and a job may change: a quick one has ended and is forgotten, another is stopped. So the
+/// closing looks at the present state of each job; recover_the_unanswered finds what a round leaves
+/// that never reaches its closing.
 void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& roots) {
     const Batch batch = open_round(roots);
     if (batch.folders.empty()) return;
@@ -399,7 +399,7 @@ void SlurmExecutor::close_round(const Batch& batch, const Submitted& answer) {
 }
 
 /// Only the clerk opens rounds, and between two of its turns none is open: a job that is still
-/// being asked for then has lost its answer. The queue must say what became of it.
+/// in `asking` then has lost its answer. The queue must say whether the job exists.
 void SlurmExecutor::recover_the_unanswered() {
     const std::lock_guard lock(mutex_);
     for (auto& [root, job] : jobs_) {
@@ -451,7 +451,7 @@ void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed
     job.number.clear();
 }
 
-/// In the queue: at once. Running: its supervisor was told; when that has not helped, Slurm must.
+/// In the queue: at once. Running: its supervisor is asked first; if that fails, Slurm stops it.
 bool SlurmExecutor::Job::is_due_for_scancel() const {
     if (!unwanted_since || number.empty()) return false;
     if (waits_its_turn(state)) return true;

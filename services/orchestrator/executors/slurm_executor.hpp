@@ -1,9 +1,9 @@
-// Attempts as jobs of a Slurm cluster, each below the same supervisor as on this machine. One
-// thread of its own talks to Slurm, so that a controller which does not answer holds up nobody.
+// Attempts as jobs of a Slurm cluster, each below the same supervisor as on this machine. A thread
+// of its own talks to Slurm, so that a controller that does not answer delays nothing else.
 //
-// The first witness of an attempt is its own folder (exit record, lock, heartbeat), which all nodes
-// see; Slurm is the second. A job that Slurm does not list is unknown, not finished: it counts as
-// gone only after a grace time without any sign of life.
+// The state of an attempt comes first from its own folder (exit record, lock, heartbeat), which all
+// nodes see, and then from Slurm. A job that Slurm does not list is unknown, not finished: it
+// counts as gone only after a grace time without any sign of life.
 #pragma once
 
 #include <condition_variable>
@@ -21,7 +21,7 @@ struct SlurmSettings {
     std::vector<std::string> options;  ///< further words for sbatch
     double poll_seconds = 5;           ///< between two looks at the queue
     double grace_seconds = 60;         ///< without a sign of life before an attempt is given up
-    double command_seconds = 30;       ///< that one command may take
+    double command_seconds = 30;       ///< time limit of one command
     std::size_t throttle = 0;          ///< tasks of one array at the same time; 0: no limit
 };
 
@@ -35,7 +35,7 @@ class SlurmExecutor final : public Executor {
     Vitals probe(const AttemptFolder& folder) override;
     void stop(const AttemptFolder& folder, StopReason reason) override;
     void clear_away(const AttemptFolder& folder, const std::string& attempt) override;
-    /// The cluster goes on without us; the next service finds the jobs again.
+    /// The cluster continues without the service; the next one finds the jobs again.
     AtStop at_stop() const override { return AtStop::leaves_them; }
 
     std::optional<std::vector<QueuedJob>> jobs() override;
@@ -51,7 +51,7 @@ class SlurmExecutor final : public Executor {
         refused,    ///< there is no job, and there will be none
     };
 
-    /// An attempt in our care.
+    /// An attempt submitted to this executor.
     struct Job {
         AttemptFolder folder;
         Order order = {};
@@ -60,16 +60,16 @@ class SlurmExecutor final : public Executor {
         std::string state = {};     ///< Slurm's word when it was last listed
         std::string reason = {};    ///< Slurm's word for why it waits
         std::string number = {};    ///< Slurm's number for it when it was last listed
-        std::string why = {};       ///< it was refused, or is in caution
+        std::string why = {};       ///< why it was refused, or is uncertain
         int asked = 0;              ///< how often sbatch was called for it
         Clock::time_point since{};  ///< of this stage
-        /// Since when nothing speaks for its life: not listed, or listed as over or as running, and
+        /// Since when there is no sign of life: not listed, or listed as over or as running, and
         /// neither lock nor heartbeat.
         std::optional<Clock::time_point> silent_since = {};
         std::optional<std::filesystem::file_time_type> heartbeat = {};
         Clock::time_point heart_beat_at{};
         std::optional<Clock::time_point> unwanted_since = {};
-        bool given_up = false;  ///< nobody asks for it any more
+        bool given_up = false;  ///< no longer needed
 
         std::string what_keeps() const;
         bool heart_beats();
@@ -88,7 +88,7 @@ class SlurmExecutor final : public Executor {
     void take_in(Job& job, const std::map<JobName, ListedJob>& listed, Clock::time_point asked);
     bool must_be_found();
     bool cancel_the_unwanted();
-    /// With the lock held: something should not wait for the next look.
+    /// With the lock held: requests a look before the next regular one.
     void press();
     Job* find_or_adopt(const AttemptFolder& folder);
     Vitals vitals_of(Job& job) const;
@@ -99,9 +99,9 @@ class SlurmExecutor final : public Executor {
     std::mutex mutex_;
     std::condition_variable_any news_;
     Jobs jobs_;
-    bool pressing_ = false;  ///< something waits that should not wait for the next look
-    bool answers_ = true;    ///< Slurm did, the last time
-    std::jthread clerk_;     // last: stops before what it uses goes
+    bool pressing_ = false;  ///< a look before the next regular one is due
+    bool answers_ = true;    ///< Slurm answered the last time
+    std::jthread clerk_;     // last: stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

@@ -35,7 +35,7 @@ constexpr int cannot_execute = 127;
 constexpr auto pause = std::chrono::milliseconds(20);
 constexpr auto heartbeat_interval = std::chrono::seconds(2);
 
-/// Held by whatever of the attempt lives, as long as anything of it lives.
+/// Held by every process of the attempt until the last one ends.
 FileLock held_by_all_below(FileLock lock) {
     fcntl(lock.descriptor(), F_SETFD, 0);
     return lock;
@@ -71,7 +71,7 @@ class Supervision {
     }
 
   private:
-    /// One phase of a task at a time, whatever was believed of the attempts before this one. False:
+    /// One phase of a task at a time, even if an earlier attempt was believed to have ended. False:
     /// asked to stop before it began.
     bool wait_for_fence() {
         while (true) {

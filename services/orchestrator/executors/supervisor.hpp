@@ -7,15 +7,15 @@
 
 namespace breach::orchestrator {
 
-/// Who locked the attempt: the service, which handed its descriptor down, or nobody yet (a
+/// Owner of the attempt's lock: the service, which passed its descriptor on, or nobody yet (on a
 /// cluster's node, where a repeated job must find the attempt taken).
 enum class AttemptLock { inherited, to_be_taken };
 
-/// Runs the attempt in `folder`. Returns the supervisor's own exit code, not the phase's. Nothing
-/// happens when the attempt runs already, has ended, or was given up.
+/// Runs the attempt in `folder`. Returns the supervisor's own exit code, not the phase's. Does
+/// nothing when the attempt runs already, has ended, or was given up.
 int supervise(const std::filesystem::path& folder, AttemptLock lock);
 
-/// After a supervisor was killed: kills what its phase left behind on this machine.
+/// After a supervisor was killed: kills the remaining processes of its phase on this machine.
 void end_strays(const std::filesystem::path& folder);
 
 }  // namespace breach::orchestrator

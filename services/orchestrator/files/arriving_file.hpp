@@ -1,5 +1,5 @@
-// A file that is being sent. One that was announced by its content keeps what has come of it when the rest does not
-// follow, and goes on from there; others are gone with their request.
+// A file during its upload. If it was announced by its content, an interrupted upload keeps the bytes so far and
+// can be resumed; others are deleted with their request.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ class ArrivingFile {
   public:
     /// path: of a file that is not there yet.
     static ArrivingFile of_one_request(std::filesystem::path path);
-    /// folder: where such files are kept, for a day after their last byte. Nothing: this one is being sent right now.
+    /// folder: where such files are kept, for a day after their last byte. Nothing: it is being uploaded right now.
     static std::optional<ArrivingFile> resumable(const std::filesystem::path& folder,
                                                  const std::string& name);
     ArrivingFile(ArrivingFile&&) = default;
@@ -25,9 +25,9 @@ class ArrivingFile {
     void begin_anew();
     /// Throws IoError.
     void append(const char* data, std::size_t size);
-    /// What has come is worth nothing without the rest.
+    /// Without this the file is deleted: its bytes are useless without the rest.
     void keep_until_resumed() { kept_ = true; }
-    /// To the disk. Throws IoError.
+    /// Flushes to the disk. Throws IoError.
     void sync();
 
   private:
@@ -38,7 +38,7 @@ class ArrivingFile {
     bool kept_ = false;
 };
 
-/// How much has come of the file whose name begins so [bytes].
+/// Bytes so far of the file with this beginning of its name.
 std::int64_t arrived_bytes(const std::filesystem::path& folder, const std::string& sha256);
 
 }  // namespace breach::orchestrator

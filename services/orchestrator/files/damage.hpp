@@ -1,4 +1,4 @@
-// Whether a file is still what was stored of it.
+// Whether a file still has its stored size and hash.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where the service keeps its files.
+// Layout of the service's data folder.
 //
 //     <data>/breachline.sqlite         the store
 //     <data>/instance.lock             held by the one service that owns the folder
@@ -35,14 +35,14 @@ struct AttemptFolder {
     std::filesystem::path fence() const { return root.parent_path() / "fence"; }
 };
 
-/// The names alone; nothing is made and nothing is locked.
+/// The paths alone; creates and locks nothing.
 class DataPaths {
   public:
     explicit DataPaths(std::filesystem::path root) : root_(std::move(root)) {}
 
     std::filesystem::path database() const { return root_ / "breachline.sqlite"; }
     std::filesystem::path runs() const { return root_ / "runs"; }
-    /// What references of a scene are resolved against (core/scene/file_paths.hpp).
+    /// The folder against which references of a scene are resolved (core/scene/file_paths.hpp).
     const std::filesystem::path& root() const { return root_; }
     std::filesystem::path files() const { return root_ / "files"; }
     /// Everything that a run has on the disk. `run` must not be empty.
@@ -51,7 +51,7 @@ class DataPaths {
     std::filesystem::path reused(const Task& task) const { return this->task(task) / "reused"; }
     std::filesystem::path output(const Task& task) const { return output(task.run, task.label); }
     std::filesystem::path output(const std::string& run, const std::string& label) const;
-    /// The file that a task reads, in its parent's output folder; the task reads one.
+    /// The input file of a task, in its parent's output folder; the task must have one.
     std::filesystem::path input(const Task& task, const Task& parent) const;
     AttemptFolder attempt(const Task& task, std::int64_t number) const;
     std::filesystem::path scratch() const { return root_ / "scratch"; }
@@ -66,8 +66,8 @@ class DataPaths {
 
 class DataFolder : public DataPaths {
   public:
-    /// Makes the folder and takes its lock. Throws IoError, naming the folder, when another service
-    /// has it.
+    /// Creates the folder and takes its lock. Throws IoError, naming the folder, when another
+    /// service has it.
     explicit DataFolder(const std::filesystem::path& root);
 
   private:

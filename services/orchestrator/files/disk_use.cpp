@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_named = 10;
 
 std::int64_t bytes_of(const struct stat& info) {
-    constexpr std::int64_t block = 512;  // of st_blocks, whatever the disk's are
+    constexpr std::int64_t block = 512;  // of st_blocks, for any block size of the disk
     return block * static_cast<std::int64_t>(info.st_blocks);
 }
 

@@ -1,5 +1,5 @@
-// What lies in the data folder, run by run. Runs that share results share the files themselves (hard
-// links), so the disk itself knows what removing one of them would give back.
+// Disk use of the data folder by run. Runs that share results share the files (hard links), so the
+// links decide how many bytes the removal of a run frees.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace breach::orchestrator {
 
-/// [bytes that the disk has given]
+/// [bytes allocated on the disk]
 struct RunUse {
     std::int64_t own = 0;                       ///< freed when the run is removed
     std::int64_t shared = 0;                    ///< also held by others
@@ -22,21 +22,21 @@ std::int64_t freed_without(const std::filesystem::path& run);
 
 class DiskUse {
   public:
-    /// Looks at every file below `runs` and `files`. What vanishes meanwhile counts as gone.
+    /// Looks at every file below `runs` and `files`. Files that vanish meanwhile count as removed.
     DiskUse(const std::filesystem::path& runs, const std::filesystem::path& files);
 
-    /// By run; also folders of which the store knows nothing.
+    /// By run; includes folders that the store does not know.
     std::map<std::string, RunUse> by_run() const;
     std::int64_t bytes_of_runs() const { return bytes_of_runs_; }
     std::int64_t bytes_of_files() const { return bytes_of_files_; }
-    /// Reckons without the run from now on; returns what it frees.
+    /// Excludes the run from now on; returns the bytes it frees.
     std::int64_t leave_out(const std::string& run);
 
   private:
-    /// One file of the disk, however many names it has.
+    /// One file on the disk, with any number of names.
     struct Content {
         std::int64_t bytes;
-        std::uint64_t names;  ///< wherever on the disk
+        std::uint64_t names;  ///< anywhere on the disk
         std::map<std::string, std::uint64_t> in_runs;
     };
     bool is_held_elsewhere(const Content& content, const std::string& run) const;

@@ -10,7 +10,7 @@ namespace breach::orchestrator {
 
 class FileLock {
   public:
-    /// Nothing when somebody else holds it. Throws IoError when the file cannot be made.
+    /// Nothing when another process holds it. Throws IoError when the file cannot be created.
     static std::optional<FileLock> try_take(const std::filesystem::path& file);
 
     FileLock(FileLock&& other) noexcept;
@@ -24,8 +24,8 @@ class FileLock {
     int descriptor_;
 };
 
-/// Somebody holds it now. Asking takes nothing, so it is in nobody's way. A file that is not there
-/// is not held.
+/// Whether a process holds it now. Does not take the lock. A missing file is not
+/// held.
 bool is_held(const std::filesystem::path& file);
 
 }  // namespace breach::orchestrator

@@ -1,5 +1,5 @@
-// Tells when something changes in watched folders (inotify). A hint to look, never the truth: the
-// looker reads the folder itself, so that a lost hint costs time only.
+// Reports changes in watched folders (inotify). Only a hint to look: the caller reads the folder
+// itself, so that a lost hint costs time only.
 #pragma once
 
 #include <filesystem>

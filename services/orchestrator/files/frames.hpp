@@ -1,5 +1,5 @@
-// Snapshots of a task as the dashboard draws them: which there are, and their points as flat
-// float32 arrays.
+// Snapshots of a task for the dashboard: a list of them, and their points as flat float32
+// arrays.
 #pragma once
 
 #include <filesystem>
@@ -20,14 +20,14 @@ struct Frame {
     std::string kind;  ///< "particles" or "mesh"
 };
 
-/// Whole snapshot files in a phase's output folder, ascending in time; also while the phase still
-/// writes.
+/// Complete snapshot files in a phase's output folder, ascending in time; also while the phase
+/// still writes.
 std::vector<Frame> frames_in(const std::filesystem::path& output, const std::string& phase);
 
-/// A frame's name as it may come from outside: a plain .vtkhdf file name without any path.
+/// Whether a frame's name from a request is safe: a plain .vtkhdf file name without any path.
 bool is_frame_name(const std::string& name);
 
-/// A snapshot has no such field; what() says which there are.
+/// A snapshot has no such field; what() lists its fields.
 struct NoSuchField : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -43,7 +43,7 @@ class FrameReader {
     std::string points(const std::filesystem::path& file, const std::string& phase,
                        std::size_t stride, const std::vector<std::string>& wanted = {});
 
-    /// With HDF5 to itself.
+    /// Runs work while no other thread uses HDF5.
     void alone(const std::function<void()>& work) {
         const std::lock_guard lock(mutex_);
         work();

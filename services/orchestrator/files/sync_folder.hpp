@@ -1,11 +1,11 @@
-// The names in a folder, on the disk.
+// Flushes the names in a folder to the disk.
 #pragma once
 
 #include <filesystem>
 
 namespace breach::orchestrator {
 
-/// A machine that goes down must not find a file noted and its name gone.
+/// Needed so that after a power failure a recorded file still has its name.
 void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace breach::orchestrator

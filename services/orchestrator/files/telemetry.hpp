@@ -15,7 +15,7 @@ struct TelemetryRequest {
     std::int64_t stride = 1;          ///< every stride-th line, counted from line 0
 };
 
-/// {"lines":[...],"next":LINE}: `next` is where to go on; a torn last line waits until it is whole.
+/// {"lines":[...],"next":LINE}: `next` is where to continue; a torn last line waits.
 nlohmann::json read_telemetry(const std::filesystem::path& file, const TelemetryRequest& request);
 
 }  // namespace breach::orchestrator

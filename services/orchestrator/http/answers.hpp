@@ -1,4 +1,4 @@
-// The shapes that the API answers with: records as JSON.
+// The answers of the API: records as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -22,9 +22,9 @@ nlohmann::json warnings_json(const std::vector<fault::Flag>& flags);
 
 using Columns = std::span<const ResultColumn>;
 
-/// [{"runout": ...}, ...]: by the names of the columns. Text at once: a table may have thousands.
+/// [{"runout": ...}, ...]: by the names of the columns. Text directly, as tables may be long.
 std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns);
-/// What the columns of a table of results are: [{name, kind, unit, title, meaning}].
+/// Description of the columns of a table of results: [{name, kind, unit, title, meaning}].
 nlohmann::json described(Columns columns);
 /// JSON schema of one of these rows.
 nlohmann::json schema_of_rows(Columns columns);

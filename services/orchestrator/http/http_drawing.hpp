@@ -1,4 +1,4 @@
-// Documents before they are submitted: their section as a picture, and what they will cost.
+// Routes for documents before they are submitted: a picture of the section, and the cost.
 #pragma once
 
 #include "services/orchestrator/http/http_router.hpp"

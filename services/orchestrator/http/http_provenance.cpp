@@ -190,8 +190,8 @@ class Chain {
 
     const Service& service_;
     json document_;
-    std::map<std::string, std::vector<std::string>> sources_;  ///< of each activity that is told
-    std::set<std::string> runs_;                               ///< whose scenes are told
+    std::map<std::string, std::vector<std::string>> sources_;  ///< of each activity in the document
+    std::set<std::string> runs_;                               ///< whose scenes are listed
     std::size_t relations_ = 0;
 };
 

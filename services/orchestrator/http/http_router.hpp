@@ -19,7 +19,7 @@
 
 namespace breach::orchestrator {
 
-/// What an answer other than 2xx says; thrown by handlers, written by the router.
+/// The content of an answer other than 2xx; thrown by handlers, written by the router.
 struct Problem {
     int status;
     std::string type;  ///< stable, below /problems/
@@ -33,16 +33,16 @@ Problem bad_request(const std::string& detail);
 
 void refuse(httplib::Response& response, const Problem& problem);
 void reply(httplib::Response& response, const nlohmann::json& body, int status = 200);
-/// The same of a JSON text as it is.
+/// The same with a JSON text.
 void reply_with_text(httplib::Response& response, std::string body, int status = 200);
 
-/// One request on its way through a handler.
+/// One request, as its handler gets it.
 struct Call {
     const httplib::Request& request;
     httplib::Response& response;
-    const Caller& caller;            ///< what it asks for is told of it in the events
-    std::vector<std::string> parts;  ///< what stands for the template's {…}, decoded
-    /// Of a path whose body is not kept in memory (HttpServer::answer): reads it, once.
+    const Caller& caller;            ///< requester: its token's name is stored with every event
+    std::vector<std::string> parts;  ///< values of the template's {…}, decoded
+    /// For a path whose body is not kept in memory (HttpServer::answer): reads it, once.
     const httplib::ContentReader* body = nullptr;
 
     /// Unknown query parameters are 400, so that a misspelt filter is not silently ignored.
@@ -51,7 +51,7 @@ struct Call {
     std::int64_t whole_number(const std::string& name, std::int64_t otherwise, std::int64_t least,
                               std::int64_t most) const;
     std::optional<double> number(const std::string& name) const;
-    /// The body; 415 when it is not announced as JSON (a web form could be sent by any page).
+    /// The body; 415 when it is not declared as JSON (any page could send a web form).
     const std::string& json_body() const;
 };
 
@@ -59,16 +59,16 @@ using Handler = std::function<void(Call&)>;
 
 class Router {
   public:
-    /// right: of those who may ask, below /v1/; other paths are the page and the machine's, for everybody.
+    /// right: needed below /v1/; other paths are the dashboard and machine endpoints, open to all.
     void get(const std::string& path, Handler handler, Right right = Right::read);
     void post(const std::string& path, Handler handler, Right right = Right::submit);
     void remove(const std::string& path, Handler handler, Right right = Right::admin);
-    /// What a request of this method and path takes; of a path that does not exist, what reading takes.
+    /// The right that this method and path need; for a path that does not exist, that of reading.
     Right needed(const std::string& method, const std::string& path) const;
     /// Finds and runs the handler; every outcome becomes an answer, nothing is thrown.
     void answer(const httplib::Request& request, httplib::Response& response, const Caller& caller,
                 const httplib::ContentReader* body = nullptr) const;
-    /// Answers so far, by class of status: [1] is 1xx, ... [5] is 5xx.
+    /// Number of answers by class of status: [1] is 1xx, ... [5] is 5xx.
     std::array<std::uint64_t, 6> answers() const;
 
   private:

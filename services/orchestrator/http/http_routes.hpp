@@ -15,22 +15,22 @@ void add_all_routes(Router& router, Service& service, const std::atomic<bool>& s
 void add_run_routes(Router& router, Service& service);
 /// Error against run time.
 void add_accuracy_routes(Router& router, Service& service);
-/// What samples say of a result.
+/// Statistics of the samples of a result.
 void add_uncertainty_routes(Router& router, Service& service);
 void add_motion_routes(Router& router, Service& service);
-/// Triggers: what became of them, and new ones while a run goes on.
+/// Triggers: their states, and new ones while a run goes on.
 void add_trigger_routes(Router& router, Service& service);
-/// What the phases wrote: logs, telemetry, frames, artifacts.
+/// Output of the phases: logs, telemetry, frames, artifacts.
 void add_output_routes(Router& router, Service& service);
-/// A run as the report that a person reads.
+/// The report of a run.
 void add_report_routes(Router& router, Service& service);
-/// What leaves the model: hydrographs at sections, envelopes over an ensemble.
+/// Flow past sections: hydrographs, and envelopes over an ensemble.
 void add_outflow_routes(Router& router, Service& service);
-/// What lies on the disk, and its removal.
+/// Disk use, and removal.
 void add_storage_routes(Router& router, Service& service);
 /// The stream of events. `stopping` ends every waiting client.
 void add_event_routes(Router& router, Service& service, const std::atomic<bool>& stopping);
-/// Studies that are shipped, whole, to begin with.
+/// The shipped example studies, complete.
 void add_example_routes(Router& router, Service& service);
 /// Scenes from templates.
 void add_template_routes(Router& router, Service& service);
@@ -39,26 +39,26 @@ void add_metric_routes(Router& router, Service& service);
 /// Schemas, plans, health, the dashboard.
 void add_page_routes(Router& router, Service& service);
 
-/// Files that were sent: motions and meshes that scenes name by their content.
+/// Uploaded files: motions and meshes that scenes name by their content.
 void add_file_routes(Router& router, Service& service);
-/// Keeps a motion that was made here like one that was sent; how a scene names it.
+/// Stores a generated motion like an uploaded one; returns the reference for scenes.
 std::string keep_motion(Service& service, const std::string& name, const std::string& text);
-/// Scenes that were stored, by name and by hash.
+/// Stored scenes, by name and by hash.
 void add_scene_routes(Router& router, Service& service);
-/// The stored scene that the run was made of, or null.
+/// The stored scene from which the run was made, or null.
 nlohmann::json scene_source_json(const Service& service, const std::string& run);
-/// Transfers of one run or all, with what made them.
+/// Transfers of one run or all, with their triggers.
 void add_transfer_routes(Router& router, Service& service);
-/// How a file came to be: PROV-JSON.
+/// Provenance of a file: PROV-JSON.
 void add_provenance_routes(Router& router, Service& service);
-/// What runs where.
+/// Running tasks and workers.
 void add_worker_routes(Router& router, Service& service);
 
-/// Those that the run's scenes name.
+/// The uploaded files that the run's scenes name.
 nlohmann::json files_json(const Service& service, const std::string& run);
 
-/// A file that is known by its hash: with ETag, at most one range; 410 when it is not on the disk as
-/// it was stored.
+/// Sends a file with a known hash: with ETag, at most one range; 410 when the file on the disk
+/// differs from the stored one.
 void send_content(Call& call, const std::filesystem::path& file, const std::string& sha256,
                   std::int64_t bytes, const std::string& name);
 /// Empty: it cannot be read.
@@ -66,8 +66,8 @@ std::string whole_text(const std::filesystem::path& file);
 /// The task, or 404.
 Task wanted_task(const Service& service, const std::string& id);
 Run wanted_run(const Service& service, const std::string& id);
-/// The only task of a phase, for one per transfer of that time, for one per variant of that name;
-/// 400 where several are meant, 404 where none is.
+/// The only task of a phase; with a time, the one per transfer of that time, with a name, the one
+/// of that variant; 400 where several match, 404 where none does.
 Task meant_task(const Service& service, const std::string& run, const std::string& phase,
                 std::optional<double> transfer_time, const std::optional<std::string>& variant);
 

@@ -157,8 +157,8 @@ class HttpServer::Implementation {
     }
     void stop() {
         stopping_ = true;
-        // httplib ignores a stop that comes before its loop has begun, and would then serve for
-        // ever.
+        // httplib ignores a stop that comes before its loop has begun, and would then never stop
+        // serving.
         constexpr auto moment = std::chrono::milliseconds(5);
         while (!ended_ && !server_.is_running()) std::this_thread::sleep_for(moment);
         server_.stop();

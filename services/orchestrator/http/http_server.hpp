@@ -1,5 +1,5 @@
-// The service's HTTP side: sizes, hardening, tokens, routes. TLS, slow clients and rates are nginx's
-// (docs/how-to/reverse_proxy.md). cpp-httplib stays inside this folder.
+// The service's HTTP server: sizes, hardening, tokens, routes. TLS, slow clients and rate limits are
+// left to nginx (docs/how-to/reverse_proxy.md). Only this folder uses cpp-httplib.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,13 @@ struct HttpSettings {
     int port = 0;  ///< 0: any free one
     std::string
         token;  ///< of the admin; without it and without `tokens` none is needed, which only loopback allows
-    std::filesystem::path tokens;  ///< file of named ones (access/tokens.hpp); empty: none
+    std::filesystem::path tokens;  ///< file of named tokens (access/tokens.hpp); empty: none
 };
 
 class HttpServer {
   public:
     /// Binds. Throws IoError when it cannot, BadInput when the host is not loopback and there is no
-    /// token, or when the tokens cannot be used.
+    /// token, or when the tokens' file is invalid.
     HttpServer(Service& service, HttpSettings settings);
     ~HttpServer();
     HttpServer(const HttpServer&) = delete;

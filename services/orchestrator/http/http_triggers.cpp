@@ -1,4 +1,4 @@
-// Triggers of a run: what became of them, and new ones.
+// Triggers of a run: their states, and new ones.
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
 #include "core/scene/schema.hpp"

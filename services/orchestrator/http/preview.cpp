@@ -45,7 +45,7 @@ fault::BadInput refusal_of(const report::Draft& draft, const std::vector<fault::
     return {is_study(draft) ? "study" : "scene", std::move(faults)};
 }
 
-/// What a submission of the document would be told beyond the faults of its scene.
+/// What the answer to a submission of the document would report beyond the faults of its scene.
 struct Judged {
     std::vector<fault::Fault> faults;
     std::vector<fault::Flag> warnings;

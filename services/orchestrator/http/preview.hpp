@@ -1,5 +1,5 @@
-// Documents before they are submitted: their section as a picture, and what they will cost. Apart from
-// the routes, because Eigen and httplib cannot be read together.
+// Picture and cost of documents before they are submitted. Separate from the routes, because Eigen and
+// httplib cannot be included together.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,12 +11,12 @@ namespace breach::orchestrator {
 
 enum class MeshDrawn { no, yes };
 
-/// What POST /v1/draw answers: SVG, of faulty documents as well. A mesh is made by fem_solver and kept
-/// in the data folder. Throws BadInput where there is nothing to draw, or a mesh that is asked for
-/// cannot be made.
+/// The answer of POST /v1/draw: SVG, of faulty documents as well. fem_solver makes the mesh, which is
+/// kept in the data folder. Throws BadInput where there is nothing to draw, or a requested mesh cannot
+/// be made.
 std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh);
 
-/// What POST /v1/cost answers. Throws BadInput with all that the submission of a study would be refused for.
+/// The answer of POST /v1/cost. Throws BadInput with all faults that would refuse the study.
 nlohmann::json cost_of(const Service& service, const std::string& body);
 
 }  // namespace breach::orchestrator

@@ -1,5 +1,5 @@
-// Studies and scenes that come over the network, read with what only the HTTP layer knows: the sender
-// may have taken the one for the other, and files are on this machine, not on the sender's.
+// Reads uploaded studies and scenes, with checks for the HTTP layer: the sender may have confused the
+// two, and files are on this machine, not on the sender's.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,10 +10,10 @@
 
 namespace breach::orchestrator {
 
-/// Which files its scenes may name.
+/// The files that its scenes may name.
 SentFiles files_of(const Service& service);
 
-/// By its format; without one, by its parts.
+/// By its format; without one, by its entries.
 bool is_study_document(const nlohmann::json& document);
 
 /// Throws BadInput: one fault when it is a scene, else those of read_study.
@@ -24,7 +24,7 @@ Study sent_study(nlohmann::json document, const Service& service);
 /// read_whole_scene.
 WholeScene sent_scene(const std::string& body, const Service& service);
 
-/// The faults with the remedy for a missing file that fits a sender who may sit elsewhere.
+/// The faults, with a remedy for a missing file that also fits a sender on another machine.
 std::vector<fault::Fault> seen_from_here(std::vector<fault::Fault> faults);
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// What the HTTP layer may use of the service.
+// The parts of the service that the HTTP layer may use.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@
 
 namespace breach::orchestrator {
 
-/// The Idempotency-Keys of requests that are being stored now. What is stored already is in the database.
+/// The Idempotency-Keys of requests being stored now. Those of stored runs are in the database.
 class KeysInProgress {
   public:
     bool enter(const std::string& key) {
@@ -43,10 +43,10 @@ struct Service {
     EarlierCosts& earlier_costs;
     KeysInProgress& keys;
     std::filesystem::path bin;        ///< the phase executables
-    Numerics numerics;                ///< what they say of themselves
+    Numerics numerics;                ///< versions of their numerics, as they report them
     std::filesystem::path web;        ///< the dashboard's files
-    std::filesystem::path workflows;  ///< the studies that are shipped, and their scenes
-    std::size_t largest_file = std::size_t{256} << 20;  ///< that is taken in [bytes]
+    std::filesystem::path workflows;  ///< the shipped studies and their scenes
+    std::size_t largest_file = std::size_t{256} << 20;  ///< largest accepted upload [bytes]
     /// SentFiles::allowed
     std::optional<std::vector<std::filesystem::path>> allowed_folders = {};
 };

@@ -4,8 +4,8 @@
 //     NAME@3          its third version
 //     sha256/<64>     that content
 //
-// A study's "scene" puts "scene:" before it. It is resolved once, when the study is submitted: the run
-// holds the scene itself, and remembers which it was.
+// A study's "scene" has the prefix "scene:". The reference is resolved once, when the study is
+// submitted: the run contains the scene itself, and remembers its origin.
 #pragma once
 
 #include <optional>
@@ -23,17 +23,17 @@ struct FoundScene {
 /// address: one of the three above, or the 64 digits alone. Nothing: there is no such scene.
 std::optional<FoundScene> find_scene(const Store& store, const std::string& address);
 
-/// A name by which a scene may be stored; digits of a hash are none.
+/// A name under which a scene may be stored; digits of a hash are no name.
 bool is_scene_name(const std::string& text);
 
-/// A study with what it is made of.
+/// A study and the stored scene it was made from.
 struct ResolvedStudy {
     std::string text;
-    std::optional<SceneSource> made_of;  ///< nothing: it has its scene itself
+    std::optional<SceneSource> made_of;  ///< nothing: it contains its scene
 };
 
-/// Puts the stored scene that the study refers to into it; any other text is left as it is. Throws
-/// BadInput with the pointer /scene where there is no such scene.
+/// Replaces the study's reference by the stored scene; any other text is unchanged. Throws BadInput
+/// with the pointer /scene where there is no such scene.
 ResolvedStudy resolved_study(const Store& store, const std::string& text);
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// Asks the phases for the versions of their numerics, which the cache must know.
+// Queries the phases for the versions of their numerics, which the cache needs.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace breach::orchestrator {
 
-/// Of every phase in the folder: the line "numerics N" of what it prints for --version. Throws
-/// IoError, naming the program, when one is missing or says nothing of the kind.
+/// For every phase in the folder: the line "numerics N" of its --version. Throws IoError, naming
+/// the program, when one is missing or prints no such line.
 Numerics numerics_of_phases(const std::filesystem::path& bin);
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// Asks the phases for their plans: what a scene needs of each and what it leaves out.
+// Queries the phases for their plans: the features that a scene uses and those it leaves out.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,9 @@
 
 namespace breach::orchestrator {
 
-/// {"fem_solver": "text", ...} for the phases that the scene has a part for. `scene` is sound. The
-/// phases run with
-/// --plan, one after another; `scratch` takes the scene's file for that time.
+/// {"fem_solver": "text", ...} for the phases of the scene. `scene` is valid. Runs the
+/// phases with --plan, one after another; `scratch`: folder for the scene's file
+/// meanwhile.
 nlohmann::json plans_of(const nlohmann::json& scene, const std::filesystem::path& bin,
                         const std::filesystem::path& scratch);
 

@@ -1,5 +1,5 @@
-// Names and times: sortable unique ids of runs, tasks and attempts; what snapshots are called;
-// ISO-8601 UTC.
+// Names and times: sortable unique ids of runs, tasks and attempts; names of snapshots; ISO-8601
+// UTC.
 #pragma once
 
 #include <chrono>
@@ -23,11 +23,11 @@ using phases::files::spelt;
 /// Now as "2026-11-21T02:38:53.123Z".
 std::string utc_now();
 std::string utc_days_ago(double days);
-/// A moment in milliseconds since 1970, so spelt.
+/// A moment in milliseconds since 1970, in that form.
 std::string utc_text(std::int64_t ms);
 /// Milliseconds since 1970, for stored retry times.
 std::int64_t epoch_ms();
-/// No task is tried again later than this after its failure.
+/// Longest wait between a task's failure and its next try.
 constexpr std::int64_t longest_retry_ms = 60000;
 
 }  // namespace breach::orchestrator

@@ -1,6 +1,6 @@
 // The one state table: every state of a task and of an attempt, every event that may move it, and
-// where to. Nothing else in the service decides a state. What an event means on disk and in SQL
-// lives in store/.
+// the new state. Nothing else in the service decides a state. store/ implements the events on disk
+// and in SQL.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace breach::orchestrator {
 
-/// Each state: who moves it on, and what a restart of the service does with it.
+/// Each state: who moves it on, and its treatment after a restart of the service.
 ///
 ///     blocked      waits for a parent's output; the dispatcher releases or skips it.
 ///                  Restart: looks again for the file or the parent's end.
@@ -52,8 +52,8 @@ enum class TaskEvent {
     claim,            ///< a slot was given; stored before anything is started
     start,            ///< the process was started
     exit_well,        ///< exit code 0
-    exit_badly,       ///< an exit code that no retry can mend
-    exit_retryable,   ///< an exit code or signal that a retry may mend
+    exit_badly,       ///< an exit code with which a retry would fail, too
+    exit_retryable,   ///< an exit code or signal with which a retry may succeed
     interrupt,        ///< stopped because the service stops; not the task's fault
     vanish,           ///< no process and no exit record
     retry,            ///< lost, and tried again

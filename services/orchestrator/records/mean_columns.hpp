@@ -1,6 +1,6 @@
-// The table of a sweep's means, where its study has draws: one row per variant and transfer time,
-// mean and standard deviation over the draws of every number of the table of results. Made of
-// result_columns(), so that one more number there is one more here.
+// The table of a sweep's means, if its study has repeats: one row per variant and transfer time,
+// mean and standard deviation over the repeats of every number of the table of results. Generated
+// from result_columns(), so a number added there is added here.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// What may be missing, as JSON.
+// Optional values as JSON.
 #pragma once
 
 #include <nlohmann/json.hpp>

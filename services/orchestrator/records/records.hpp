@@ -1,5 +1,5 @@
-// What the store keeps, as plain data: runs, tasks, attempts, artifacts, events. No behaviour, no
-// SQL.
+// The records of the store as plain data: runs, tasks, attempts, artifacts, events. No behaviour,
+// no SQL.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 
 namespace breach::orchestrator {
 
-/// What lets a blocked task go: an input file that exists, or a parent that succeeded.
+/// Condition that releases a blocked task: an input file that exists, or a parent that succeeded.
 enum class Release { at_once, file_exists, parent_succeeded };
 std::string_view name_of(Release release);
 Release release_named(std::string_view name);
 
-/// Of each phase; the phase says it itself (--version).
+/// Version of each phase's numerics, as the phase reports it (--version).
 using Numerics = std::map<std::string, std::int64_t>;
 
-/// What a phase's result depends on besides its input file; equal recipes give equal results.
+/// All that a phase's result depends on besides its input file; equal recipes, equal results.
 struct Recipe {
     std::string hash;  ///< SHA-256 of the three below
     std::string phase;
     std::int64_t cache_version;  ///< of the phase's numerics
-    std::string part;            ///< of the completed scene, as far as the phase reads it, JSON
+    std::string part;            ///< the part of the completed scene that the phase reads, JSON
 };
 
-/// What a task occupies while it runs.
+/// Resources of a task while it runs.
 struct Resources {
     std::int64_t cores = 1;
     std::int64_t memory_mb = 0;
@@ -57,11 +57,11 @@ void from_json(const nlohmann::json& json, TaskPlan& task);
 /// "fem", "transfer_0.500000_soft": its phase, its transfer time and its variant.
 std::string label_of(const TaskPlan& task);
 
-/// The stored scene that a run was made of.
+/// The stored scene from which a run was made.
 struct SceneSource {
     std::string sha256;
     std::optional<std::string> name;      ///< by which the study referred to it
-    std::optional<std::int64_t> version;  ///< that the name stood for then
+    std::optional<std::int64_t> version;  ///< the name's version at that time
 };
 
 /// A scene to be stored.
@@ -73,7 +73,7 @@ struct NewScene {
 
 struct SceneName {
     std::string name;
-    std::int64_t version;  ///< from 1; the highest is what the name stands for
+    std::int64_t version;  ///< from 1; the name refers to the highest
     std::string created;
     std::string sha256;
 };
@@ -84,10 +84,10 @@ struct StoredScene {
     std::int64_t bytes = 0;
     std::string created = {};
     std::vector<SceneName> names = {};
-    std::vector<std::string> runs = {};  ///< that were made of it
+    std::vector<std::string> runs = {};  ///< made from it
 };
 
-/// Which scenes a list shows: newest first, after the place where the last page ended.
+/// Filter for a list of scenes: newest first, after the place where the last page ended.
 struct SceneFilter {
     std::optional<std::string> name = {};
     std::optional<std::string> search = {};  ///< a part of a name or of the SHA-256
@@ -106,7 +106,7 @@ struct NewRun {
     std::vector<TaskPlan> firing_plan = {};   ///< of one more transfer (firing_plan.hpp)
     std::optional<TriggerPlan> batches = {};  ///< draws more samples (ensemble/batch_watch.hpp)
     std::int64_t priority = 0;                ///< higher goes first
-    bool sweep = false;                       ///< several points, or asked for as a sweep
+    bool sweep = false;                       ///< several points, or requested as a sweep
     std::optional<SceneSource> made_of = {};  ///< a stored scene
     std::optional<double> budget = {};        ///< no task is started once so much is spent [CPU s]
     std::vector<std::string> files = {};      ///< SHA-256 of stored files that its scenes name
@@ -125,11 +125,11 @@ struct Extension {
     std::vector<AddedTask> tasks;           ///< parents first
     std::vector<Recipe> recipes;
     nlohmann::json study;                    ///< the study's document with all of them
-    std::vector<TaskPlan> firing_plan = {};  ///< with the new samples; empty: as it was
+    std::vector<TaskPlan> firing_plan = {};  ///< with the new samples; empty: unchanged
     std::vector<TriggerPlan> triggers = {};  ///< for FEMs that are added
 };
 
-/// The result that a run is about (services/findings/governing.hpp).
+/// The governing result of a run (services/findings/governing.hpp).
 struct GoverningResult {
     std::string task;  ///< mpm_solver, or lem_tool where it is alone
     std::string variant;
@@ -144,7 +144,7 @@ struct LeastFactor {
     std::string task;
     std::string variant;
     double factor_of_safety = 0.0;
-    std::optional<double> liquefied = {};  ///< with every layer liquefied that may
+    std::optional<double> liquefied = {};  ///< with every layer liquefied that can liquefy
 };
 
 struct Run {
@@ -152,7 +152,7 @@ struct Run {
     std::string name;
     std::string title;
     /// Derived: queued running budget_exhausted succeeded questionable partial failed cancelled.
-    /// questionable: all succeeded, but a result carries a flag that forbids to rely on it.
+    /// questionable: all succeeded, but a result has a flag that makes it unreliable.
     /// budget_exhausted: tasks wait, and none is started until the budget is raised.
     std::string state;
     std::string created;
@@ -162,15 +162,15 @@ struct Run {
     std::int64_t tasks_done = 0;        ///< succeeded or cached
     std::int64_t tasks_ended = 0;       ///< in a final state, good or bad
     std::int64_t tasks_failed = 0;      ///< failed or skipped
-    std::string message;                ///< why it is not simply fine
-    bool paused = false;                ///< nothing new of it is started
-    std::int64_t questionable = 0;      ///< results not to rely on
+    std::string message;                ///< why it is not an unqualified success
+    bool paused = false;                ///< no new task of it is started
+    std::int64_t questionable = 0;      ///< number of unreliable results
     bool pinned = false;                ///< not to be removed
     std::optional<double> budget = {};  ///< [CPU s]
     double spent = 0.0;                 ///< by all attempts that have ended [CPU s]
-    /// The token's name; nothing: the service asked for none.
+    /// The token's name; nothing: the service needed none.
     std::optional<std::string> submitted_by = {};
-    findings::Facts facts = {};  ///< what its verdict follows from
+    findings::Facts facts = {};  ///< the basis of its verdict
     std::optional<GoverningResult> governing = {};
     std::optional<LeastFactor> stability = {};
 };
@@ -183,7 +183,7 @@ struct AccuracyRung {
     std::string recipe;  ///< its hash
 };
 
-/// Which rows of a table of results: those from number `from` on that meet the rest.
+/// Filter for rows of a table of results: those from number `from` on that match.
 struct ResultFilter {
     std::optional<std::string> state;
     std::optional<std::string> flag;  ///< a code that they carry
@@ -193,15 +193,15 @@ struct ResultFilter {
     bool takes_all() const { return !state && !flag && from == 0 && most == ResultFilter{}.most; }
 };
 
-/// Which runs a list shows: newest first, after the place where the last page ended.
+/// Filter for a list of runs: newest first, after the place where the last page ended.
 struct RunFilter {
     std::optional<std::string> state;
     std::optional<std::string> name;
-    /// A part of its name, title or id; letters of ASCII are alike in both cases.
+    /// A part of its name, title or id; not case-sensitive for ASCII letters.
     std::optional<std::string> search{};
     std::optional<std::pair<std::string, std::string>> before;  ///< (created, id)
-    /// With their states as sweeps: while they go on also planning (it is not known yet when they
-    /// transfer: triggers will say) and refining (points are added by what the first ones gave).
+    /// With their states as sweeps: while they go on also planning (triggers will decide the
+    /// transfer times) and refining (a bisection adds points after the first results).
     bool sweeps_only = false;
 };
 
@@ -232,12 +232,12 @@ struct Task {
     std::optional<std::string> recipe;
     std::optional<std::string> input_sha256;   ///< known once it succeeded
     std::optional<std::string> same_as;        ///< the task whose result it took
-    std::optional<std::string> cache_refusal;  ///< why a fitting entry of the cache was not served
+    std::optional<std::string> cache_refusal;  ///< why a fitting cache entry was not served
     std::int64_t priority = 0;
     bool not_reached = false;  ///< skipped because its FEM had regularly ended before its time
 };
 
-/// As much of a blocked task as its release needs.
+/// The fields of a blocked task needed for its release.
 struct BlockedTask {
     std::string id;
     Release release;
@@ -274,20 +274,20 @@ struct Event {
     nlohmann::json detail;
 };
 
-/// A file that was sent, known by its content.
+/// An uploaded file, identified by its content.
 struct StoredFile {
     std::string sha256;
     std::string file;   ///< in the folder of stored files: the digits and the ending
-    std::string name;   ///< as its sender called it
+    std::string name;   ///< name given by its sender
     std::string kind;   ///< "motion" or "mesh"
-    std::string about;  ///< what its reader found in it, in a few words
+    std::string about;  ///< short description of its content
     std::int64_t bytes = 0;
     std::string created = {};
     std::string used = {};               ///< when it was last sent, asked for or named by a run
     std::vector<std::string> runs = {};  ///< whose scenes name it
 };
 
-/// What becomes of the request to remove a run or a file.
+/// Result of a request to remove a run or a file.
 enum class Removal { done, unknown, going_on, pinned, needed };
 
 /// A firing and how long it took from the line that met its trigger [ms].
@@ -297,7 +297,7 @@ struct FiringRow {
     std::optional<std::int64_t> start_ms;  ///< to the start of the transfer's process
 };
 
-/// A transfer with why it was made and what came of it.
+/// A transfer with its reason and its runouts.
 struct TransferRow {
     std::string task;
     std::string run;
@@ -330,27 +330,27 @@ struct TransferFilter {
 
 struct FactorsOfSafety {
     std::optional<double> intact;     ///< before any layer liquefies
-    std::optional<double> liquefied;  ///< every layer that may
+    std::optional<double> liquefied;  ///< with every layer that can liquefy
 };
 
-/// A variant of which nothing was transferred, and nothing will be.
+/// A variant that has no transfer and will get none.
 struct WithoutTransfer {
     std::string variant;
     std::string fem_task;
     std::string
-        state;   ///< "not_reached": the FEM came to its end, and its triggers to nothing; else
+        state;   ///< "not_reached": the FEM has ended, and none of its triggers has fired; else
                  ///< that of the FEM, or "cancelled"
-    bool stood;  ///< no trigger's condition was met, and the mesh was sound to the end
+    bool stood;  ///< no trigger's condition was met, and the mesh was valid to the end
     std::string reason;  ///< the triggers', or the FEM's
 };
 
-/// What a bisect knows of one of its transfers: of the first variant, on each of its lattices.
+/// What a bisection knows of one transfer: of the first variant, on each of its lattices.
 struct Sample {
     double transfer_time;
     bool ended;                   ///< all of them
     std::vector<double> runouts;  ///< of the draws that have one
-    std::size_t draws;            ///< so many were asked for; 1: the study has none
-    /// One of them ended by a fault of the machine, which says nothing of the runout: how.
+    std::size_t draws;            ///< number requested; 1: the study has no repeats
+    /// A run ended by a fault of the machine, so the runout is unknown: how.
     std::optional<std::string> lost_by = {};
 };
 

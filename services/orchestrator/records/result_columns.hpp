@@ -1,6 +1,6 @@
-// The table of a sweep's results, each column once. The SQL view, the JSON answers, CSV, HDF5, the
-// table of `breach` and the API's description are made from this list: one more number of the
-// MPM's result.json is one more line in result_columns.cpp.
+// The table of a sweep's results, with each column defined once. The SQL view, the JSON answers,
+// CSV, HDF5, the table of `breach` and the API's description are generated from this list: a
+// further number of the MPM's result.json is one more line in result_columns.cpp.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +11,7 @@
 
 namespace breach::orchestrator {
 
-/// What the values of a column are; each can be null, which means not known (yet).
+/// Type of a column's values; each can be null, which means not known (yet).
 enum class ColumnKind {
     number,
     yes_no,
@@ -22,10 +22,10 @@ enum class ColumnKind {
 struct ResultColumn {
     const char* name;  ///< the same in JSON, CSV, HDF5 and SQL
     const char*
-        pointer;  ///< JSON pointer in the MPM's result.json; empty: store/views.cpp knows it
+        pointer;  ///< JSON pointer in the MPM's result.json; empty: defined in store/views.cpp
     ColumnKind kind;
     const char* unit;   ///< "m", "s", "1"; empty: it has none
-    const char* title;  ///< heading of a table for people; empty: it is not for such tables
+    const char* title;  ///< heading of a table for people; empty: not shown in such tables
     const char* meaning;
 };
 
@@ -36,7 +36,7 @@ const char* name_of(ColumnKind kind);
 /// One value for each of result_columns(), in their order.
 using ResultRow = std::vector<nlohmann::json>;
 
-/// Rows with what their values are: of single runs, or of means.
+/// Rows with their columns: of single runs, or of means.
 struct ResultTable {
     const char* kind;  ///< of its file
     std::span<const ResultColumn> columns;
@@ -52,8 +52,8 @@ nlohmann::json& value_of(ResultRow& row, std::string_view name,
 /// "still_moving;implausible": the codes of a list of flags, each once.
 std::string codes_of(const nlohmann::json& flags);
 
-/// The states that a row can be shown in: those of tasks, "questionable", and "not_reached": its
-/// FEM had regularly ended before.
+/// The states of a row: those of tasks, "questionable", and "not_reached": its FEM had regularly
+/// ended before.
 bool is_row_state(std::string_view word);
 
 }  // namespace breach::orchestrator

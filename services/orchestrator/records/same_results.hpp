@@ -1,14 +1,14 @@
-// Variants that came to the same numbers: what tells them apart has no part in the run, and a reader
-// who takes that for "it does not matter" should be told.
+// Finds variants with identical results, so that views can say that the entries in which they differ
+// have no effect.
 #pragma once
 
 #include "services/orchestrator/records/result_columns.hpp"
 
 namespace breach::orchestrator {
 
-/// Groups of these variants, two or more each, in their order. In a group every number that the MPM and
-/// the stability analysis measured is the same to the last digit at each transfer time that ended in
-/// both variants, and there is one at least.
+/// Groups of these variants, two or more each, in their order. In a group every number of the MPM and
+/// of the stability analysis is the same to the last digit at each transfer time that ended in both
+/// variants, and there is at least one such time.
 std::vector<std::vector<std::string>> same_results(const std::vector<ResultRow>& rows,
                                                    const std::vector<std::string>& variants);
 

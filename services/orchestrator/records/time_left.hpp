@@ -1,4 +1,4 @@
-// How long an open run will still take: at the pace of what it has just done, phase by phase.
+// Remaining time of an open run, from its recent pace, phase by phase.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@ namespace breach::orchestrator {
 struct PhaseLeft {
     std::int64_t waiting = 0;
     std::int64_t running = 0;
-    double running_for = 0.0;    ///< all of them together [s]
-    std::optional<double> pace;  ///< of one of the last that were computed [s]
+    double running_for = 0.0;    ///< sum over its running tasks [s]
+    std::optional<double> pace;  ///< time of one of the last computed tasks [s]
 };
 
-/// With as many workers as the run has now [s]. Nothing where it would be a guess: a phase of which
-/// tasks wait has computed none yet. `fractions`: how far the running tasks are, summed up.
+/// With as many workers as the run has now [s]. Nothing if it would be a guess: a phase with
+/// waiting tasks has not computed any yet. `fractions`: sum of the running tasks' progress.
 std::optional<double> time_left(const std::vector<PhaseLeft>& phases, double fractions);
 
 }  // namespace breach::orchestrator

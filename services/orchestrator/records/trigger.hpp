@@ -1,5 +1,5 @@
-// What makes a transfer happen: the kinds of triggers, their states, and their checks when they
-// are submitted. At-time triggers need no watching: they become transfer times of the study.
+// Triggers of transfers: their kinds, their states, and their checks when they are submitted.
+// At-time triggers need no watching: they become transfer times of the study.
 //
 //     armed             -> holding   its condition is true (or a user asked); it waits for the hold
 //                                    or for a snapshot
@@ -7,10 +7,10 @@
 //     armed, holding    -> fired     in one transaction with its firing and its tasks; final
 //     armed, holding    -> expired   the FEM ended without what it waited for
 //     armed, holding    -> disarmed  the run was cancelled
-//     expired, disarmed -> armed     a user's retry runs again what had ended it
+//     expired, disarmed -> armed     a user's retry repeats the task that had ended it
 //
-// A restart evaluates the telemetry again from its first line: what is stored in `armed` and
-// `holding` is for people, what is stored in `fired` is the truth.
+// A restart evaluates the telemetry again from its first line: the stored `armed` and `holding` are
+// for display, the stored `fired` is authoritative.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ enum class TriggerState { armed, holding, fired, expired, disarmed };
 enum class TriggerEvent { cross, uncross, fire, expire, disarm, rearm };
 
 std::optional<TriggerState> next(TriggerState from, TriggerEvent event);
-/// Nothing is watched for it: only a user's retry moves it any more.
+/// Not watched any more: only a user's retry moves it.
 bool is_final(TriggerState state);
 std::string_view name_of(TriggerState state);
 std::string_view name_of(TriggerEvent event);
@@ -70,7 +70,7 @@ struct Firing {
 // ---------------------------------------------------------------- kinds, ready to work
 
 struct Manual {
-    double after;  ///< simulated time when it was asked for [s]
+    double after;  ///< simulated time of the request [s]
 };
 struct When {
     criteria::Criterion criterion;
@@ -82,7 +82,7 @@ struct Between {
 struct Bisect {
     double share;      ///< of the largest runout that still counts as plateau [-]
     double tolerance;  ///< of the edges [s]
-    double from, to;   ///< where to look [s]
+    double from, to;   ///< range to search [s]
     int seeds;         ///< transfers before the first halving
     int most_runs;
 };
@@ -91,7 +91,7 @@ using Work = std::variant<Manual, When, Between, Bisect>;
 /// From a checked spec.
 Work work_of(const TriggerPlan& plan);
 
-/// What conditions may use: the columns of core/telemetry.
+/// Names for conditions: the columns of core/telemetry.
 const std::vector<std::string>& telemetry_fields();
 
 struct CheckedTriggers {

@@ -35,8 +35,8 @@ Value value_or_null(const std::optional<T>& value) {
     return *value;
 }
 
-/// The row that a statement stands at; columns by the names that the statement gives them. Throws
-/// std::logic_error for a name that it lacks.
+/// The current row of a statement; columns by the names in the statement. Throws std::logic_error
+/// for a name that it lacks.
 class Row {
   public:
     std::string text(std::string_view column) const { return text_at(place_of(column)); }
@@ -77,8 +77,8 @@ class Row {
 
     std::unique_ptr<sqlite3_stmt, Close> statement_;
     std::vector<std::string> columns_;
-    /// Places of the columns in the order in which they were asked for in the last row: those of the
-    /// next are asked for alike.
+    /// Indices of the columns in the order in which the last row was read: the next row is read in
+    /// the same order.
     mutable std::vector<int> asked_;
     mutable std::size_t turn_ = 0;
 };
@@ -98,14 +98,14 @@ class Connection {
     std::int64_t change(const std::string& sql, const std::vector<Value>& values = {});
     void query(const std::string& sql, const std::vector<Value>& values,
                const std::function<void(const Row&)>& visit);
-    /// What `read` makes of each row.
+    /// Applies `read` to each row.
     template <class Read>
     auto select(const std::string& sql, const std::vector<Value>& values, const Read& read) {
         std::vector<std::invoke_result_t<const Read&, const Row&>> found;
         query(sql, values, [&](const Row& row) { found.push_back(read(row)); });
         return found;
     }
-    /// The same of the first row; nothing: there is none.
+    /// The same for the first row; nothing: there is none.
     template <class Read>
     auto first(const std::string& sql, const std::vector<Value>& values, const Read& read) {
         std::optional<std::invoke_result_t<const Read&, const Row&>> found;
@@ -114,9 +114,9 @@ class Connection {
         });
         return found;
     }
-    /// Of a statement with one column.
+    /// For a statement with one column.
     std::vector<std::string> texts(const std::string& sql, const std::vector<Value>& values = {});
-    /// Of one with one column, its first row; nothing: there is none, or it is null.
+    /// For one with one column, its first row; nothing: there is none, or it is null.
     std::optional<std::string> text(const std::string& sql, const std::vector<Value>& values = {});
     std::optional<std::int64_t> integer(const std::string& sql,
                                         const std::vector<Value>& values = {});

@@ -1,4 +1,4 @@
-// Counts of values below fixed bounds, as Prometheus reads them. Any thread may add.
+// Counts of values below fixed bounds in Prometheus' format. Thread-safe.
 #pragma once
 
 #include <atomic>

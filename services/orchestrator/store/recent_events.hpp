@@ -1,5 +1,5 @@
-// The newest events as the writer committed them: hundreds of listeners are told of one without a question to the
-// database each.
+// The newest events as the writer committed them: hundreds of listeners can read an event without a database
+// query each.
 #pragma once
 
 #include <deque>
@@ -14,9 +14,9 @@ class RecentEvents {
   public:
     /// committed: in the order of their numbers, after all that came before.
     void add(std::vector<Event> committed);
-    /// Some that are kept here are gone from the database.
+    /// To call when some of these events were removed from the database.
     void forget() { kept_.clear(); }
-    /// At most so many of those after `seq`. Nothing: they may have begun before what is kept.
+    /// At most so many of those after `seq`. Nothing: some of them may be older than those kept.
     std::optional<std::vector<Event>> after(std::int64_t seq, std::size_t most) const;
 
   private:

@@ -12,11 +12,11 @@ namespace breach::orchestrator {
 /// The version of a database: 0 when it is empty.
 std::int64_t version_of(Connection& database);
 
-/// Why this program does not read a database of that version, and what to do; nothing if it does.
+/// Why this program cannot read a database of that version, and what to do; nothing if it can.
 std::optional<std::string> refusal_of(std::int64_t version);
 
-/// Makes the tables of an empty database, and the views where they are another program's, in one
-/// transaction. Throws StoreError for a database of another version.
+/// Creates the tables of an empty database, and the views if they differ from this program's, in
+/// one transaction. Throws StoreError for a database of another version.
 void make_schema(Connection& database, const std::filesystem::path& file);
 
 }  // namespace breach::orchestrator

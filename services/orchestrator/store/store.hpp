@@ -21,18 +21,18 @@
 
 namespace breach::orchestrator {
 
-/// What an Idempotency-Key stands for.
+/// The run of an Idempotency-Key.
 struct IdempotentRun {
     std::string body_sha256;
     std::string run;
 };
 
-/// A run or task that was found a moment ago is gone: somebody removed it.
+/// A run or task that existed a moment ago was removed meanwhile.
 struct RemovedMeanwhile : std::runtime_error {
     RemovedMeanwhile() : std::runtime_error("a run was removed while this was read") {}
 };
 
-/// What must be there unless its run was removed meanwhile.
+/// The value, which exists unless its run was removed meanwhile.
 template <class T>
 T still(std::optional<T> found) {
     if (!found) throw RemovedMeanwhile();
@@ -46,8 +46,8 @@ class Store {
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;
 
-    /// Runs `change`, and gives what it returns when it is on the disk. What it throws is thrown
-    /// here, and nothing of it is kept. Throws StoreError when the commit fails. by: Transaction.
+    /// Runs `change`, and returns its result when it is on the disk. Rethrows its exception, and
+    /// then keeps nothing of the change. Throws StoreError when the commit fails. by: Transaction.
     template <class Change>
     auto write(const std::string& by, const Change& change) {
         using Made = std::invoke_result_t<const Change&, Transaction&>;
@@ -70,7 +70,7 @@ class Store {
     std::optional<Run> run(const std::string& id) const;
     /// The same with the state of a sweep (RunFilter::sweeps_only).
     std::optional<Run> sweep(const std::string& id) const;
-    /// What of it has not ended, by phase, and how long its like took.
+    /// Its tasks that have not ended, by phase, and the time that such tasks took.
     std::vector<PhaseLeft> left_of(const std::string& run) const;
     /// How long at least one attempt of it ran, and how long none did, since it was created [s].
     std::pair<double, double> computing_and_idle(const Run& run) const;
@@ -78,16 +78,16 @@ class Store {
     std::optional<std::string> scene_of(const std::string& run) const;
 
     std::optional<Task> task(const std::string& id) const;
-    /// Ready tasks in the order in which they are started: by priority, then by age. Not those of
-    /// paused runs and of the queues (phases) that are full.
+    /// Ready tasks in the order in which they start: by priority, then by age. Without those of
+    /// paused runs and of full queues (phases).
     std::vector<Task> tasks_to_start(const std::vector<std::string>& full_queues,
                                      std::size_t most) const;
-    /// An earlier task with this recipe succeeded, and its input may be the same.
+    /// Whether an earlier task with this recipe succeeded, so that its input may be the same.
     bool has_candidate(const Task& task) const;
     /// Tasks that succeeded with this recipe and input, newest first.
     std::vector<Task> answers_to(const std::string& recipe, const std::string& input_sha256,
                                  std::size_t most) const;
-    /// A task that is being computed now, with this one's recipe and input: its answer will do.
+    /// A task in progress with this one's recipe and input: its result will be used.
     std::optional<std::string> equal_in_flight(const Task& task) const;
     std::optional<Recipe> recipe(const std::string& hash) const;
     std::optional<Task> earlier_equal_recipe(const Task& task) const;
@@ -98,14 +98,14 @@ class Store {
     std::map<std::string, std::int64_t> tasks_by_state() const;
     std::map<std::string, std::int64_t> attempts_by_state() const;
     std::vector<Task> tasks_of(const std::string& run) const;
-    /// The stability analysis of this variant or of all; else, of a FEM that serves variants with
+    /// The stability analysis of this variant or of all; else, for a FEM shared by variants with
     /// several, the first.
     std::optional<Task> stability_of(const std::string& run, const std::string& variant) const;
     /// A page of them: those after the id `after`, in the order of their ids.
     std::vector<Task> tasks_of(const std::string& run, const std::string& after,
                                std::size_t most) const;
-    /// Of each phase up to `most` that succeeded by computing, evenly spread over transfer times and
-    /// variants.
+    /// For each phase up to `most` tasks that succeeded by computing, evenly spread over transfer
+    /// times and variants.
     std::vector<Task> computed_tasks_of(const std::string& run, std::size_t most) const;
     std::vector<Task> tasks_in(TaskState state, std::size_t most) const;
     /// Blocked tasks whose input comes from `parent`.
@@ -125,26 +125,26 @@ class Store {
     std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
                                                                    const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
-    /// The same as the task left it that computed it; where that is gone, the first that took it.
+    /// The artifact at the task that computed it; if that is gone, at the first that took it.
     std::optional<Artifact> maker_of(const std::string& sha256) const;
     /// Newest first.
     std::vector<TransferRow> transfers_of(const TransferFilter& filter, std::size_t most) const;
     /// In the study's order of variants, each ascending in the transfer time.
     std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
-    /// Of a study with draws, their means in the same order: one value for each of mean_columns().
+    /// Of a study with repeats, their means in the same order: one value per mean_columns().
     std::vector<ResultRow> means(const std::string& run) const;
-    /// By variant; "": of the analysis that serves all that have none of their own.
+    /// By variant; "": of the analysis shared by all that have none of their own.
     std::map<std::string, FactorsOfSafety> factors_of_safety(const std::string& run) const;
-    /// Of the newest accuracy studies, a newer one's first.
+    /// Of the newest accuracy studies, the newest first.
     std::vector<AccuracyRung> accuracy_rungs(std::size_t most_runs) const;
     /// Points of a sweep, and how many of them have their runout.
     std::pair<std::int64_t, std::int64_t> points_of(const std::string& run) const;
 
     /// Of FEMs that have begun.
     std::vector<Trigger> open_triggers() const;
-    /// Whether the run knows which tasks one more transfer from this FEM makes.
+    /// Whether the run stores the tasks of one more transfer from this FEM.
     bool plans_transfers_of(const Task& fem) const;
-    /// Those that draw more samples (ensemble/batch_watch.hpp).
+    /// Triggers that add samples (ensemble/batch_watch.hpp).
     std::vector<Trigger> open_batches() const;
     std::vector<Trigger> triggers_of(const std::string& run) const;
     std::vector<FiringRow> firings_of(const std::string& run) const;
@@ -153,16 +153,16 @@ class Store {
     /// A bisect's transfers, ascending in time; of several variants the first counts.
     std::vector<Sample> samples_of(const std::string& trigger) const;
 
-    /// Runs whose rows are gone and whose folders may still be there.
+    /// Runs with deleted rows and folders that may still exist.
     std::vector<std::string> removals() const;
     /// Runs that are over and not pinned, the one that ended first at the front.
     std::vector<Run> runs_that_may_go() const;
     std::int64_t free_pages() const;
-    /// Files that were sent, newest first, with the runs that name them.
+    /// Uploaded files, newest first, with the runs that name them.
     std::vector<StoredFile> files() const;
     std::optional<StoredFile> file(const std::string& sha256) const;
     std::vector<StoredFile> files_of(const std::string& run) const;
-    /// Files that no run names and that nobody asked for since.
+    /// Files that no run names and that were not requested since.
     std::vector<StoredFile> unused_files(const std::string& before) const;
 
     std::optional<StoredScene> scene(const std::string& sha256) const;
@@ -174,7 +174,7 @@ class Store {
     std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
     std::vector<Event> events_of_run(const std::string& run, std::int64_t after,
                                      std::size_t most) const;
-    /// Changes of state that were committed together.
+    /// Number of state changes per commit.
     const Histogram& commit_sizes() const { return commit_sizes_; }
     std::int64_t last_event() const { return last_event_; }
     /// Waits until an event after `seq` is stored, the time is over or the store closes; true:
@@ -191,14 +191,14 @@ class Store {
     void wait_for(std::function<void(Transaction&)> change, const std::string& by);
     void serve(const std::stop_token& stop);
     void commit(std::deque<Job>& jobs);
-    /// A reading connection, which is given back at its end.
+    /// Returns a reading connection to the pool on destruction.
     struct GiveBack {
         const Store* store;
         void operator()(Connection* connection) const;
     };
     using Reader = std::unique_ptr<Connection, GiveBack>;
     Reader reader() const;
-    /// With their facts; sql: of such rows.
+    /// With their facts; sql: selects such rows.
     std::vector<Run> whole_runs(const std::string& sql, const std::vector<Value>& values) const;
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
@@ -219,7 +219,7 @@ class Store {
     std::atomic<std::int64_t> last_event_ = 0;
     RecentEvents recent_events_;
 
-    std::jthread writer_;  // last: stops before what it uses goes
+    std::jthread writer_;  // last: stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

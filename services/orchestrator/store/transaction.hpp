@@ -1,5 +1,5 @@
-// What may be written, one verb per change of state. Each verb stores its event with the change;
-// the lifecycle's table decides the new state. A Transaction exists only inside Store::write.
+// All write operations, one method per change of state. Each stores its event with the change; the
+// lifecycle's table decides the new state. A Transaction exists only inside Store::write.
 #pragma once
 
 #include <functional>
@@ -17,12 +17,12 @@ struct AttemptEnd {
     std::optional<double> wall_seconds;
     std::optional<double> cpu_seconds;
     std::string
-        reason;  ///< "cancel", "shutdown" when the service stopped it, "signal" when somebody else did; else empty
+        reason;  ///< "cancel", "shutdown" when the service stopped it, "signal" when another party did; else empty
 };
 
 class Transaction {
   public:
-    /// by: who asked for it, told in the events of runs; empty: nobody, or nobody knows.
+    /// by: requester, stored with the events of runs; empty: none, or unknown.
     explicit Transaction(Connection& database, std::string by = {})
         : database_(database), by_(std::move(by)) {}
 
@@ -42,18 +42,18 @@ class Transaction {
     /// Ends the task without a result (exit_badly, give_up, refuse_outputs, skip) and keeps the
     /// reason.
     void fail_task(const std::string& task, TaskEvent event, const TaskFault& fault);
-    /// Skips a task whose time its FEM, which ended regularly, did not come to: no failure, and no
-    /// retry can mend it. Keeps the reason. Nothing happens when it waits no more.
+    /// Skips a task whose FEM ended regularly before its time: no failure, and a retry does not
+    /// help. Keeps the reason. No effect when the task no longer waits.
     void pass_over_task(const std::string& task, const std::string& why);
     /// `input_sha256`: of the file that the task read; empty: it reads none.
     void finish_task(const std::string& task, const nlohmann::json& result,
                      const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
     /// The task takes the result of `earlier`, or its breakdown; the files are in its folder
-    /// already. False, and nothing happens: it is not ready any more, or `earlier` was removed or
-    /// tried again meanwhile.
+    /// already. False, without effect: it is not ready any more, or `earlier` was removed or tried
+    /// again meanwhile.
     bool reuse_task(const std::string& task, const Task& earlier);
     void note_cache_refusal(const std::string& task, const std::string& why);
-    /// What a task that ended badly has left. Nothing happens: it was tried again meanwhile.
+    /// Stores the outputs of a task that ended badly. No effect if it was tried again meanwhile.
     void keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
                       const std::string& input_sha256);
 
@@ -65,9 +65,9 @@ class Transaction {
     /// Counts an attempt against the task's limit; returns how many there are now.
     std::int64_t count_try(const std::string& task);
 
-    /// Cancels what has not started and marks what runs as cancelling. False: no such run.
+    /// Cancels tasks not yet started and marks running ones as cancelling. False: no such run.
     bool cancel_run(const std::string& run, const std::string& why);
-    /// More tasks for a run that exists; `study`: its document from now on.
+    /// Adds tasks to an existing run; `study`: its document from now on.
     void extend_run(const std::string& run, const Extension& extension);
     /// Whether it is armed or holding.
     bool is_open(const std::string& trigger) const;
@@ -75,22 +75,22 @@ class Transaction {
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
-    /// Of a run that is there; nothing: no limit. Its study says the same from now on.
+    /// For an existing run; nothing: no limit. Updates its study, too.
     void set_budget(const std::string& run, std::optional<double> cpu_seconds);
     bool pin_run(const std::string& run);
     bool unpin_run(const std::string& run);
-    /// What lists call it from now on; its study keeps the title that it was sent with.
+    /// Changes the title shown in lists; the study keeps the title that it was sent with.
     bool rename_run(const std::string& run, const std::string& title);
-    /// Every row of a run that is over, at once: from then on no list, no cache and no artifact knows
-    /// it. Its folder is to be removed next (Store::removals, forget_removal). `why` is for the event
-    /// "remove", which stays.
+    /// Deletes every row of a run that is over, at once: from then on lists, cache and artifacts do
+    /// not contain it. Its folder must be removed next (Store::removals, forget_removal). `why` is
+    /// for the event "remove", which remains.
     Removal remove_run(const std::string& run, const std::string& why);
     void forget_removal(const std::string& run);
 
     /// `publish` gives the file its name in the folder. It is called here, as is `erase` below, so
-    /// that no row is written and no file erased between the two halves of the other.
+    /// that row and file change together.
     void keep_file(const StoredFile& file, const std::function<void()>& publish);
-    /// It was asked for: it is not forgotten soon.
+    /// Marks the file as used now, which postpones its removal.
     void touch_file(const std::string& sha256);
     /// needed: a run names it.
     Removal forget_file(const std::string& sha256, const std::function<void()>& erase);
@@ -98,36 +98,36 @@ class Transaction {
     bool forget_unused_file(const std::string& sha256, const std::string& before,
                             const std::function<void()>& erase);
 
-    /// Keeps the scene under its hash and, as a new version, under the name unless that stands for it
-    /// already. False: both were there.
+    /// Stores the scene under its hash and, as a new version, under the name unless that already
+    /// refers to it. False: both existed.
     bool keep_scene(const NewScene& scene, const std::optional<std::string>& name);
-    /// needed: a name stands for it, or a run was made of it.
+    /// needed: a name refers to it, or a run was made from it.
     Removal forget_scene(const std::string& sha256);
-    /// All versions of the name, and of their contents what nothing else needs. needed: a run was made
-    /// of one of them by this name.
+    /// Removes all versions of the name, and their contents if nothing else needs them. needed: a run
+    /// was made from one of them by this name.
     Removal forget_scene_name(const std::string& name);
 
     /// Gives up to so many free pages at the end of the database back to the disk.
     void shrink(std::int64_t pages);
-    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; what was not
-    /// reached stays so. Triggers that the cancelling disarmed are armed again, and those that had
-    /// expired on something that now runs again (hangs_on); what fired stays. Returns how many
-    /// tasks; nothing: no such run.
+    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; tasks that were
+    /// not reached stay so. Re-arms triggers that the cancelling disarmed, and those that had
+    /// expired because of a task that now runs again (hangs_on); fired ones stay. Returns the
+    /// number of tasks; nothing: no such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 
-    /// On one FEM of the run; an empty name is made up. Returns its id.
+    /// On one FEM of the run; generates a name if it is empty. Returns its id.
     std::string add_trigger(const std::string& run, const std::string& fem_task,
                             const TriggerPlan& plan);
-    /// False, and nothing happens: the table refuses (it was disarmed meanwhile, fired before).
+    /// False, without effect: the table refuses (it was disarmed meanwhile, fired before).
     bool move_trigger(const Trigger& trigger, TriggerEvent event, nlohmann::json detail = {});
-    /// The firing and the tasks it makes. False, and nothing happens: the trigger is not open any
-    /// more, or fired at this time before.
+    /// Stores the firing and its tasks. False, without effect: the trigger is not open any more, or
+    /// fired at this time before.
     bool add_firing(const Trigger& trigger, const Firing& firing);
     void keep_trigger_result(const std::string& trigger, const nlohmann::json& result);
 
-    /// That it has made, oldest first.
+    /// Events of this transaction, oldest first.
     std::vector<Event> take_events() { return std::move(events_); }
-    /// It has taken earlier events away.
+    /// Whether it has deleted earlier events.
     bool removes_events() const { return removes_events_; }
 
   private:
@@ -145,7 +145,7 @@ class Transaction {
                   const char* event);
     void add_files(const NewRun& run);
     void add_scene_source(const NewRun& run);
-    /// Nothing of the run is started: it has spent what it may.
+    /// Whether the run has spent its budget, so that none of its tasks is started.
     bool is_exhausted(const std::string& run) const;
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,

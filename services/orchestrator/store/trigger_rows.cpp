@@ -37,8 +37,8 @@ std::string fems_alike(const std::string& fem) {
            fem + ")";
 }
 
-/// How a task with this state and fault was lost, which no input can help and a retry may mend.
-/// Nothing: it was not.
+/// Why a task with this state and fault was lost although its input is right; a retry may succeed.
+/// Nothing: it was not lost.
 std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> code,
                                    const std::optional<std::string>& summary) {
     if (state == TaskState::cancelled) return "cancelled";

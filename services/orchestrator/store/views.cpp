@@ -11,10 +11,10 @@ namespace breach::orchestrator {
 
 namespace {
 
-// A run with an open trigger is not over: it may still get tasks. One of which no transfer time was
-// reached by its FEM has no runout, though nothing failed. Of lem_tool alone no runout is expected.
-// Nor has one whose triggers all came to nothing.
-// One that has spent its budget waits for more as soon as nothing of it runs.
+// A run with an open trigger is not over: it may still get tasks. A run has no runout, though
+// nothing failed, if its FEM reached no transfer time, if it consists of lem_tool alone,
+// or if none of its triggers fired.
+// A run that has spent its budget waits for more as soon as none of its tasks runs.
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,

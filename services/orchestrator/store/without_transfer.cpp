@@ -1,5 +1,5 @@
-// Variants that nothing was transferred of: their FEM ended and its triggers came to nothing, so that
-// they have no row among the results, and would be missing there without a word.
+// Variants without a transfer: the FEM ended and no trigger fired. They have no row among the
+// results, so the results would omit them silently.
 #include <map>
 #include <set>
 

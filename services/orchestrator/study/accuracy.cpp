@@ -222,7 +222,7 @@ std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {
                 first_with.emplace(changed(scene, overrides_of(plan, i, k)), settings.size());
             const std::size_t first = same->second;
             setting.is_base = same->first == base;
-            // Within a ladder equal rungs are a slip, which is told elsewhere.
+            // Equal rungs within a ladder are a mistake, which is reported elsewhere.
             if (!is_new && settings[first].ladder != i) {
                 setting.variants = settings[first].variants;
             } else {

@@ -1,6 +1,6 @@
-// A study's entry "accuracy": ladders of settings, each rung drawn some times. They become ordinary
-// variants; which variant is which rung follows from the study alone. What they say of the error is in
-// accuracy/.
+// A study's entry "accuracy": ladders of settings, each rung repeated some times. They become
+// ordinary variants; which variant is which rung follows from the study alone. accuracy/ computes the
+// errors.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 
 namespace breach::orchestrator {
 
-/// A number that an accuracy study judges.
+/// A number with an error that an accuracy study measures.
 struct Quantity {
     std::string name;  ///< "runout", "crest_displacement", "factor_of_safety"
     Reach reach;
@@ -23,25 +23,25 @@ struct Quantity {
     std::optional<double> time;  ///< of the telemetry [s]
 };
 
-/// A number of the results; NAME@TIME of the FEM's telemetry; factor_of_safety. Nothing: none has it.
-/// scene: to know whether it has a FEM.
+/// A number of the results; NAME@TIME of the FEM's telemetry; factor_of_safety. Nothing: there is no
+/// such number. scene: to know whether it has a FEM.
 std::optional<Quantity> quantity_named(const std::string& text, const nlohmann::json& scene);
-/// As a study asks for it.
+/// The quantity in the form of a study's entry.
 std::string text_of(const Quantity& quantity);
-/// Those of the results, for people.
+/// Names of the quantities of the results, for messages.
 std::string names_of_results();
 
 struct Ladder {
     std::string name;
     std::vector<std::vector<std::string>> steps;  ///< overrides in full, coarse to fine
-    std::vector<double> sizes;  ///< of each rung, falling; empty: they cannot be told
+    std::vector<double> sizes;  ///< of each rung, falling; empty: they are not known
 };
 
 enum class ReferenceKind { finest, richardson, given };
 struct Reference {
     ReferenceKind kind = ReferenceKind::finest;
     double value = 0.0;  ///< given
-    std::string source;  ///< of the given one
+    std::string source;  ///< origin of the given one
 };
 
 struct AccuracyPlan {
@@ -54,8 +54,8 @@ struct AccuracyPlan {
     double asked_error = 0.05;
 };
 
-/// A run of new draws of a setting that an accuracy study has measured: it needs its study's entry
-/// "check" only, not the study.
+/// A run of new repeats of a setting that an accuracy study has measured: it needs only the entry
+/// "check" of its study, not the accuracy study.
 struct BlindCheckPlan {
     std::string of;  ///< the accuracy study's run; empty: not known
     Quantity quantity;
@@ -64,21 +64,21 @@ struct BlindCheckPlan {
     double asked_error = 0.0;  ///< relative
 };
 
-/// A rung of a ladder and the variants that give its value. Rungs that come to the same scene, as
-/// those of two ladders can, have the same variants.
+/// A rung of a ladder and the variants that give its value. Rungs with equal scenes, possible in
+/// two ladders, have the same variants.
 struct Setting {
     std::size_t ladder;
     std::size_t step;
-    std::vector<std::string> variants;  ///< one per draw, the scene itself first
-    bool is_base = false;               ///< it is what the other ladders leave as it is
+    std::vector<std::string> variants;  ///< one per repeat, the scene itself first
+    bool is_base = false;               ///< the setting that the other ladders leave unchanged
 };
 
-/// The entry, which the schema has found sound; faults have the study's pointers. `scene`: with the
+/// The entry, which the schema has accepted; faults have the study's pointers. `scene`: with the
 /// study's own overrides, to know whether it has a FEM.
 AccuracyPlan read_accuracy(const nlohmann::json& entry, const nlohmann::json& scene,
                            std::vector<fault::Fault>& faults);
 
-/// What a rung changes in the study's scene: the base, and its own.
+/// Changes of a rung to the study's scene: those of the base, and its own.
 std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
                                       std::size_t step);
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json& scene);

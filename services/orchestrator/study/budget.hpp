@@ -1,4 +1,4 @@
-// The entry "budget" of a study, on its own: as a cost is held against it, or a run gets another.
+// The entry "budget" of a study by itself, to compare it with a cost or to change a run's budget.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -61,7 +61,7 @@ check::Checked check_sent_scene(const json& document, const std::vector<std::str
 check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
                                 const SentFiles& files, check::Recordings& recordings) {
     const std::vector<Fault> faults = forbidden_files(document, overrides, files);
-    // In place of a file that may not be named stands one that is not there: nothing of it is told.
+    // A file that may not be named is replaced by one that does not exist, to reveal nothing of it.
     std::vector<std::string> changes = overrides;
     for (const Fault& each : faults) changes.push_back(each.pointer + "=/.forbidden");
     check::Checked checked =

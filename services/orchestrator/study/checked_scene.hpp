@@ -1,4 +1,4 @@
-// A scene that came over the network, checked: what it could read, and everything that is wrong.
+// Checks a scene that was uploaded: the readable part, and every fault.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +12,16 @@
 
 namespace breach::orchestrator {
 
-/// Which files a scene that was sent may name.
+/// The files that an uploaded scene may name.
 struct SentFiles {
-    /// Its `files` hold what references name (core/scene/file_paths.hpp).
+    /// Its `files` contains the files of references (core/scene/file_paths.hpp).
     std::filesystem::path folder = "/";
     /// Others must lie in one of these, links followed; nothing: wherever this process can read.
     std::optional<std::vector<std::filesystem::path>> allowed = {};
 };
 
-/// check::checked_document, and a fault for each file that is not named by an absolute path (what is sent has no
-/// folder) or lies where it may not: it is not opened. Throws BadInput only where it is no object.
+/// check::checked_document, and a fault for each file that is not named by an absolute path (an uploaded scene
+/// has no folder) or lies outside the allowed folders and is not opened. Throws BadInput only for a non-object.
 check::Checked check_sent_scene(const nlohmann::json& document,
                                 const std::vector<std::string>& overrides, const SentFiles& files,
                                 check::Recordings& recordings);

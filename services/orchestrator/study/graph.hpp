@@ -28,7 +28,7 @@ struct TaskGraph {
     std::vector<TaskPlan> one_more_transfer;  ///< for every variant (records/firing_plan.hpp)
 };
 
-/// What triggers know of the stability analysis.
+/// The name of the stability analysis' result in triggers.
 inline constexpr std::string_view critical_depth_field = "critical_depth";
 bool asks_for_critical_depth(const criteria::Expression& condition);
 bool asks_for_critical_depth(const Work& work);

@@ -1,4 +1,4 @@
-// How far a study's tasks go.
+// The phases that a study's tasks include.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The samples of a plan: numbers drawn, and what they change in the scene.
+// The samples of a plan: their values, and the changes of the scene.
 #pragma once
 
 #include <functional>
@@ -15,7 +15,7 @@ struct DrawnSample {
 };
 
 /// The first so many samples of the plan: a function of its parameters, correlations, seed, sampling
-/// and first hypercube, never of how many are asked for.
+/// and first hypercube, independent of the number requested.
 std::vector<DrawnSample> samples_of(const UncertaintyPlan& plan, std::size_t count);
 
 /// "s0001"
@@ -27,11 +27,11 @@ nlohmann::json values_of(const UncertaintyPlan& plan, const DrawnSample& sample)
 /// Changes that move the points to this lattice.
 using Lattice = std::function<std::vector<std::string>(std::size_t number)>;
 
-/// What one draw of one parameter changes in the scene. scene: completed, for what factors multiply.
+/// Changes of the scene by one value of one parameter. scene: completed, for factors.
 std::vector<std::string> overrides_of(const Parameter& parameter, double draw,
                                       const nlohmann::json& scene, const Lattice& lattice);
 
-/// The draw at the share u of the parameter's probability, 0 < u < 1.
+/// The value at the share u of the parameter's probability, 0 < u < 1.
 double draw_at(const Parameter& parameter, double u);
 
 }  // namespace breach::orchestrator

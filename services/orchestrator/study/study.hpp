@@ -1,4 +1,4 @@
-// A submitted study: checked whole, its scene completed and made immutable, its transfer times a
+// A submitted study: completely checked, its scene completed and immutable, its transfer times a
 // plain list.
 #pragma once
 
@@ -35,11 +35,11 @@ struct Study {
     std::map<std::string, Resources> resources;  ///< by phase
     std::int64_t priority = 0;
     std::optional<double> budget;       ///< that all attempts may spend [CPU s]
-    bool reuse = true;                  ///< equal earlier results may be taken
+    bool reuse = true;                  ///< equal earlier results may be used
     std::vector<TriggerPlan> triggers;  ///< those that watch the FEM
     double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]
-    Reach reach = Reach::chain;         ///< what is run of each variant
-    /// Its variants are samples, and more of them may follow.
+    Reach reach = Reach::chain;         ///< phases of each variant
+    /// Its variants are samples, and more may be added.
     std::optional<UncertaintyPlan> uncertainty;
     std::optional<Target> target;  ///< its variants are values of one parameter instead
     std::vector<fault::Flag>

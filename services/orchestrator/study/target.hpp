@@ -1,6 +1,6 @@
 // The entry "target" of an uncertainty study: instead of samples, values of one parameter until a
-// result is a given number, the other parameters at their medians. How the values are chosen is in
-// core/statistics/inverse.hpp; here they become variants.
+// result is a given number, the other parameters at their medians. core/statistics/inverse.hpp
+// chooses the values; here they become variants.
 #pragma once
 
 #include "core/statistics/inverse.hpp"
@@ -12,11 +12,11 @@ namespace breach::orchestrator {
 struct Target {
     statistics::InverseQuestion question;
     std::size_t parameter;       ///< that is varied, in the plan
-    std::size_t lattices = 1;    ///< each value is run on so many lattices of points
-    std::vector<double> values;  ///< so far, in the order in which they were asked for
+    std::size_t lattices = 1;    ///< number of lattices of points for each value
+    std::vector<double> values;  ///< so far, in the order of their requests
 };
 
-/// entry: "uncertainty", which the schema has found sound, with "target"; faults have the study's
+/// entry: "uncertainty" with "target", which the schema has accepted; faults have the study's
 /// pointers.
 Target read_target(const nlohmann::json& entry, const UncertaintyPlan& plan, Reach reach,
                    std::vector<fault::Fault>& faults);

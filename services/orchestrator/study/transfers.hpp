@@ -1,4 +1,4 @@
-// When a study transfers: its times, and the triggers that watch its FEM.
+// The transfers of a study: its times, and the triggers that watch its FEM.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,9 +9,9 @@
 
 namespace breach::orchestrator {
 
-/// Length of the shaking and failure [s]: the clock of snapshots starts with the first dynamic stage.
+/// Total duration of the dynamic stages [s]: the clock of snapshots starts with the first of them.
 double dynamic_duration(const scene::Fem& fem);
-/// A time after the FEM's end.
+/// Whether the time is after the FEM's end.
 bool is_late(double time, const scene::Fem& fem);
 void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<fault::Fault>& faults);
@@ -19,11 +19,11 @@ void check_times(const std::vector<double>& times, const scene::Fem& fem,
 /// Lines of /transfer/liquefied that no transfer time uses; triggers choose their own times.
 void check_lines(const scene::Scene& scene, const Study& study, std::vector<fault::Fault>& faults);
 
-/// Times, triggers and the snapshots that they need. fem: null: it could not be read, and nothing is too late.
+/// Reads times, triggers and their snapshots. fem: null: it could not be read, and no time is too late.
 void read_transfers(const nlohmann::json& document, const scene::Fem* fem, Study& study,
                     std::vector<fault::Fault>& faults);
 
-/// Conditions on what this run's telemetry never holds.
+/// Faults of conditions on fields that this run's telemetry does not have.
 void check_fields(const nlohmann::json& triggers, const scene::Scene& scene, bool stability,
                   std::vector<fault::Fault>& faults);
 

@@ -60,7 +60,7 @@ DistributionWords distribution_words(DistributionKind kind) {
     return {{"from", "to"}, "from and to are the ends"};
 }
 
-/// Reads one entry of the list of parameters; what is wrong is told below `at`.
+/// Reads one entry of the list of parameters; reports faults below the pointer `at`.
 class ParameterReader {
   public:
     ParameterReader(const json& entry, std::string at, const json& scene,

@@ -1,5 +1,5 @@
-// The study's entry "uncertainty": which settings are not known, how they are distributed, and how many
-// samples are drawn of them. What the samples say of a result is in ensemble/.
+// The study's entry "uncertainty": the uncertain settings, their distributions, and the number of
+// samples. ensemble/ computes the statistics of the results.
 #pragma once
 
 #include <cstdint>
@@ -15,10 +15,10 @@
 namespace breach::orchestrator {
 
 enum class ParameterKind {
-    factor,     ///< on what the scene says of its entries
+    factor,     ///< on the scene's values of its entries
     value,      ///< of its entries
     choice,     ///< one of several lists of overrides
-    numerical,  ///< the lattice of material points: what no reader can know, but the method's own
+    numerical,  ///< the lattice of material points: an uncertainty of the method itself
 };
 std::string_view name_of(ParameterKind kind);
 
@@ -34,7 +34,7 @@ struct Parameter {
     std::vector<std::string> entries;       ///< pointers into the scene
     statistics::Distribution distribution;  ///< of factor and value
     std::vector<Choice> choices;            ///< of choice
-    std::size_t lattices = 1;               ///< of numerical: drawn from those numbered 0, 1, ...
+    std::size_t lattices = 1;               ///< of numerical: sampled from those numbered 0, 1, ...
 };
 
 enum class Sampling { latin_hypercube, sobol };
@@ -51,13 +51,13 @@ struct Until {
     std::string quantity;
     double percentile;  ///< 0 to 100
     double half_width;  ///< of its interval, over its value
-    std::size_t batch;  ///< so many samples at a time
+    std::size_t batch;  ///< samples per batch
 };
 
 struct UncertaintyPlan {
-    std::string quantity;     ///< what is looked at first
-    std::size_t samples = 1;  ///< that are asked for
-    std::size_t drawn = 1;    ///< so far: fewer than asked for where `until` stands
+    std::string quantity;     ///< the quantity shown first
+    std::size_t samples = 1;  ///< number requested
+    std::size_t drawn = 1;    ///< so far: fewer than requested with `until`
     std::size_t first = 1;    ///< size of the first hypercube
     std::uint64_t seed = 0;
     Sampling sampling = Sampling::latin_hypercube;
@@ -66,15 +66,15 @@ struct UncertaintyPlan {
     std::optional<Until> until;
 };
 
-/// The entry, which the schema has found sound; faults have the study's pointers ("/uncertainty/...").
+/// The entry, which the schema has accepted; faults have the study's pointers ("/uncertainty/...").
 /// `scene`: completed, with the study's own overrides.
 UncertaintyPlan read_uncertainty(const nlohmann::json& entry, const nlohmann::json& scene,
                                  std::vector<fault::Fault>& faults);
 
-/// Whether the parameter gives this entry of the scene, a part of it, or what holds it.
+/// Whether the parameter sets this entry of the scene, a part of it, or an object around it.
 bool gives(const Parameter& parameter, const std::string& pointer);
 
-/// The rank correlations that are asked for, 1 on the diagonal, 0 where nothing is said.
+/// The requested rank correlations, 1 on the diagonal, 0 where none is given.
 statistics::Matrix correlation_matrix(const UncertaintyPlan& plan);
 
 }  // namespace breach::orchestrator

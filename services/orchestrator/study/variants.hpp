@@ -1,4 +1,4 @@
-// A study's variants: what it names itself, its repeats, and each one's scene, checked.
+// A study's variants: its own, its repeats, and each one's checked scene.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -11,31 +11,31 @@
 
 namespace breach::orchestrator {
 
-/// The study's scene with its own overrides: completed when it is sound, as it was sent otherwise.
+/// The study's scene with its own overrides: completed when it is valid, otherwise as it was sent.
 struct Base {
     SentFiles files;
     nlohmann::json scene;
     std::vector<std::string> overrides;
     std::vector<fault::Fault> faults;   ///< of the scene itself: a variant does not repeat them
     std::vector<fault::Flag> warnings;  ///< likewise
-    check::Recordings* recordings;      ///< read for one scene, known to the others
+    check::Recordings* recordings;      ///< cache of motions, shared by the variants
 };
 
 inline constexpr const char* kept_variants =
-    "own_variants";  ///< of a study that all runs are draws of
+    "own_variants";  ///< of a study that consists of repeats only
 
-/// Those that the study names itself; what the service made of it is made anew.
+/// The variants that the study itself defines; generated ones are made anew.
 std::vector<VariantEntry> own_variants(const nlohmann::json& document);
 
-/// On as many lattices as the study asks for.
+/// With as many lattices as the study requests.
 std::vector<VariantEntry> wanted_variants(const nlohmann::json& document, Reach reach,
                                           const nlohmann::json& scene,
                                           std::vector<fault::Fault>& faults);
 
 nlohmann::json as_json(const std::vector<VariantEntry>& entries);
 
-/// What is run, and beside it the study's own variants where none of them is run as it stands: what was
-/// read of the study is read of it again.
+/// Stores the variants that are run, and beside them the study's own where none of them is run
+/// unchanged, so that the study can be read again with the same result.
 void keep_variants(const std::vector<VariantEntry>& entries, nlohmann::json& document);
 
 /// Each variant's scene, checked and completed; faults are those of its overrides.

@@ -1,14 +1,14 @@
-// What triggers come to: by what was read of their FEM, each fires, expires or waits on. Stores it.
+// Settles triggers from the data of their FEM: each fires, expires or waits on. Stores the result.
 //
-// What is decided is a function of the telemetry and of the snapshots that exist, both on the disk:
-// after a kill -9 the replay comes to the same firing, and the store takes it once.
+// The decision is a function of the telemetry and of the existing snapshots, both on the disk:
+// after a kill -9 the replay gives the same firing, and the store accepts it once.
 //
 // The snapshot of a firing is the first one not before the time at which the trigger was met. While
 // there is none and the FEM runs, it is asked for one (the file snapshot_request in its output
-// folder), unless it takes regular ones anyway. When the FEM has ended, what exists must serve; a
-// snapshot later than the trigger's within_s makes it expire. The end of a FEM that was cut short
-// (it failed, and not by a breakdown) closes no window and begins no bisection: they expire. So
-// does what waits for a stability analysis or a runout that failed like this: nothing is decided by
+// folder), unless it takes regular ones anyway. After the FEM's end an existing snapshot must
+// serve; one later than the trigger's within_s makes it expire. The end of an interrupted FEM (it
+// failed, and not by a breakdown) closes no window and begins no bisection: they expire. So does a
+// trigger that waits for a stability analysis or a runout interrupted like this; a retry decides.
 // a fault of the machine, and a retry decides.
 #pragma once
 
@@ -31,13 +31,13 @@ class Settling {
     void take_first_from(WatchedFem& fem, ArmedTrigger& armed, double wanted);
     void take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& snapshot, double wanted);
     /// Whether the condition was met, and only a snapshot, a window or the rest of its hold was
-    /// missing; not_told: the trigger expires for another reason, which does not answer this.
+    /// missing; not_told: the trigger expires for another reason, which leaves this open.
     enum class WasMet { no, yes, not_told };
     void expire(ArmedTrigger& armed, const std::string& why, WasMet was_met);
     void expire_unmet(const WatchedFem& fem, ArmedTrigger& armed,
                       const criteria::Criterion& criterion);
     void expire_without_snapshot(ArmedTrigger& armed, double wanted);
-    /// result: kept with it; null: what there is stays.
+    /// result: stored with it; null: the stored one stays.
     void move(ArmedTrigger& armed, TriggerEvent event, nlohmann::json detail,
               const nlohmann::json& result = nullptr);
 

@@ -23,7 +23,7 @@ void TriggerWatch::look() {
     for (auto& [id, fem] : fems_) look_alone(fem);
 }
 
-/// Files of one FEM that cannot be read must not hold up the others: it is looked at again.
+/// Unreadable files of one FEM must not delay the others: it is looked at again.
 void TriggerWatch::look_alone(WatchedFem& fem) {
     std::string trouble;
     try {

@@ -1,5 +1,5 @@
-// Watches the FEMs that have open triggers, on the dispatcher's thread: reads on in each as it grows
-// (watched_fem.hpp), and settles its triggers by what was read (settling.hpp).
+// Watches the FEMs with open triggers, on the dispatcher's thread: reads each file as it grows
+// (watched_fem.hpp), and settles its triggers (settling.hpp).
 #pragma once
 
 #include <chrono>
@@ -16,10 +16,10 @@ class TriggerWatch {
 
     /// Readable when a watched telemetry file has grown.
     int descriptor() const { return watch_.descriptor(); }
-    /// How long it can do without another look: no time when something was stored since the last, a
-    /// moment while a FEM has not begun its telemetry.
+    /// Longest time until the next look: zero when something was stored since the last, a moment
+    /// while a FEM has not begun its telemetry.
     std::chrono::milliseconds patience() const;
-    /// Looks at everything that may have moved on; cheap when nothing is open.
+    /// Reads everything that may have changed; cheap when no trigger is open.
     void look();
 
   private:

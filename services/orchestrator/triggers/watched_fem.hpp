@@ -1,4 +1,4 @@
-// A FEM that has open triggers, and what was read of it: its telemetry as it grows, its snapshots, the
+// A FEM with open triggers, and its data so far: its telemetry as it grows, its snapshots, the
 // critical depth of its stability analysis.
 #pragma once
 
@@ -16,12 +16,12 @@ inline constexpr double snapshot_slack = 1e-6;  ///< names of snapshots carry si
 
 struct WatchedFem;
 
-/// A trigger at work.
+/// A trigger being evaluated.
 struct ArmedTrigger {
     explicit ArmedTrigger(const Trigger& stored);
-    /// It asks for the critical depth, and that is not known (yet).
+    /// Whether it needs the critical depth and that is not known (yet).
     bool lacks_depth(const WatchedFem& fem) const;
-    /// Takes the lines that it has not seen.
+    /// Evaluates the lines since the last call.
     void feed(const WatchedFem& fem);
 
     Trigger trigger;
@@ -38,10 +38,10 @@ struct ArmedTrigger {
 
 struct WatchedFem {
     WatchedFem(Task of, const Store& store, const DataFolder& data);
-    /// Whatever it has written since.
+    /// Reads everything written since the last call.
     void read_on(const Store& store, FolderWatch& watches);
-    /// It ended, and neither at its end nor by a breakdown, which is a result: the disk was full, it
-    /// was killed, or cancelled. What it has written is the beginning of what a retry makes of it.
+    /// Whether it was interrupted: it ended neither at its end nor by a breakdown, which is a
+    /// result, but the disk was full, or it was killed or cancelled. A retry continues its output.
     bool was_cut_short() const;
     criteria::Line line_for(const criteria::Expression& condition,
                             const telemetry::Line& line) const;
@@ -57,13 +57,13 @@ struct WatchedFem {
     std::vector<ArmedTrigger> armed = {};
     bool ended = false;
     bool regular;  ///< takes snapshots at an interval
-    bool planned;  ///< the run knows which tasks a firing on it makes
+    bool planned;  ///< the run stores the tasks of a firing on it
     std::vector<Frame> snapshots = {};
     std::chrono::steady_clock::time_point asked{};
-    /// Of the run's stability analysis once that has come through; NaN when there is none [m].
+    /// Of the run's stability analysis once that has ended; NaN when there is none [m].
     std::optional<double> critical_depth{};
     std::string why_no_depth = {};  ///< how the stability analysis failed; empty: it has not
-    std::string trouble = {};       ///< what kept the last look from its end
+    std::string trouble = {};       ///< why the last look was incomplete
 
   private:
     void look_for_stability(const Store& store);

@@ -1,4 +1,4 @@
-"""What can go wrong, in words of who asks: what, where, how to mend it."""
+"""Exceptions of the package: what is wrong, where, and what to write instead."""
 
 
 class BreachlineError(Exception):

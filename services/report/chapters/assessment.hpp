@@ -1,35 +1,35 @@
-// The parts of the dam-breach assessment, private to its files: what they have in common, the cautions
-// above it, its first page, and what that rests on.
+// The parts of the dam-breach assessment, private to its files: shared functions, its cautions, its
+// first page, and the chapter with the data behind it.
 #pragma once
 
 #include "services/report/chapters/chapters.hpp"
 
 namespace breach::report {
 
-/// Names of the answer's quantities: the one that was asked first, then the others.
+/// Names of the answer's quantities: the one requested first, then the others.
 std::vector<std::string> quantities_of(const nlohmann::json& answer);
 /// "Farthest point"; an unknown one by its name.
 std::string words_of(const std::string& quantity);
 /// " [m]"; empty without a unit.
 std::string unit_in_brackets(const nlohmann::json& quantity);
-/// "38.5 (32.6 to 45.5)", marked where it is a lower bound; why, where it is not told.
+/// "38.5 (32.6 to 45.5)", marked where it is a lower bound; the reason where there is none.
 std::string percentile_text(const Run& run, const std::string& name, double p);
 /// "60 of 64 samples".
 std::string known_of(const Run& run, const std::string& name);
 /// "2 samples".
 std::string count_of(const nlohmann::json& number, const std::string& noun);
 std::string or_dash(const nlohmann::json& value, int digits = 3);
-/// "0.1 to 0.3", of two entries; "-" where they are no numbers.
+/// "0.1 to 0.3", from two entries; "-" if they are no numbers.
 std::string ends_of(const nlohmann::json& each, const char* low, const char* high);
 
-/// The page that a regulator reads. name: the quantity that was asked first.
+/// The page for a regulator. name: the quantity requested first.
 Chapter assessment_page(const Run& run, const std::string& name);
-/// Distributions, envelopes, hydrographs and samples behind that page; what is missing is noted.
+/// Distributions, envelopes, hydrographs and samples behind that page; notes missing ones.
 Chapter assessment_basis(const Material& from, const std::string& name, Document& document);
 
 /// "0.48", marked where results beside it are lower bounds.
 std::string value_found(const nlohmann::json& inverse);
-/// Of a study that asks which value gives a known result.
+/// For a study that searches the value that gives a known result.
 Chapter back_analysis(const Run& run);
 
 }  // namespace breach::report

@@ -1,5 +1,5 @@
-// The chapters of a run's report, each from the files of its phases. A chapter that a run cannot
-// fill is left out, and why is noted; so is each figure.
+// The chapters of a run's report, each from the files of its phases. Chapters and figures without
+// data are left out, and the reason is noted.
 #pragma once
 
 #include <string_view>
@@ -11,17 +11,17 @@
 
 namespace breach::report {
 
-/// What the reader chose.
+/// Choices of the reader.
 struct Choice {
     std::vector<double> snapshot_times;  ///< of contours and meshes [s]; empty: four over the run
-    std::vector<double> transfer_times;  ///< of geometries [s]; empty: half and full runout
+    std::vector<double> transfer_times;  ///< file; empty: the scene's
     std::filesystem::path motion;        ///< file; empty: where the scene says
-    /// Other runs whose variants belong to this one
+    /// Other runs with variants that belong to this one
     std::vector<std::filesystem::path> companions;
     std::filesystem::path element_tests;  ///< folder of fem_solver element-test; empty: none
 };
 
-/// All that chapters read.
+/// The input of all chapters.
 struct Material {
     const Run& run;
     const std::optional<Paper>& paper;
@@ -29,35 +29,35 @@ struct Material {
     const Choice& choice;
 };
 
-/// The runouts of the variant that runs farthest that are looked at closely: those nearest to the wanted
+/// The runouts shown in detail, of the variant with the largest runout: those nearest to the wanted
 /// transfer times; without any, the one nearest to half of the largest runout, and the largest.
 std::vector<const PhaseFolder*> chosen_runouts(const Material& from);
 /// "t_T = 13 s, softened".
 std::string of_transfer(const PhaseFolder& phase);
-/// A fact of a result as text, divided by `unit`; "-" when it is not there. Pointer:
+/// An entry of a result as text, divided by `unit`; "-" when it does not exist. Pointer:
 /// "/energy/numerical/share".
 std::string fact(const nlohmann::json& result, const std::string& pointer, double unit = 1.0);
 
-/// How a runout is named in files: "13s", "filled_soft".
+/// A runout's part of file names: "13s", "filled_soft".
 std::string file_word(const PhaseFolder& mpm);
 
 /// The figure of runouts against transfer times.
 inline constexpr std::string_view runout_figure = "runout_against_transfer_time";
-/// Its curves, one per variant: of means where the runouts were drawn on several lattices.
+/// Its curves, one per variant: of means where the runouts were repeated on several lattices.
 std::vector<Series> runout_curves(const Run& run);
 
-/// Where the window of transfer times opens and closes; where there is none, why.
+/// The start and the end of the window of transfer times; without a window, why.
 void mark_window(const WindowEdges& window, std::vector<Mark>& marks);
 
-/// The section before anything moved.
+/// The initial section.
 Series section_at_rest(const nlohmann::json& scene);
 
 Front front_of(const Run& run);
 /// The section before and after the governing runout, with the critical slip surface and the phreatic line.
 Figure overview_of(const Run& run);
-/// First the page that a regulator reads, then what it rests on; of a study over distributions.
+/// For a study over distributions: first the page for a regulator, then the data behind it.
 void add_assessment(const Material& from, Document& document);
-/// The row of the first page that its samples give; nothing of any other run.
+/// The row of the first page from its samples; nothing for any other run.
 std::optional<std::vector<std::string>> sampled_answer(const Run& run);
 void add_inputs(const Material& from, Document& document);
 void add_stability(const Material& from, Document& document);

@@ -96,7 +96,7 @@ std::optional<double> median_of(const std::optional<Plateau>& plateau, const cha
 
 struct Count {
     std::vector<const PhaseFolder*> runouts =
-        {};  ///< those of the variant, whatever became of them
+        {};  ///< those of the variant, running, failed or ended
     std::size_t ended = 0;
     double cpu_seconds = 0.0;
 };

@@ -1,4 +1,4 @@
-// From numbers to places on an axis and the ticks that stand there.
+// Axis scales: positions of values, and ticks.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Range {
 std::vector<double> linear_ticks(const Range& range, double wanted = 6.0);
 /// Powers of ten within the range, and their 2 and 5 folds; high > low > 0.
 std::vector<double> log_ticks(const Range& range);
-/// Share of the axis' length at which the value stands: 0 at low, 1 at high.
+/// Position of the value as a share of the axis' length: 0 at low, 1 at high.
 double place(double value, const Range& range, Scale scale);
 /// Shortest text that reads back as the same number.
 std::string exact(double value);

@@ -1,4 +1,4 @@
-// A chart as data. Its picture is in draw.hpp; it knows nothing of soils or files.
+// A chart as data. draw.hpp draws it; independent of soils and files.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Axis {
     std::vector<std::string> names = {};  ///< of 0, 1, 2, ... instead of numbers; of y alone
 };
 
-/// What a point's value is worth. at_least: a lower bound, drawn with an arrow upwards.
+/// Certainty of a point's value. at_least: a lower bound, drawn with an arrow upwards.
 enum class Certainty { certain, at_least, doubtful };
 /// "lower bound": for legends and data.
 const char* name_of(Certainty certainty);
@@ -31,11 +31,11 @@ struct Series {
     std::vector<double> y;
     Style style = Style::line;
     std::vector<Certainty> certainty = {};  ///< of each point; empty: all are certain
-    /// How far y may be off, to either side, of each point; NaN: not known; empty: of none
+    /// Error bar of y, to either side, of each point; NaN: not known; empty: of none
     std::vector<double> error = {};
-    /// Or where y may be instead, of each point; NaN: not known; empty: of none
+    /// Or range of y, of each point; NaN: not known; empty: of none
     std::vector<double> low = {}, high = {};
-    /// Number of an earlier series whose colour it has: what is computed for what is measured. It has
+    /// Number of an earlier series with the same colour: for computed beside measured values. It has
     /// no entry of its own in the legend.
     std::optional<std::size_t> like = {};
 };
@@ -47,7 +47,7 @@ struct Field {
     std::vector<double> x;      ///< [n * corners], corner after corner
     std::vector<double> y;      ///< [n * corners]
     std::vector<double> value;  ///< [n]
-    Range range;  ///< of the colours; what lies beyond has the colour of the nearer end
+    Range range;  ///< of the colours; values beyond it have the colour of the nearer end
 };
 
 /// A line across the chart at one value.
@@ -67,7 +67,7 @@ struct Chart {
     std::optional<Field> field = {};  ///< drawn beneath the series
 };
 
-/// Throws std::invalid_argument when columns that belong together differ in length.
+/// Throws std::invalid_argument when related columns differ in length.
 void check_columns(const Chart& chart);
 
 }  // namespace breach::report

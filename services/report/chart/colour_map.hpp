@@ -1,4 +1,4 @@
-// Colours for values: from light (low) to dark (high), evenly for the eye. Knows nothing of charts.
+// Colours for values: from light (low) to dark (high), perceptually uniform. Independent of charts.
 #pragma once
 
 #include <string>

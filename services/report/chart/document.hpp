@@ -1,4 +1,4 @@
-// What a report consists of before it is written: chapters of figures and tables, and what is left
+// The content of a report before it is written: chapters of figures and tables, and what is left
 // out.
 #pragma once
 
@@ -22,49 +22,49 @@ struct Chapter {
     std::string text = {};
     std::vector<Figure> figures = {};
     std::vector<Table> tables = {};
-    std::string drawing = {};  ///< SVG above all else, without numbers of its own; empty: none
-    std::vector<std::string> cautions = {};  ///< what is to be known first, below the text
-    bool opens_page = false;                 ///< when it is printed
+    std::string drawing = {};  ///< SVG above everything else, not numbered; empty: none
+    std::vector<std::string> cautions = {};  ///< to be read first, below the text
+    bool opens_page = false;                 ///< starts a new page in print
 };
 
-/// A figure that a full report has and this one has not.
+/// A figure of a full report that is missing here.
 struct LeftOut {
     std::string what;
     std::string why;
 };
 
-/// What must be known before the numbers are believed, in sentences.
+/// What to know before relying on the numbers, in sentences.
 struct Verdict {
     std::string word = {};                   ///< "questionable"; empty: the sentences say it all
     bool usable = true;                      ///< false: no number of it can be used
     std::vector<std::string> cautions = {};  ///< a number is a bound, is wrong or cannot be trusted
-    std::vector<std::string> notes = {};     ///< all else, and that there is nothing
+    std::vector<std::string> notes = {};     ///< all others, or that there are none
 };
 
-/// The first page, which a reader can sign: what was asked, what comes out, and within which limits.
+/// The first page, for signature: the question, the result, and its limits.
 struct Front {
     std::string of = {};  ///< which run of which scene by which version
     std::vector<std::pair<std::string, std::string>> people = {};  ///< "client" and who that is
-    std::string headline = {};               ///< what comes out, in one sentence
+    std::string headline = {};               ///< the run's result in one sentence
     std::vector<Figure> pictures = {};       ///< the section before and after
     std::vector<std::string> asked = {};     ///< in sentences
-    Table found = {};                        ///< without rows: nothing came out
+    Table found = {};                        ///< without rows: there is no result
     Table gauges = {};                       ///< of the governing runout, one column each
     std::vector<std::string> limits = {};    ///< of the model, in sentences
-    std::string author = {}, reviewer = {};  ///< who sign
+    std::string author = {}, reviewer = {};  ///< the signatories
 };
 
 struct Document {
     std::string title;
-    std::vector<std::string> remarks;  ///< what everybody must know first, beside the limits
+    std::vector<std::string> remarks;  ///< to be read first, beside the limits
     std::vector<Chapter> chapters;
     std::vector<LeftOut> left_out;
-    Verdict verdict = {};  ///< above the remarks; empty: nothing is said
-    Front front = {};      ///< above all else; what is empty of it is not shown
+    Verdict verdict = {};  ///< above the remarks; empty: not shown
+    Front front = {};      ///< above everything else; empty parts are not shown
 };
 
-/// Comma-separated, heads first; every cell quoted that is not a number. Throws
-/// std::invalid_argument when a row is not as long as the heads.
+/// Comma-separated, heads first; every cell that is not a number is quoted. Throws
+/// std::invalid_argument when a row and the heads differ in length.
 std::string as_csv(const Table& table);
 
 }  // namespace breach::report

@@ -10,7 +10,7 @@ namespace breach::report {
 
 namespace {
 
-constexpr std::size_t classes = 40;  // more cannot be told apart by eye
+constexpr std::size_t classes = 40;  // more cannot be distinguished by eye
 
 std::size_t class_of(double value, const Range& range) {
     const double share = std::clamp(place(value, range, Scale::linear), 0.0, 1.0);

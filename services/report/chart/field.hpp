@@ -1,4 +1,4 @@
-// Places coloured by a value, and the bar that says which colour means what.
+// Places coloured by a value, and the colour bar.
 #pragma once
 
 #include <ostream>

@@ -12,13 +12,13 @@ namespace breach::report {
 struct Figure {
     std::string name;  ///< file name without extension
     Chart chart;
-    std::string caption = {};  ///< what is seen, in a sentence or two
+    std::string caption = {};  ///< what the figure shows, in a sentence or two
 };
 
-/// Columns series, x, y (with the axes' labels as heads), one row per point, every digit. A chart
-/// with a field instead: x and y of each corner and the value, one row per place; what is drawn
-/// over it is not data. Where a point of the chart is less than certain, a further column says what
-/// each of them is; where the error of one is known, another has it; where a band is known, the last two have its ends.
+/// Columns series, x, y (with the axes' labels as heads), one row per point, every digit. A chart with a field instead:
+/// x and y of each corner and the value, one row per place; series drawn over it are not data. If a point is less than
+/// certain, a further column has the certainty of each; if an error is known, another has it; if a band is known, the
+/// last two have its ends.
 std::string as_csv(const Chart& chart);
 /// A CSV cell of text.
 std::string quoted(const std::string& text);

@@ -1,4 +1,4 @@
-// Where things stand on a chart's page [px], and how shapes are written. Private to the charts.
+// Layout of a chart [px], and text of its shapes. Private to the charts.
 #pragma once
 
 #include <cmath>
@@ -48,14 +48,14 @@ class Pen {
     long at_x_ = 0, at_y_ = 0, start_x_ = 0, start_y_ = 0;
 };
 
-/// Text for SVG and HTML: markup is made harmless, control characters become blanks.
+/// Text for SVG and HTML: escapes markup, replaces control characters by blanks.
 std::string escaped(const std::string& text);
-/// `more`: further attributes, ready to stand in the tag.
+/// `more`: further attributes, as text of the tag.
 std::string text_at(double x, double y, const std::string& text, const std::string& more = "");
 /// Estimated width of a text of 14 px [px].
 double width_of(const std::string& text);
 
-/// Diameter of the dots of clouds: they nearly touch where they lie densely [px].
+/// Diameter of the dots of clouds: nearly touching where points are dense [px].
 double dot_size(const Frame& frame);
 
 }  // namespace breach::report

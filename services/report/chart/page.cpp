@@ -103,7 +103,7 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
          << "</figcaption>\n</figure>\n";
 }
 
-/// Numbers stand at the right, those with a mark as well; lower bounds are told apart from them.
+/// Aligns numbers right, also those with a mark; lower bounds are distinguished from them.
 const char* opening_of(const std::string& cell) {
     if (is_number(cell.ends_with(" *") ? cell.substr(0, cell.size() - 2) : cell))
         return "<td class=\"n\">";

@@ -1,4 +1,4 @@
-// A document as one HTML page that needs nothing else: figures are in it, no script, no network.
+// A document as one self-contained HTML page: figures inside, no script, no network.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace breach::report {
 
-/// `figures`: folder of the figures' and tables' files, relative to the page, for its links to
-/// them; empty: there are none.
+/// `figures`: folder of the figures' and tables' files, relative to the page, for links to them;
+/// empty: there are none.
 std::string as_html(const Document& document, const std::string& figures);
 
 }  // namespace breach::report

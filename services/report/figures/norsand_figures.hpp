@@ -1,5 +1,5 @@
-// Figures of a calibration of NorSand: what was measured beside what the law answers, its critical
-// state line, its dilatancy.
+// Figures of a calibration of NorSand: measured values beside the law's, its critical state line,
+// its dilatancy.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,8 +9,8 @@
 
 namespace breach::report {
 
-/// A column of an element-test archive; `unit` is what one of the figure's units is in SI. Throws
-/// BadInput where it is missing.
+/// A column of an element-test archive; `unit`: the figure's unit in SI. Throws BadInput if it is
+/// missing.
 std::vector<double> curve_column(const exchange::Archive& curves, const std::string& name,
                                  double unit);
 

@@ -1,4 +1,4 @@
-// Pictures of material points: coloured by what they are, or by a value.
+// Pictures of material points: coloured by material or by a value.
 #pragma once
 
 #include "core/exchange/particle_state.hpp"
@@ -6,8 +6,8 @@
 
 namespace breach::report {
 
-/// One colour per material; at most about 15,000 points are drawn, evenly picked, which the caption
-/// says. The data hold those that are drawn.
+/// One colour per material; draws at most about 15,000 points, evenly picked, as the caption says.
+/// The data contain the drawn points.
 Figure points_by_material(const exchange::ParticleState& state, const std::string& name,
                           const std::string& title);
 /// By epsilon_q [%], in the same way.

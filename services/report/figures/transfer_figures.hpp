@@ -28,9 +28,9 @@ struct BeforeAndAfter {
     Figure after;
 };
 
-/// sigma'_v always; r_u where the points carry it; layers where there are any. The mesh shows what
-/// the FEM found: elements whose mean r_u is above the threshold, by their initial stress. The
-/// points show what they became: also what lies above such soil.
+/// sigma'_v always; r_u where the points have it; layers where there are any. The mesh shows the
+/// FEM's result: elements with mean r_u above the threshold, by their initial stress. The points
+/// show the materials after the transfer: including soil above such elements.
 std::vector<BeforeAndAfter> compare(const exchange::MeshSnapshot& mesh,
                                     const exchange::ParticleState& points,
                                     const LayerColours& layers);

@@ -1,4 +1,4 @@
-// Figures of a study over distributions, from what the service told of it.
+// Figures of a study over distributions, from the service's statistics.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,7 +8,7 @@
 
 namespace breach::report {
 
-/// The probability of more, in steps, with its band. label: of the quantity, with its unit;
+/// The exceedance probability, in steps, with its band. label: of the quantity, with its unit;
 /// bound_from: the least value of a sample that was stopped while it grew.
 Figure exceedance_figure(const nlohmann::json& quantity, const std::string& label,
                          std::optional<double> bound_from);
@@ -16,7 +16,7 @@ Figure exceedance_figure(const nlohmann::json& quantity, const std::string& labe
 /// One bar per parameter, the longest on top. Nothing where the surrogate is refused.
 std::optional<Figure> tornado_figure(const nlohmann::json& quantity, const std::string& label);
 
-/// p50 along x between p10 and p90, one figure per quantity of envelopes.json that has any number.
+/// p50 along x between p10 and p90, one figure per quantity of envelopes.json with any number.
 std::vector<Figure> envelope_figures(const nlohmann::json& envelopes);
 
 }  // namespace breach::report

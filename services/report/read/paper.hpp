@@ -1,5 +1,5 @@
-// The published numbers that a scene is compared with. They live in paper.json, which is built into
-// the program; nothing of them is in code.
+// The published numbers for comparison with a scene. They are in paper.json, which is built into
+// the program; none of them is in the code.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,23 @@
 namespace breach::report {
 
 struct PaperValue {
-    std::string key;   ///< names the same quantity of ours: measures.hpp
+    std::string key;   ///< key of the run's quantity: measures.hpp
     std::string what;  ///< in words
     std::string unit;
     double value;
-    std::string first_time = {};           ///< the condition of which ours is the first time
-    std::optional<double> runout_at = {};  ///< the transfer time of which ours is the runout [s]
+    std::string first_time = {};           ///< the condition; compared with the run's first time
+    std::optional<double> runout_at = {};  ///< the transfer time of the run's runout [s]
 };
 
-/// Something that holds for the paper's case alone, said below a table.
+/// A note that applies to the paper's case only, below a table.
 struct PaperNote {
     std::string table;
     std::string text;
     std::string entry;  ///< of the first phase's result in that table: "/slices"
-    double value;       ///< that the entry must have for the note to hold
+    double value;       ///< value of the entry for which the note applies
 };
 
-/// Points that stand in a figure beside ours.
+/// Points of a figure beside the run's.
 struct PaperPoints {
     std::string figure;
     Series series;
@@ -35,11 +35,11 @@ struct PaperPoints {
 
 struct Paper {
     std::string source;
-    std::vector<std::string> remarks;  ///< what must be said wherever a result is shown
+    std::vector<std::string> remarks;  ///< to be shown with every result
     std::vector<PaperValue> values;
     std::vector<PaperPoints> points;
     std::vector<PaperNote> notes;
-    std::string case_history_runout;  ///< as it is told: "> 800"
+    std::string case_history_runout;  ///< as published: "> 800"
 };
 
 /// The paper of a scene; nothing when its name is not one of the paper's case.

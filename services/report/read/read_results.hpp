@@ -1,4 +1,4 @@
-// Opens what phases left behind.
+// Opens the output files of phases.
 #pragma once
 
 #include <filesystem>

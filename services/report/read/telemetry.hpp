@@ -1,4 +1,4 @@
-// What a phase measured while it ran: telemetry.jsonl as columns against time.
+// The telemetry of a phase: telemetry.jsonl as columns against time.
 #pragma once
 
 #include <filesystem>
@@ -15,19 +15,19 @@ namespace breach::report {
 
 class Telemetry {
   public:
-    /// The lines that telemetry::read gives, with what it throws. `beside`: numbers that conditions
-    /// may ask for as if every line had them (critical_depth).
+    /// The lines from telemetry::read, with its exceptions. `beside`: constants that conditions may
+    /// use like fields of every line (critical_depth).
     explicit Telemetry(const std::filesystem::path& file,
                        std::map<std::string, double> beside = {});
 
-    /// Some line has a number in this field.
+    /// Whether some line has a number in this field.
     bool has(const std::string& field) const;
     /// The field against time [s], divided by `unit`; lines without it are skipped.
     Series series(const std::string& field, const std::string& name, double unit = 1.0) const;
     /// The first time at which the condition is true [s]; nothing when it never is.
     std::optional<double> first_time(const criteria::Expression& condition) const;
     std::optional<double> first_time(const std::string& condition) const;
-    /// Every line, so that the window knows its edges.
+    /// Every line, from which the window finds its edges.
     void show_to(criteria::Window& window) const;
 
     const std::vector<telemetry::Line>& lines() const { return lines_; }

@@ -1,5 +1,5 @@
-// The verdict of services/findings on a run that was read from a folder, laid out for the report, and how each phase ended
-// in words.
+// The verdict of services/findings on a run read from a folder, arranged for the report, and the end of each phase in
+// words.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace breach::report {
 
 /// Whether the soil of a runout still moved at its end, so that its distances are lower bounds.
 bool still_moves(const PhaseFolder& mpm);
-/// Of several: the largest of their distances is a lower bound then, whoever has it.
+/// For several: whether any still moved, so that the largest of their distances is a lower bound.
 bool any_moves(const std::vector<const PhaseFolder*>& runouts);
 
-/// What the distances of a runout are worth.
+/// Certainty of a runout's distances.
 Certainty certainty_of(const PhaseFolder& mpm);
 
 /// Before a distance that is a lower bound: ">= ".
@@ -30,13 +30,13 @@ std::string how_it_ended(const PhaseFolder& phase);
 /// The same of several runouts: "well", "3 of 8 questionable: still moving"; "none" of none.
 std::string how_they_ended(const std::vector<const PhaseFolder*>& runouts);
 
-/// How the mesh of a FEM ended, in a sentence; empty when it did not entangle.
+/// The entanglement of a FEM's mesh, in a sentence; empty when it did not entangle.
 std::string entanglement_of(const PhaseFolder& fem);
-/// The same of one; of several how many, from when to when: "3 of 12 meshes entangled, from 4.1 to
-/// 9.8 s."
+/// The same for one; for several their number and times: "3 of 12 meshes entangled, from 4.1 to 9.8
+/// s."
 std::string entanglements_of(const std::vector<const PhaseFolder*>& fems);
 
-/// For the head of the report: in sentences, what everybody must know first.
+/// For the head of the report: what to know first, in sentences.
 Verdict verdict_of(const Run& run);
 
 /// Every flag of every phase, one per row; no rows when there are none.

@@ -1,4 +1,4 @@
-// A panel being drawn on, and its legend. Private to the section's drawing.
+// A panel with its drawing, and its legend. Private to the section's drawing.
 #pragma once
 
 #include <sstream>
@@ -15,13 +15,13 @@ struct Key {
     std::string text;
 };
 
-/// A panel being drawn on.
+/// A panel with its drawing.
 struct Canvas {
     Panel panel;
     Labels labels;
     std::vector<Key> keys = {};
-    std::ostringstream svg = {};   ///< cut off at the panel
-    std::ostringstream over = {};  ///< marks and writing above it
+    std::ostringstream svg = {};   ///< clipped at the panel
+    std::ostringstream over = {};  ///< marks and text above it
 };
 
 }  // namespace breach::report

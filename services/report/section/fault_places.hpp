@@ -1,4 +1,4 @@
-// Where in the section a fault is: the coordinates that it tells of, or those of the entry that it
+// Location of a fault in the section: the coordinates in its text, or those of the entry that it
 // points at.
 #pragma once
 
@@ -14,8 +14,8 @@ namespace breach::report {
 using Trace = std::vector<mechanics::Vec2>;
 
 /// Coordinates in the cause come first ("a gap of 0.3 m at (12, 4)"), then those of the entry or of
-/// the nearest one around it, then the regions of a material. Empty: the fault is at no place.
-/// `document` as it was sent, with overrides; `scene` as far as it was sound.
+/// the nearest one around it, then the regions of a material. Empty: the fault has no location.
+/// `document` as it was sent, with overrides; `scene`: its valid parts.
 std::vector<Trace> places_of(const fault::Fault& fault, const nlohmann::json& document,
                              const scene::Scene& scene);
 

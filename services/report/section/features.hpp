@@ -1,5 +1,5 @@
-// What is drawn over the regions of a section, part by part of the scene. Private to the section's
-// drawing.
+// Features drawn over the regions of a section, one function per part of the scene. Private to the
+// section's drawing.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ namespace breach::report {
 
 /// Phreatic and piezometric lines of all phases, each line once; standing water; held pore pressures.
 void draw_water(Canvas& canvas, const scene::Scene& scene);
-/// What liquefies, tension crack, search ranges, given surfaces, floor, loads.
+/// Liquefiable soil, tension crack, search ranges, given surfaces, floor, loads.
 void draw_stability(Canvas& canvas, const scene::Scene& scene);
 /// Supports, free-field columns, crest.
 void draw_supports(Canvas& canvas, const scene::Scene& scene);
@@ -22,7 +22,7 @@ void draw_runout_marks(Canvas& canvas, const scene::Scene& scene);
 void draw_grid(Canvas& canvas, const scene::Scene& scene);
 
 /// "motion synthetic.csv: PGA 0.3 g, ...", with the Arias intensity of an acceleration; none: the
-/// scene has no motion that can be read.
+/// scene has no readable motion.
 std::optional<std::string> motion_line(const scene::Scene& scene);
 
 }  // namespace breach::report

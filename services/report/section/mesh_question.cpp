@@ -36,7 +36,7 @@ class Scratch {
     fs::path path_;
 };
 
-/// All that a mesh hangs on: what it is made of, and by which program.
+/// Everything that a mesh depends on: its geometry and sizes, and the program that makes it.
 std::string key_of(const Draft& draft, const fs::path& program) {
     const json completed = json::parse(draft.scene.completed);
     const auto& file = draft.scene.fem->mesh.msh_file;

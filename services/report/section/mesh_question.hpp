@@ -1,4 +1,4 @@
-// The mesh of a scene that has not run: made by fem_solver once, and kept for the next drawing.
+// The mesh of a scene before its run: made by fem_solver once, and cached for the next drawing.
 #pragma once
 
 #include <filesystem>
@@ -12,9 +12,9 @@ struct Mesher {
     std::filesystem::path cache;       ///< folder where meshes are kept; made when it is missing
 };
 
-/// Of a draft without faults whose scene has a FEM. The same section (or mesh file) and the same
-/// program: the mesh that was kept. Throws BadInput with what the mesher refuses, IoError where
-/// fem_solver, gmsh or the folder cannot be used.
+/// For a draft without faults and with a FEM. Returns the cached mesh for the same section (or mesh
+/// file) and program. Throws BadInput with the mesher's faults, IoError where fem_solver, gmsh or
+/// the folder cannot be used.
 DrawnMesh mesh_of(const Draft& draft, const Mesher& mesher);
 
 }  // namespace breach::report

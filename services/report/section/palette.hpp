@@ -1,5 +1,5 @@
-// Colours for materials. They differ in lightness, so that they stay apart in a black-and-white print
-// and for eyes without red or green cones. Knows nothing of scenes.
+// Colours for materials. They differ in lightness, so that they can be distinguished in
+// black-and-white print and with colour blindness. Independent of scenes.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace breach::report {
 
-/// A fill as "#rrggbb", and whether writing on it is to be white.
+/// A fill as "#rrggbb", and whether text on it is white.
 struct Fill {
     const char* colour;
     bool dark;
@@ -29,7 +29,7 @@ inline constexpr std::array<Fill, 12> fills{{{"#ae8543", false},
                                              {"#71ebff", false},
                                              {"#41536e", true}}};
 
-/// Of the n-th material; the thirteenth has the first one's, and hatchings_of tells them apart.
+/// Of the n-th material; the thirteenth has the first one's, and hatchings_of distinguishes them.
 inline const Fill& fill_of(std::size_t material) { return fills[material % fills.size()]; }
 /// How many sets of lines lie on the fill: none, strokes one way, strokes both ways.
 inline std::size_t hatchings_of(std::size_t material) { return material / fills.size() % 3; }

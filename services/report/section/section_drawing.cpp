@@ -424,7 +424,7 @@ Canvas runout_of(const scene::Scene& scene, double top) {
     draw_grid(canvas, scene);
     std::vector<Key> keys = std::move(canvas.keys);
     draw_runout_marks(canvas, scene);
-    canvas.keys = std::move(keys);  // toe and gauges are told beside the section
+    canvas.keys = std::move(keys);  // toe and gauges are listed beside the section
     return canvas;
 }
 

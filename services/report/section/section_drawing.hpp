@@ -1,6 +1,6 @@
-// A scene's cross-section as a picture, before anything has run: regions and materials, water,
-// supports, loads, the motion, where the LEM searches, where the MPM's grid and terrain lie, and what
-// is wrong at its place. What a run has found is drawn elsewhere (figures/).
+// A scene's cross-section as a picture, before any run: regions and materials, water, supports,
+// loads, the motion, the search of the LEM, the MPM's grid and terrain, and faults at their places.
+// Results of runs are drawn in figures/.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace breach::report {
 
-/// The scene of a document: the document itself, or what a study holds, with the study's overrides
-/// for all of its variants.
+/// The scene of a document: the document itself, or a study's scene, with the study's overrides for
+/// all of its variants.
 struct BaseScene {
     nlohmann::json scene;
     std::vector<std::string> overrides;
@@ -24,16 +24,16 @@ struct BaseScene {
 /// Throws BadInput for a study without its scene inside.
 BaseScene base_scene_of(const nlohmann::json& document);
 
-/// A scene that was read and checked, whatever is wrong with it.
+/// A scene that was read and checked, with any faults.
 struct Draft {
     BaseScene base;  ///< with the overrides applied
     scene::Scene scene;
     std::vector<fault::Fault> faults;  ///< pointers are those of the scene
 };
-/// `checked`: base.scene with base.overrides, read and checked by whoever knows its files.
+/// `checked`: base.scene with base.overrides, checked by a caller that has access to its files.
 Draft draft_of(BaseScene base, check::Checked checked);
 
-/// A FEM's mesh, as far as it is seen.
+/// A FEM's mesh for drawing.
 struct DrawnMesh {
     std::vector<mechanics::Vec2> nodes;  ///< [m]
     std::vector<std::array<std::int32_t, 4>> quads;
@@ -47,12 +47,12 @@ struct Additions {
     std::vector<fault::Flag> warnings = {};  ///< likewise
 };
 
-/// A region with a polygon, or a fault with a place.
+/// Whether there is a region with a polygon, or a fault with a place.
 bool can_be_drawn(const Draft& draft);
 
-/// One SVG without script or style sheet, white below. Each region is one path of class "region"; each
-/// fault is marked in red at its places and listed, with its pointer in the document in the
-/// attribute data-pointer. The draft can be drawn.
+/// One SVG without script or style sheet, on white. Each region is one path of class "region"; each
+/// fault is marked in red at its places and listed, with its pointer in the document in the attribute
+/// data-pointer. Needs can_be_drawn.
 std::string as_svg(const Draft& draft, const Additions& additions);
 
 }  // namespace breach::report

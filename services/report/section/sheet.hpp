@@ -1,5 +1,5 @@
-// Where metres and labels stand on a drawing: a panel of true aspect ratio, and the room that labels
-// take from each other. Private to the section's drawing; knows nothing of scenes.
+// Layout of a drawing: a panel of true aspect ratio, and space for labels without overlap. Private
+// to the section's drawing; independent of scenes.
 #pragma once
 
 #include <ostream>
@@ -35,12 +35,12 @@ class Panel {
     /// On the page [px].
     Vec2 at(const Vec2& place) const;
     Vec2 back(const Vec2& pixel) const;
-    /// The world that the panel shows [m].
+    /// The part of the world in the panel [m].
     geometry::Box world() const;
     bool shows(const Vec2& place) const {
         return room().holds({at(place).x(), at(place).y(), at(place).x(), at(place).y()});
     }
-    /// The nearest place that the panel shows well [m].
+    /// The nearest place well inside the panel [m].
     Vec2 inside(const Vec2& place) const;
 
   private:
@@ -56,22 +56,22 @@ std::string path_of(const Panel& panel, const std::vector<Vec2>& line);
 /// Metres along both sides.
 void draw_axes(std::ostream& svg, const Panel& panel);
 
-/// Labels that do not lie on each other.
+/// Labels without overlap.
 class Labels {
   public:
     explicit Labels(const Room& page) : page_(page) {}
     static constexpr double size = 12.0;    ///< font [px]
     static constexpr double height = 14.0;  ///< of a line [px]
     static double width_of(const std::string& text);
-    /// The text's room when it is centred here [px].
+    /// The text's rectangle if it is centred here [px].
     static Room around(const Vec2& centre, const std::string& text);
     bool is_free(const Room& room) const;
     void take(const Room& room) { taken_.push_back(room); }
-    /// The first free place around a point, beginning with the nearest; false: there is none, and
-    /// nothing is drawn.
+    /// Writes at the first free place around a point, beginning with the nearest; false: there is
+    /// none, and nothing is written.
     bool beside(std::ostream& svg, const Vec2& point, const std::string& text,
                 const std::string& colour);
-    /// Takes the room and writes.
+    /// Reserves the space and writes.
     void write(std::ostream& svg, const Vec2& centre, const std::string& text,
                const std::string& colour, const std::string& more = "");
 

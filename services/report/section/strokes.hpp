@@ -1,4 +1,4 @@
-// How lines and marks look that are drawn over a section. Private to the section's drawing.
+// Style of lines and marks over a section. Private to the section's drawing.
 #pragma once
 
 #include <string>
@@ -20,15 +20,15 @@ constexpr const char* dark_red = "#b3261e";
 /// Attributes of an outline [px].
 std::string stroke(const std::string& colour, double width, const std::string& more = "");
 std::string shape(const std::string& path, const std::string& look);
-/// A line on white, so that it is seen on every fill.
+/// A line with a white border, visible on every fill.
 void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
                const std::string& dashes = "");
 Key line_key(const std::string& colour, const std::string& text, const std::string& dashes = "");
 /// "(12, 4)"
 std::string place(const Vec2& at);
-/// The line over the whole panel, as it goes on beyond its ends.
+/// The line over the whole panel, extended beyond its ends.
 Line across(const Panel& panel, const Line& line, geometry::Level level);
-/// Arrows on the ground; `of` is the phase that they act in.
+/// Arrows on the ground; `of` is the phase of the loads.
 void draw_loads(Canvas& canvas, const scene::Scene& scene,
                 const std::vector<scene::Surcharge>& loads, const std::string& of);
 

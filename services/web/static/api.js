@@ -235,7 +235,7 @@ export const read_glossary = () => get_json("static/glossary.json", { cache: "de
 
 const longest_wait = 20; // [s] that the server may hold a long-poll open
 
-/// Follows the server's events for ever. tell.events(list) when something happened, tell.lost(seconds_to_retry) when
+/// Follows the server's events without end. tell.events(list) when something happened, tell.lost(seconds_to_retry) when
 /// the server does not answer, tell.found() when it answers (again).
 export async function follow_events(tell) {
     let after = 0;

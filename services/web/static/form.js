@@ -103,7 +103,7 @@ export class Form {
         return names_materials.has(name) ? this.names.materials.id : names_regions.has(name) ? this.names.regions.id : null;
     }
 
-    /// text: as it stands in the editor. Of what is not JSON the last form stays, and waits.
+    /// text: the text in the editor. If it is not JSON, the last form stays, and waits.
     show(text) {
         if (!this.schemas) return;
         let value;

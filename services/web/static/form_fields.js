@@ -173,7 +173,7 @@ export class List {
     child() { return null; }
 
     take() {
-        // Between semicolons a comma would be a decimal one, which is told instead of read as two numbers.
+        // Between semicolons a comma would be a decimal one: reported as a fault, not read as two numbers.
         const between = !this.numeric ? /\s*[,;]\s*/ : this.control.value.includes(";") ? /[\s;]+/ : /[\s,]+/;
         const pieces = this.control.value.split(between).filter(Boolean);
         const values = this.numeric ? pieces.map((piece) => read({ type: "number" }, piece)?.value) : pieces;

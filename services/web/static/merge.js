@@ -6,7 +6,7 @@ const is_object = (value) => value !== null && typeof value === "object" && !Arr
 const is_named = (list) => Array.isArray(list) && list.every((each) => typeof each?.name === "string");
 const by_name = (list) => Object.fromEntries(list.map((each) => [each.name, each]));
 
-/// base: as it was made before; mine: what became of it since; theirs: as it is made now. {value, lost: pointers of entries that could not be
+/// base: as it was made before; mine: base with later edits; theirs: as it is made now. {value, lost: pointers of entries that could not be
 /// carried over}: those whose place is gone, and lists of numbers that are made anew.
 export function carried(base, mine, theirs) {
     const lost = [];

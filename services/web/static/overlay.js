@@ -67,7 +67,7 @@ export function longest_of({ columns: { u_x, u_y } }) {
     return u_x.reduce((longest, each, i) => Math.max(longest, Math.hypot(each, u_y[i])), 0);
 }
 
-/// Displacements at nodes that are apart enough to be told from each other, the longest of all nodes `longest_vector` long.
+/// Displacements at nodes that are far enough apart to see each arrow, the longest of all nodes `longest_vector` long.
 export function draw_vectors({ context, to_screen, ratio }, snapshot, halo) {
     const { columns: { x, y, u_x, u_y }, count } = snapshot;
     const longest = longest_of(snapshot);

@@ -70,7 +70,7 @@ export class Particles {
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
         by_id("particles").hidden = sources.length === 0;
         const current = sources.find((task) => task.id === this.task);
-        // Until a person chooses or plays, the governing variant is shown; before there is one, whatever runs.
+        // Until a person chooses or plays, the governing variant is shown; before there is one, a running one.
         const chosen = (this.by_hand && current) || (sources.find((task) => task.id === governing) ?? first_with_frames(sources));
         if (!chosen) return;
         const news = is_active(chosen.state) || this.frames.length === 0 || this.was_active;
@@ -321,7 +321,7 @@ export function source_name(task) {
     return ["succeeded", "cached"].includes(task.state) ? what : `${what} (${task.state})`;
 }
 
-/// The last finished runout says most; before there is one, whatever runs.
+/// Prefers the last finished runout; before there is one, a running one.
 export function first_with_frames(tasks) {
     return tasks.findLast((task) => task.phase === "mpm_solver" && !is_active(task.state) && task.state !== "skipped") ??
            tasks.find((task) => task.phase === "mpm_solver" && task.state === "running") ??

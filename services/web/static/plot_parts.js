@@ -110,7 +110,7 @@ export function verticals(plot, lines) {
     return parts;
 }
 
-/// A horizontal at a value; one outside the picture is told of at its edge.
+/// A horizontal line at a value; if the value is outside the picture, a label at the edge.
 export function level(plot, { y, label }, index) {
     const right = plot.width - margin.right;
     const [low, high] = plot.y_range;

@@ -80,7 +80,7 @@ export function plausible_of(entry) {
     return usual ? `${shown(usual[0])} to ${shown(usual[1])}` : "";
 }
 
-/// Why a number would be refused or doubted, or "".
+/// Why a number would be refused or implausible, or "".
 export function doubt_about(entry, value) {
     const limits = of_number(entry);
     if (typeof value !== "number") return "";

@@ -92,7 +92,7 @@ export class SubmitDialog {
         this.pane.take(text);
     }
 
-    /// By whom and whatever.
+    /// Called after every change of the text.
     changed(text) {
         this.show_text(text);
         this.show_mended();
@@ -188,7 +188,7 @@ export class SubmitDialog {
             const cost = await api.cost_of(this.pane.text, this.asked.signal);
             lines.replaceChildren(...cost.lines.map((line) => element("li", {}, line)));
         } catch (fault) {
-            if (fault.name !== "AbortError") lines.replaceChildren(element("li", { class: "muted" }, "Not known before the faults are mended."));
+            if (fault.name !== "AbortError") lines.replaceChildren(element("li", { class: "muted" }, "Known once the faults are corrected."));
         }
     }
 

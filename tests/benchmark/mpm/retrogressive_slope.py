@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does a slope that fails block by block run out as far whatever the cells? A 45-degree slope of softening clay, 5 m high, on a
+"""Does a slope that fails block by block run out as far with any cells? A 45-degree slope of softening clay, 5 m high, on a
 floor that holds it (c 20 to 4 kPa over epsilon_q 0 to 10 %, phi 1 degree, E 1 MPa, nu 0.33, g 10), by the local law with
 strains scaled by the cell and by the nonlocal one (l = 0.32 m, reference length 0.2 m). A row per run.
 

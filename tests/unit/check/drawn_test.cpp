@@ -71,7 +71,7 @@ TEST(Drawn, ASupportThroughUnstructuredSoilHoldsNoNodeForCertain) {
         "/fem/supports/0", "crosses the soil");
 }
 
-TEST(Drawn, ASupportThatMeetsTheSectionInOnePointIsTold) {
+TEST(Drawn, ASupportThatMeetsTheSectionInOnePointIsWarnedAbout) {
     const Checked checked = changed("mochikoshi", {"/fem/supports/0/from=[-40,-8]"});
     EXPECT_TRUE(has_warning(checked, "hardly_held", "/fem/supports/0")) << told(checked.faults);
 }
@@ -107,7 +107,7 @@ TEST(Drawn, AFreeFieldColumnNeedsAVerticalSideWithoutSupports) {
         << told(slanted.faults);
 }
 
-TEST(Drawn, ACrestFarFromTheSectionIsTold) {
+TEST(Drawn, ACrestFarFromTheSectionIsWarnedAbout) {
     expect_only(changed("mochikoshi", {"/fem/crest=[615,30]"}), "/fem/crest",
                 "away from the section");
     const Checked near = changed("mochikoshi", {"/fem/crest=[115,34]"});
@@ -130,7 +130,7 @@ TEST(Drawn, WaterOfTheStabilityAnalysisBelowOrBesideAllSoilIsRefused) {
                 "/lem/water/line", "beside the section");
 }
 
-TEST(Drawn, WaterThatNobodyDrewBeyondALinesEndIsTold) {
+TEST(Drawn, UndrawnWaterBeyondALinesEndIsWarnedAbout) {
     const std::string to_the_face = "[[-40,29.4],[109,29.4],[124.3,21],[151.9,12.4]]";
     EXPECT_TRUE(has_warning(changed("mochikoshi", {"/lem/water/line=" + to_the_face}),
                             "undrawn_water", "/lem/water/line"));
@@ -205,7 +205,7 @@ TEST(Drawn, LayersListedFromTheBottomUpAreRefused) {
     EXPECT_TRUE(by_levels.faults.empty()) << told(by_levels.faults);
 }
 
-TEST(Drawn, WhatATransferDecidesIsToldWhereThePointsFillTheSection) {
+TEST(Drawn, DecisionsOfATransferAreReportedWherePointsFillTheSection) {
     const std::string mapping =
         R"(/transfer/mapping=[{"region":"slope","to":"tailings","saturated":"tailings"}])";
     const Checked checked =
@@ -214,7 +214,7 @@ TEST(Drawn, WhatATransferDecidesIsToldWhereThePointsFillTheSection) {
     EXPECT_TRUE(has_warning(checked, "needs_fem", "/transfer/mapping/0/saturated"));
 }
 
-TEST(Drawn, LoadsThatEndAtTheTransferAreTold) {
+TEST(Drawn, LoadsThatEndAtTheTransferAreWarnedAbout) {
     const Checked loaded =
         changed("slope", {R"(/fem/surcharge=[{"from":0,"to":4,"pressure_kPa":10}])"});
     EXPECT_TRUE(loaded.faults.empty()) << told(loaded.faults);
@@ -228,7 +228,7 @@ TEST(Drawn, LoadsThatEndAtTheTransferAreTold) {
     EXPECT_TRUE(has_warning(flooded, "load_ends", "/fem/water/line"));
 }
 
-TEST(Drawn, AnUpstreamEndThatOnlyTheFemHoldsIsTold) {
+TEST(Drawn, AnUpstreamEndThatOnlyTheFemHoldsIsWarnedAbout) {
     EXPECT_FALSE(has_warning(changed("mochikoshi", {}), "free_upstream_end", "/mpm/domain_x"));
     const Checked open =
         changed("mochikoshi", {"/mpm/domain_x=[-248, 692]", "/mpm/floor/friction/0/from=-248"});
@@ -240,14 +240,14 @@ TEST(Drawn, AnUpstreamEndThatOnlyTheFemHoldsIsTold) {
     EXPECT_FALSE(has_warning(held, "free_upstream_end", "/mpm/domain_x"));
 }
 
-TEST(Drawn, FrictionBelowTheWaterTableIsToldWherePointsFillTheSection) {
+TEST(Drawn, FrictionBelowTheWaterTableIsWarnedAboutWherePointsFillTheSection) {
     const Checked wet = changed("merriespruit", {});
     EXPECT_TRUE(has_warning(wet, "total_stress", "/materials/embankment"));
     EXPECT_FALSE(
         has_warning(changed("mochikoshi", {}), "total_stress", "/materials/embankment_saturated"));
 }
 
-TEST(Drawn, DepthsThatAreCountedFromTwoLevelsAreTold) {
+TEST(Drawn, DepthsThatAreCountedFromTwoLevelsAreWarnedAbout) {
     EXPECT_TRUE(has_warning(changed("mochikoshi", {"/fem/liquefaction/level=60"}), "depths_differ",
                             "/fem/liquefaction/level"));
     EXPECT_FALSE(

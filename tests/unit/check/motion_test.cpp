@@ -92,7 +92,7 @@ TEST_F(Motion, ColumnsHeaderAndNumbersAreRead) {
                 "/fem/motion/file", "names no known unit");
 }
 
-TEST_F(Motion, ZerosAreTold) {
+TEST_F(Motion, ZerosAreFlagged) {
     const Checked checked = with("zero.csv", header + "0,0\n0.01,0\n0.02,0\n");
     EXPECT_TRUE(checked.faults.empty()) << told(checked.faults);
     EXPECT_TRUE(has_warning(checked, "implausible", "/fem/motion/file"));
@@ -109,7 +109,7 @@ TEST_F(Motion, TimesInMillisecondsAreNamed) {
     EXPECT_NE(checked.faults[0].remedy.find("looks like milliseconds"), std::string::npos);
 }
 
-TEST_F(Motion, PeaksBeyondThePossibleAreRefusedAndBeyondTheUsualTold) {
+TEST_F(Motion, PeaksBeyondThePossibleAreRefusedAndBeyondTheUsualFlagged) {
     expect_only(with("much.csv", header + rows(0.01, 6.0)), "/fem/motion/file", "a PGA of 5.99");
     const Checked unusual = with("unusual.csv", header + rows(0.01, 1.96));
     EXPECT_TRUE(unusual.faults.empty()) << told(unusual.faults);
@@ -129,7 +129,7 @@ TEST_F(Motion, ADisplacementAndAScaledVelocityCannotBeApplied) {
                 "/fem/motion/scale_to_pga_g", "the file holds a velocity");
 }
 
-TEST_F(Motion, StagesThatEndBeforeTheShakingOrStepOverItAreTold) {
+TEST_F(Motion, StagesThatEndBeforeTheShakingOrStepOverItAreFlagged) {
     EXPECT_TRUE(has_warning(with("cut.csv", header + rows(0.01, 0.3),
                                  {"/fem/stages/2/duration=3", "/fem/snapshot_times=[]"}),
                             "motion_cut", "/fem/stages"));
@@ -138,7 +138,7 @@ TEST_F(Motion, StagesThatEndBeforeTheShakingOrStepOverItAreTold) {
                     "coarse_step", "/fem/stages/2/time_step"));
 }
 
-TEST_F(Motion, AVelocityThatIsLeftAtTheEndIsTold) {
+TEST_F(Motion, AResidualVelocityIsFlagged) {
     std::string text = header;
     for (int i = 0; i < 1200; ++i) text += std::to_string(0.01 * i) + (i < 600 ? ",0.1\n" : ",0\n");
     EXPECT_TRUE(has_warning(with("drift.csv", text), "drifting_motion", "/fem/motion/file"));

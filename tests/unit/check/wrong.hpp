@@ -1,4 +1,4 @@
-// A shipped scene with a few entries changed, and what the check says of it.
+// A shipped scene with a few changed entries, and the findings of its check.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ inline std::string told(const std::vector<fault::Fault>& faults) {
     return all;
 }
 
-/// Exactly one fault, at this place, whose words hold `cause`, and which says what to do.
+/// Exactly one fault, at this pointer, with `cause` in its text and with a remedy.
 inline void expect_only(const Checked& checked, const std::string& pointer,
                         const std::string& cause) {
     ASSERT_EQ(checked.faults.size(), 1u) << told(checked.faults);

@@ -53,7 +53,7 @@ TEST(AccuracyTable, MarksFrontNoiseAndRecommendation) {
     EXPECT_TRUE(text.ends_with("\nThe cheapest setting within 5 % is that.\n"));
 }
 
-TEST(CheckTable, TellsEachMeanAndTheVerdict) {
+TEST(CheckTable, ListsEachMeanAndTheVerdict) {
     const json answer{{"quantity", "runout"},
                       {"unit", "m"},
                       {"asked_error", 0.05},

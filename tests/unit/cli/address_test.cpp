@@ -21,7 +21,7 @@ TEST(Address, RefusesWhatIsNoHttpAddress) {
         EXPECT_FALSE(address_from(wrong)) << wrong;
 }
 
-TEST(Address, PathsAndQueriesKeepTheirShapeWhateverTheNames) {
+TEST(Address, PathsAndQueriesKeepTheirShapeForAnyNames) {
     EXPECT_EQ(path_of({"runs", "a b/../c"}), "/v1/runs/a%20b%2F..%2Fc");
     EXPECT_EQ(query_of({{"phase", "mpm_solver"}, {"fields", ""}, {"transfer_time", "1+1&x"}}),
               "?phase=mpm_solver&transfer_time=1%2B1%26x");

@@ -67,7 +67,7 @@ class RealService(unittest.TestCase):
         file.write_text(json.dumps(study))
         return file
 
-    def test_a_stored_scene_a_budget_and_what_is_told_of_them(self):
+    def test_a_stored_scene_a_budget_and_their_reports(self):
         self.study(small, [0.1])
         self.assertEqual(self.breach("scenes", "add", self.here / "column.json", "--name", "column").stdout, "scene:column@1\n")
         self.assertRegex(self.breach("scenes").stdout, r"column@1 ")

@@ -59,7 +59,7 @@ TEST_F(StudyFile, ResolvesPathsInOverridesLikeTheEntriesThatTheyReplace) {
               nlohmann::json({"/fem/motion/file=" + (folder_ / "b.csv").string(), "/x=../c"}));
 }
 
-TEST_F(StudyFile, TellsWhatVariantsOverrule) {
+TEST_F(StudyFile, ListsWhatVariantsOverrule) {
     const auto study = nlohmann::json::parse(
         R"({"variants": [{"name": "soft", "overrides": ["/materials/t/law/c_kPa=4"]},
                          {"name": "stages", "overrides": ["/fem/stages=[]", "/mpm/cfl=0.4"]}, {"name": "plain"}, 3]})");

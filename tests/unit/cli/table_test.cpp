@@ -27,7 +27,7 @@ TEST(Cell, ShowsFourDigitsAndADashForNothing) {
     EXPECT_EQ(cell(nlohmann::json::object(), "absent"), "-");
 }
 
-TEST(Cell, TellsNearTransferTimesApart) {
+TEST(Cell, DistinguishesNearTransferTimes) {
     const nlohmann::json row{{"late", 100.05}, {"later", 100.08}, {"whole", 3}};
     EXPECT_EQ(whole_cell(row, "late"), "100.05");
     EXPECT_EQ(whole_cell(row, "later"), "100.08");

@@ -108,7 +108,7 @@ TEST(Verdict, GivesTheReasonsThatNoFlagOfARowExplains) {
         "");
 }
 
-TEST(MeanTable, TellsScatterAndWhatIsMissing) {
+TEST(MeanTable, ListsScatterAndMissingRepeats) {
     json answer = json::parse(R"({"means": [
         {"transfer_time": 0.5, "variant": "", "state": "partial", "draws": 3, "draws_done": 2, "runout": 12.5,
          "runout_deviation": 0.25, "runout_beyond_toe": 12.5, "runout_beyond_toe_deviation": 0.25, "runout_largest": 14,

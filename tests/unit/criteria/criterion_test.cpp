@@ -168,7 +168,7 @@ TEST(Window, IsKnownToBeShutOnTheLineOnWhichTheLowerEdgeIsMet) {
     EXPECT_TRUE(w.shut_since());
 }
 
-TEST(Window, SaysWhichTimesAreBeforeTheUpperEdgeWhateverFollows) {
+TEST(Window, KnowsTheTimesBeforeTheUpperEdgeForAnyLaterLines) {
     const std::vector<std::array<double, 2>> lower{{5.0, 9}};
     EXPECT_TRUE(window_of(course_of(6.2, lower, {}), 1).is_open_at(6.2));
     EXPECT_FALSE(window_of(course_of(6.2, lower, {}), 1).is_open_at(6.3)) << "not read yet";

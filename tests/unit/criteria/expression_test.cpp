@@ -134,7 +134,7 @@ TEST(Expression, ComplaintsNameColumnAndCause) {
     EXPECT_EQ(complaint(""), "column 1: a number or a telemetry field was expected, not 'the end'");
 }
 
-TEST(Expression, DeepAndLongTextsAreRefusedNotSwallowed) {
+TEST(Expression, DeepAndLongTextsAreRefused) {
     EXPECT_NE(complaint(std::string(3000, '(')).find("nested too deeply"), std::string::npos);
     EXPECT_NE(complaint(std::string(3000, '-') + "1 < 2").find("nested too deeply"),
               std::string::npos);

@@ -66,7 +66,7 @@ TEST(Counts, SoilThatLiquefiesHasItsResidualStrengthFromTheStart) {
     EXPECT_EQ(duration(stays, ""), duration(stays, softens));
 }
 
-TEST(Counts, WetNorSandFlowsWhateverItsProfileKeeps) {
+TEST(Counts, WetNorSandFlowsWithAnyResidualStrength) {
     // Its profile has 30 degrees after softening; the transfer gives wet points s_u by their state.
     scene::Scene scene = shipped("static_lift");
     const double flows = runout_duration(scene);

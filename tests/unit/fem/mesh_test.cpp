@@ -143,7 +143,7 @@ TEST(Join, MeshesLayersThinBesideTheirNeighboursElements) {
     EXPECT_TRUE(faults_of_join(wide).empty());
 }
 
-TEST(Join, TellsThinLayersFromGapsAndOverlaps) {
+TEST(Join, DistinguishesThinLayersFromGapsAndOverlaps) {
     const auto kind = [](double bottom) {
         const auto faults = faults_of_join(
             {{layer("low", 0, 200, 0, 1, {4, 1}), layer("high", 0, 200, bottom, 2, {4, 1})}});
@@ -164,7 +164,7 @@ TEST(Join, TellsThinLayersFromGapsAndOverlaps) {
     EXPECT_EQ(beside[0].cause.substr(0, 3), "gap");
 }
 
-TEST(Join, LetsRegionsThatDoNotTouchBe) {
+TEST(Join, KeepsRegionsThatDoNotTouch) {
     EXPECT_TRUE(faults_of_join({{square("a", 0, 0, {3, 3}), square("b", 5, 0, {4, 2})}}).empty());
 }
 

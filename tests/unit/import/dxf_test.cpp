@@ -66,7 +66,7 @@ TEST(Dxf, UnitsAreConvertedOrAskedFor) {
     EXPECT_NE(unitless.faults[0].cause.find("does not say its unit"), std::string::npos);
 }
 
-TEST(Dxf, ArcsAreRefusedUnlessAToleranceIsTold) {
+TEST(Dxf, ArcsAreRefusedWithoutATolerance) {
     const std::string circle =
         group(0, "CIRCLE") + group(8, "CLAY") + group(10, 5.0) + group(20, 3.0) + group(40, 2.0);
     const std::string bulged = light("CLAY", {{0, 0}, {4, 0}}, true, {{0, 1.0}, {1, 1.0}});
@@ -112,7 +112,7 @@ TEST(Dxf, WhatIsNoPolylineIsRefusedAtItsPlaceAndWritingIsPassedOver) {
     EXPECT_EQ(drawing.remarks, (std::vector<std::string>{"passed over: 1 TEXT"}));
 }
 
-TEST(Dxf, LayersWithoutMeaningAreToldOnceAndFrozenOnesAreLeftOut) {
+TEST(Dxf, LayersWithoutMeaningAreReportedOnceAndFrozenOnesAreLeftOut) {
     const std::string tables = group(0, "SECTION") + group(2, "TABLES") + group(0, "LAYER") +
                                group(2, "OLD") + group(70, "1") + group(62, "7") +
                                group(0, "ENDSEC");
@@ -178,7 +178,7 @@ TEST(Csv, RegionsAreReadWithTheirUnitsAndSeparators) {
     EXPECT_EQ(decimal.outlines[0].points[0], Vec2(1.5 * 0.3048, 0.5 * 0.3048));
 }
 
-TEST(Csv, EveryBadRowIsToldByItsLine) {
+TEST(Csv, EveryBadRowIsReportedByItsLine) {
     std::vector<Fault> faults;
     const LayerMap layers({}, {"clay"}, faults);
     const Drawing drawing = read_csv(

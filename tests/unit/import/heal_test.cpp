@@ -33,7 +33,7 @@ Line jittered(Line ring, std::mt19937& random, double by) {
     return ring;
 }
 
-/// Which regions meet at a vertex, over all vertices: what a conforming mesh hangs on.
+/// Which regions meet at each vertex: a conforming mesh depends on it.
 std::multiset<std::set<std::string>> meetings(const std::vector<Soil>& soils) {
     std::map<std::pair<double, double>, std::set<std::string>> at;
     for (const Soil& each : soils)
@@ -109,7 +109,7 @@ TEST(Heal, WhatIsWiderThanTheToleranceIsAFaultAtItsPlace) {
     EXPECT_TRUE(healed(soils, 0.35).faults.empty());
 }
 
-TEST(Heal, TwiceDrawnVerticesSpikesAndSenseAreMendedAndTold) {
+TEST(Heal, TwiceDrawnVerticesSpikesAndSenseAreHealedAndReported) {
     const Healed result = healed(
         {soil("clay", {{0, 5}, {10, 5}, {10, 5}, {10, 0}, {13, 0}, {10, 0.001}, {10, 0}, {0, 0}})},
         0.05);

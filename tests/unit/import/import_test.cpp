@@ -199,7 +199,7 @@ TEST(Import, TheExamplesAreWhatTheirPageSays) {
     EXPECT_EQ(example("faulty.dxf").faults.size(), 10u);
 }
 
-TEST(Import, MillimetresTakenForMetresAreRefused) {
+TEST(Import, MillimetresReadAsMetresAreRefused) {
     const auto scaled = [](Line ring) {
         for (Vec2& each : ring) each *= 250.0;
         return ring;
@@ -233,7 +233,7 @@ TEST(Import, TheReportBeginsWithTheUnitItsSourceAndTheSizeThatCameOfIt) {
     EXPECT_EQ(imported.report.at("size"), json::parse("[1500.0, 260.0]"));
 }
 
-TEST(Import, ALineInAnotherUnitThanTheDrawingIsTold) {
+TEST(Import, ALineInAnotherUnitThanTheDrawingIsReported) {
     Request request = test::request(dxf(light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}}), 2));
     request.phreatic = {"water.csv", "x,y\n0,5\n45,0\n"};
     const auto remarks = [](const Request& asked) {
@@ -305,7 +305,7 @@ TEST(Import, AGapThatIsOpenToASideIsFoundAlsoUnderLevelGround) {
         << imported.faults[0].cause;
 }
 
-TEST(Import, OptionsThatMakeNoSenseAreToldWithWhatWould) {
+TEST(Import, InvalidOptionsAreReportedWithValidOnes) {
     Request request = test::request(dxf(section()));
     request.map = {"CLAY", "ROCK=granite", "SHELL=clay"};
     request.layers = {"TAILINGS=5"};

@@ -1,4 +1,4 @@
-// An answer or a clear refusal, whatever the scene.
+// Every scene gets an answer or a clear refusal.
 #include <gtest/gtest.h>
 
 #include <cmath>

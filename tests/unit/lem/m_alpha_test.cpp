@@ -1,4 +1,4 @@
-// The limit on m_alpha: which slices it is about, and what becomes of surfaces below it.
+// The limit on m_alpha: the slices it applies to, and the treatment of surfaces below it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -189,7 +189,7 @@ json named(json line, const std::string& region) {
     return line;
 }
 
-TEST(DrainedOnly, IsWetByWhateverTheAnalysisTakesItsWaterFrom) {
+TEST(DrainedOnly, IsWetByAnyWaterOfTheAnalysis) {
     EXPECT_EQ(flags_of_bank({{"water", high}}).size(), 1u);
     EXPECT_EQ(flags_of_bank({{"piezometric_lines", {named(high, "tailings")}}}).size(), 1u);
     EXPECT_EQ(

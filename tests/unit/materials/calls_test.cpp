@@ -1,4 +1,4 @@
-// The protocol of a call that walks: whatever a law answers, a call comes to an end.
+// The protocol of a call that walks: a call ends for any answer of the law.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -99,14 +99,14 @@ void expect_spent(const turning::Update& update) {
     EXPECT_EQ(update.evaluations, turning::Options{}.most_evaluations + 1);
 }
 
-TEST(LawCalls, APointThatTurnsForEverEndsByItsEvaluations) {
+TEST(LawCalls, APointThatTurnsWithoutEndEndsByItsEvaluations) {
     expect_spent(materials::call_alone<turning::Calls>({}, {}, 2.0, {}));
     const turning::Update walked = materials::call_alone<turning::Calls>({}, {}, 1.0, {});
     EXPECT_EQ(walked.outcome, turning::Outcome::done);
     EXPECT_NEAR(walked.state.walked, 1.0, 1e-12);
 }
 
-TEST(LawCalls, ItDoesNotHoldUpThoseBesideIt) {
+TEST(LawCalls, ItDoesNotDelayThoseBesideIt) {
     std::vector<turning::State> old(50);
     std::vector<Voigt> strain;
     for (int i = 0; i < 50; ++i) strain.push_back(Voigt(i % 3, 0.0, 0.0, 0.0));

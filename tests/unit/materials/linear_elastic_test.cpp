@@ -28,7 +28,7 @@ TEST(LinearElastic, TangentIsTheElasticStiffness) {
     EXPECT_EQ(tangent, mechanics::elastic_stiffness(rock));
 }
 
-TEST(Law, GivesItsElasticityWhateverItIs) {
+TEST(Law, GivesItsElasticityForEveryLaw) {
     EXPECT_EQ(elasticity(Law{LinearElastic{rock}}).E, 5e7);
     EXPECT_EQ(elasticity(Law{MohrCoulomb{rock, 0, 0, 0, 0, std::nullopt}}).nu, 0.25);
 }

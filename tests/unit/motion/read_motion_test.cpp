@@ -304,7 +304,7 @@ TEST(Numbers, MayHaveDecimalCommas) {
               "line 1: has 4 columns, not two");
 }
 
-TEST(Motion, IsReadInTheFormThatItHasWhateverItsName) {
+TEST(Motion, IsReadInTheFormThatItHasUnderAnyName) {
     const auto folder = std::filesystem::temp_directory_path() / "breach_renamed_motions";
     std::filesystem::create_directories(folder);
     const auto second = [&](const std::string& name, const std::string& text) {

@@ -1,4 +1,4 @@
-// Small scenes made in code, and bodies of points made from them: what the MPM's tests start from.
+// Small scenes made in code, and bodies of points made from them: fixtures of the MPM's tests.
 #pragma once
 
 #include <functional>

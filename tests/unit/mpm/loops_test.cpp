@@ -1,5 +1,5 @@
-// The loops over blocks of points: against the laws point by point, whatever the CPU, whatever the
-// number of threads.
+// The loops over blocks of points against the laws point by point, for each CPU and each number of
+// threads.
 #include <gtest/gtest.h>
 
 #include <random>

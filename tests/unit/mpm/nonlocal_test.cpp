@@ -163,7 +163,7 @@ Widths widths_of(double h, bool nonlocal) {
 /// for. A prototype, which let the ways to the nodes and back widen the band, found
 /// 10.3 (10.1 to 11.0), 10.1 (9.9 to 10.4) and 9.95 (9.92 to 9.98) m for the three sizes of cells with
 /// l = 4 m, in steps a fifth of ours; so did this (2.59 to 2.80, 2.53 to 2.65, 2.52).
-TEST(NonlocalSoftening, BandIsTwoAndAHalfLengthsWideWhateverTheCells) {
+TEST(NonlocalSoftening, BandIsTwoAndAHalfLengthsWideOnAnyCells) {
     constexpr double wanted = scene::band_in_nonlocal_lengths;
     const auto expect_within = [&](const Widths& widths, double share) {
         EXPECT_GT(widths.least, wanted * (1.0 - share));

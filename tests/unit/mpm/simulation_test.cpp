@@ -260,7 +260,7 @@ TEST(Simulation, AGridTooSmallIsABreakdownThatSaysWhere) {
     EXPECT_GT(good.time, 0.0);
 }
 
-TEST(LastGoodState, IsThatOfEveryPointWhateverTheirOrderSince) {
+TEST(LastGoodState, IsThatOfEveryPointInAnyLaterOrder) {
     Body body = filled_body(heap());
     Points& points = body.points;
     std::vector<double> x(points.size());

@@ -36,7 +36,7 @@ TEST(Zones, SofteningStrainsGrowAsTheCellsShrink) {
     EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end * 0.25, 0.25 * 0.5);
 }
 
-TEST(Zones, SofteningStrainsOfANonlocalSoilAreThoseOfItsBandWhateverTheCells) {
+TEST(Zones, SofteningStrainsOfANonlocalSoilAreThoseOfItsBandOnAnyCells) {
     scene::Scene scene = softening_soil();
     scene.mpm->softening_length = 1.25;
     scene.materials[0].nonlocal_length = 2.0;  // bands of 5 m: a quarter of the strain
@@ -50,7 +50,7 @@ TEST(Zones, SofteningStrainsOfANonlocalSoilAreThoseOfItsBandWhateverTheCells) {
 }
 
 /// A file has the scene's strains; of soil whose law is stretched a point has softened as far.
-TEST(Zones, WhatHasSoftenedStaysSoftenedAsFarWhateverTheScale) {
+TEST(Zones, SoftenedSoilStaysAsSoftenedAtAnyScale) {
     scene::Scene scene = softening_soil();
     scene.mpm->softening_length = 1.25;
     exchange::ParticleState state = fill_section(scene).state;

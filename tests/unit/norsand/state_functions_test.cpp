@@ -163,7 +163,7 @@ TEST(NorSandBeginning, LiesOnTheSurfaceAndOverconsolidationMovesTheSurfaceAlone)
     }
 }
 
-TEST(NorSandBeginning, StressesThatCannotStandAreShrunkAndSaidToBe) {
+TEST(NorSandBeginning, StressesBeyondTheLimitAreShrunkAndReported) {
     const Ready law = ready(soil("CJ1"));
     const double nu = 0.15, K0 = nu / (1.0 - nu);
     const Voigt sigma(-K0 * 200e3, -200e3, -K0 * 200e3, 0.0);

@@ -70,7 +70,7 @@ TEST(NorSandUndrained, ManySideBySideAreWhatEachAloneIs) {
     }
 }
 
-TEST(NorSandUndrained, DenseSoilIsBelievedUpToTheBoundOnly) {
+TEST(NorSandUndrained, DenseSoilHasStrengthUpToTheBoundOnly) {
     const Ready law = cj1();
     const State dense = at_rest(law, -0.05);
     const materials::UndrainedStrength bounded = undrained_strength(law, dense, 2.0 * p_0);

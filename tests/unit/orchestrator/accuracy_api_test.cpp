@@ -26,7 +26,7 @@ json accuracy_of(Service& service, const std::string& run) {
     return service.get("/v1/runs/" + run + "/accuracy").body;
 }
 
-TEST(Accuracy, TellsOrderLimitAndCostOfALadder) {
+TEST(Accuracy, ReportsOrderLimitAndCostOfALadder) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(accuracy_study({{"reference", "richardson"}}));
@@ -179,7 +179,7 @@ TEST(Accuracy, ARungThatLostADrawIsNotRecommendedAndSaysSo) {
         << answer.at("recommendation");
 }
 
-TEST(Accuracy, CellsThatSoftenWithoutALengthAreToldToBeAnotherSoil) {
+TEST(Accuracy, CellsThatSoftenWithoutALengthAreReportedAsAnotherSoil) {
     const Sandbox sandbox;
     Service service(sandbox);
     const auto words_of_cells = [&](const json& base) {
@@ -217,7 +217,7 @@ json noisy_study() {
                            {"reference", {{"value", 10.3125}, {"source", "the formula"}}}});
 }
 
-TEST(Accuracy, WhereOneRunScattersTooMuchItTellsHowManyToAverage) {
+TEST(Accuracy, WhereOneRunScattersTooMuchItReportsHowManyToAverage) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(noisy_study());
@@ -462,7 +462,7 @@ json drawn_study(const std::string& title = "") {
     return sweep;
 }
 
-TEST(Means, TellMeanAndStandardDeviationOfEveryMeasure) {
+TEST(Means, HaveMeanAndStandardDeviationOfEveryMeasure) {
     const Sandbox sandbox;
     Service service(sandbox);
     json sweep = drawn_study();
@@ -503,7 +503,7 @@ TEST(Means, TellMeanAndStandardDeviationOfEveryMeasure) {
     EXPECT_EQ(service.get("/v1/runs/" + run + "/results?table=medians").status, 400);
 }
 
-TEST(Means, AFailedDrawIsToldAndNotSilentlyLeftOut) {
+TEST(Means, AFailedRepeatIsReportedAndNotSilentlyLeftOut) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string run = service.submit(drawn_study("fails_above=0.4 moving_above=0.01"));

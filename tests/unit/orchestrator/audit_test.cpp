@@ -89,7 +89,7 @@ TEST_F(AuditOfDamage, FindsOutputsThatAreNotWhatWasStored) {
     EXPECT_EQ(parts(Look::at_sizes), Parts{"output"});
 }
 
-TEST_F(AuditOfDamage, FindsAHistoryThatTheTablesDoNotTell) {
+TEST_F(AuditOfDamage, FindsAHistoryThatContradictsTheTables) {
     Connection(data_.database(), Access::read_write)
         .script(
             "UPDATE events SET detail=json_set(detail, '$.to', 'failed') WHERE task='r1-00000' "
@@ -109,7 +109,7 @@ TEST_F(AuditOfDamage, FindsDamageToTheDatabaseItself) {
     EXPECT_NE(newer.findings.at(0).remedy.find("program that made it"), std::string::npos);
 }
 
-TEST_F(AuditOfDamage, MendsStraysAndCountsAndLosesNothing) {
+TEST_F(AuditOfDamage, RepairsStraysAndCountsAndLosesNothing) {
     fs::create_directories(data_.runs() / "nobodys" / "fem");
     exchange::publish_text(data_.runs() / "nobodys" / "fem" / "output", "kept");
     fs::create_directories(data_.run("r1") / "no_task");

@@ -127,7 +127,7 @@ TEST(Budget, CountsAttemptsThatFailedAndNothingFromTheCache) {
     EXPECT_EQ(cached.at("spent_cpu_seconds"), 0.0);
 }
 
-TEST(Budget, IsRefusedWhereItIsNoneAndToldBeforehandWhereItIsTooSmall) {
+TEST(Budget, IsRefusedWhereItIsInvalidAndReportedBeforehandWhereItIsTooSmall) {
     const Sandbox sandbox;
     Service service(sandbox);
     for (const json& wrong : {json(0), json(-1), json("much"), json(nullptr)}) {

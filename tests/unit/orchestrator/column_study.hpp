@@ -1,4 +1,4 @@
-// The column as a study's scene, and what a study becomes or is refused for.
+// The column as a study's scene, and the resulting study or its faults.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// The least run of the whole chain, for tests of what stores and serves runs.
+// The smallest run of the whole chain, for tests that store and serve runs.
 #pragma once
 
 #include "services/orchestrator/records/identity.hpp"

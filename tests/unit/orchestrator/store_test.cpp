@@ -221,7 +221,7 @@ TEST_F(StoreTest, OutputsAreThoseOfTheLastAttemptAndOfNoneThatGoesOn) {
     store.write([&](Transaction& t) { t.keep_remains("nobody-00000", {artifact("x")}, ""); });
 }
 
-TEST_F(StoreTest, AStudyThatCannotGoOnHoldsUpNoOtherAndIsLookedAtAgain) {
+TEST_F(StoreTest, AStudyThatCannotContinueDelaysNoOtherAndIsLookedAtAgain) {
     Store store(file());
     const DataFolder data(folder_ / "data");
     const Numerics numerics;
@@ -422,7 +422,7 @@ TEST_F(StoreTest, QuestionableResultMakesItsRowAndItsRunQuestionable) {
                    });
 }
 
-TEST_F(StoreTest, DoubtAboutTheFemIsDoubtAboutItsRunouts) {
+TEST_F(StoreTest, AQuestionableFemMakesItsRunoutsQuestionable) {
     Store store(file());
     const NewRun run = small_run();
     store.write([&](Transaction& t) { t.add_run(run); });
@@ -802,7 +802,7 @@ TEST_F(StoreTest, RowsAreReadByNameInAnyOrder) {
     }
 }
 
-TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {
+TEST_F(StoreTest, ViewsAreThoseOfTheProgramInAnyDatabase) {
     { const Store store(file()); }
     Connection(file(), Access::read_write)
         .script("DROP VIEW sweep_results; CREATE VIEW sweep_results AS SELECT 1 AS outdated");
@@ -820,7 +820,7 @@ TEST_F(StoreTest, ViewsAreThoseOfTheProgramWhateverTheDatabaseHad) {
     EXPECT_FALSE(columns.contains("outdated"));
 }
 
-TEST_F(StoreTest, CountsOfARunAreThoseOfItsTasksWhateverHappens) {
+TEST_F(StoreTest, CountsOfARunAreAlwaysThoseOfItsTasks) {
     Store store(file());
     const NewRun run = small_run();
     store.write([&](Transaction& t) { t.add_run(run); });

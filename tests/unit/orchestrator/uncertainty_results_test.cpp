@@ -198,7 +198,7 @@ TEST(InverseStudy, RefusesATargetOutsideOfWhatTheEndsGive) {
     EXPECT_EQ(answer.at("inverse").at("steps").size(), 2u);
 }
 
-TEST(InverseStudy, FaultsAreToldWithTheirPlace) {
+TEST(InverseStudy, FaultsAreReportedWithTheirPlace) {
     const Sandbox sandbox;
     Service service(sandbox);
     const auto refused = [&](const json& study) {

@@ -214,7 +214,7 @@ TEST(UncertaintyStudy, RefusesEntriesThatTheSceneDoesNotHave) {
     EXPECT_NE(refusal(with(factor), second).cause.find("clay"), std::string::npos);
 }
 
-TEST(UncertaintyStudy, TellsADrawThatTheSceneRefusesOnceAtItsParameter) {
+TEST(UncertaintyStudy, ReportsAValueThatTheSceneRefusesOnceAtItsParameter) {
     json study = with(on_viscosity({{"type", "normal"}, {"mean", 10}, {"sd", 10}}));
     const fault::Fault fault = refusal(study, second);
     EXPECT_NE(fault.cause.find("/materials/sand/viscosity"), std::string::npos) << fault.cause;

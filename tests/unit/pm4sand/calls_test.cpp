@@ -1,4 +1,4 @@
-// The default scheme along a strain path: what comes out does not hang on how the path is cut into
+// The default scheme along a strain path: results do not depend on how the path is cut into
 // calls, nor its reversals on the tolerance.
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ std::vector<double> course(int parts, int calls) {
     return p;
 }
 
-TEST(Pm4SandCalls, PathDoesNotHangOnHowItIsCut) {
+TEST(Pm4SandCalls, PathDoesNotDependOnHowItIsCut) {
     const std::vector<double> fine = course(64, 32);
     for (const int calls : {1, 4}) {
         const std::vector<double> usual = course(64, calls);
@@ -79,7 +79,7 @@ int reversals(double tolerance) {
     return count;
 }
 
-TEST(Pm4SandCalls, ReversalsDoNotHangOnTheTolerance) {
+TEST(Pm4SandCalls, ReversalsDoNotDependOnTheTolerance) {
     const int usual = reversals(1e-5);
     EXPECT_GT(usual, 100);
     for (const double tolerance : {1e-4, 1e-6, 1e-7}) {

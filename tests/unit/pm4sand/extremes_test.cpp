@@ -18,7 +18,7 @@ using mechanics::Voigt;
 
 const Options schemes[] = {{.scheme = Scheme::reference}, {.scheme = Scheme::adaptive}};
 
-/// What every update must keep, whatever was asked.
+/// Invariants of every update.
 void expect_sound(const Ready& law, const State& state) {
     const Voigt sigma = stress(law, state);
     ASSERT_TRUE(sigma.allFinite());
@@ -115,9 +115,9 @@ TEST(Pm4SandExtremes, PressureMayVanishAndComeBack) {
     }
 }
 
-/// Where a mesh has folded an element may tell that its soil has opened by eight times its volume: M_b
-/// of the formula is then below m, and a projection onto it used to turn alpha round for ever.
-TEST(Pm4SandExtremes, SoilThatHasOpenedToNothingGoesOn) {
+/// In a folded mesh an element may report that its soil has expanded to eight times its volume: M_b
+/// of the formula is then below m, and a projection onto it used to turn alpha without end.
+TEST(Pm4SandExtremes, SoilThatHasExpandedWithoutLimitGoesOn) {
     const Ready law = ready(soil("embankment"));
     std::mt19937 random(1033);
     std::normal_distribution<double> normal;

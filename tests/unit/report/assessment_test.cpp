@@ -201,7 +201,7 @@ TEST_F(Sampled, SaysWhichCasesItCovers) {
     EXPECT_EQ(row(other, "assessment_what", "What fails")[1], "A slope; soil liquefies in pond.");
 }
 
-TEST_F(Sampled, TellsOfManyMeshesAndAnalysesHowManyAndFromWhereToWhere) {
+TEST_F(Sampled, ListsManyMeshesAndAnalysesWithNumberAndRange) {
     const auto what = [&] { return row(document(), "assessment_what", "What fails")[1]; };
     const auto add = [&](const std::string& phase, const std::string& label, const json& result) {
         write(folder_ / "tasks" / label / "task.json", {{"phase", phase}, {"variant", label}});
@@ -291,7 +291,7 @@ TEST_F(Sampled, AGaugeThatTheFlowSeldomReachesHasNoMedianArrival) {
     EXPECT_EQ(row(d, "assessment", "Section toe (x = 0 m): volume")[1], "\u2265 30");
 }
 
-TEST_F(Sampled, TellsWhereNumbersComeFromAndWhatOneRunMayBeOff) {
+TEST_F(Sampled, ListsTheOriginOfNumbersAndTheErrorOfOneRun) {
     const Document d = document();
     EXPECT_EQ(row(d, "assessment_origin", "mpm_solver")[1], "0.9.0");
     EXPECT_EQ(row(d, "assessment_origin", "uncertainty.json")[1].size(), 64u);
@@ -339,7 +339,7 @@ TEST_F(Sampled, WithoutItsAnswerIsLeftOutAndSaid) {
     EXPECT_EQ(d.front.limits.front().substr(0, 27), "No uncertainty was computed");
 }
 
-TEST(Spread, IsToldOfEnoughSamplesAlone) {
+TEST(Spread, NeedsEnoughSamples) {
     EXPECT_EQ(statistics::samples_needed(50), 5u);
     EXPECT_EQ(statistics::samples_needed(90), 29u);
     EXPECT_EQ(statistics::samples_needed(10), 29u);

@@ -202,7 +202,7 @@ TEST_F(WetRun, DrawsWhatItsStudyAppendsOnce) {
     EXPECT_EQ(drawing({road}), once) << "the stored scene has it already";
 }
 
-TEST_F(WetRun, TellsTheEndsOfManyFemsInOneRow) {
+TEST_F(WetRun, ReportsTheEndsOfManyFemsInOneRow) {
     flag_all();
     for (const char* name : {"fem_a", "fem_b", "fem_c", "fem_d", "fem_e", "fem_f"})
         fs::copy(folder_ / "tasks/fem", folder_ / "tasks" / name, fs::copy_options::recursive);
@@ -217,7 +217,7 @@ TEST_F(WetRun, TellsTheEndsOfManyFemsInOneRow) {
     EXPECT_NE(ends[0][3].find("6 not simply well, the first"), std::string::npos) << ends[0][3];
 }
 
-TEST_F(WetRun, TellsTheLastStageOfEachAnalysisWhateverItsLayers) {
+TEST_F(WetRun, ShowsTheLastStageOfEachAnalysisForAnyLayers) {
     const auto stages = [](const std::vector<double>& factors) {
         nlohmann::json all = nlohmann::json::array();
         for (const double each : factors) all.push_back({{"factor_of_safety", each}});
@@ -339,7 +339,7 @@ TEST_F(WetRun, SaysThatThereIsNoWindowWhereTheMeshIsDistortedFirst) {
     EXPECT_EQ(marks[1].value, 12);
 }
 
-TEST_F(WetRun, TellsWhatEachVariantChanges) {
+TEST_F(WetRun, ListsWhatEachVariantChanges) {
     const Document d = document();
     const auto chapter = std::ranges::find(d.chapters, "Variants", &Chapter::title);
     ASSERT_NE(chapter, d.chapters.end());
@@ -455,7 +455,7 @@ TEST_F(WetRun, SaysAtItsHeadWhatMustBeKnownFirst) {
     EXPECT_LT(html.find("Still moving, 1 of 3 runouts"), html.find("<nav>"));
 }
 
-TEST_F(WetRun, OpensWithWhatWasAskedWhatComesOutAndWhatItIsWorth) {
+TEST_F(WetRun, OpensWithQuestionResultAndVerdict) {
     flag_all();
     const Document d = document();
     const auto row = [&](const std::string& what) {
@@ -517,7 +517,7 @@ TEST_F(WetRun, SaysWhichRunoutsAreShakenOnAndOfAnUnshakenSectionNothing) {
     EXPECT_EQ(limits().find("shak"), std::string::npos) << limits();
 }
 
-TEST_F(WetRun, ThatHasNotEndedIsNotTakenForAnother) {
+TEST_F(WetRun, ThatHasNotEndedIsNotMistakenForAnother) {
     fs::remove_all(folder_ / "tasks/mpm_13.000000_softened");
     fs::create_directories(folder_ / "tasks/mpm_13.000000_softened");
     std::ofstream(folder_ / "tasks/mpm_13.000000_softened/task.json")
@@ -706,7 +706,7 @@ TEST_F(WetRun, DrawsHowFarARunoutIsOffWhereItIsKnown) {
     EXPECT_TRUE(other->error.empty()) << "nothing tells it";
 }
 
-TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
+TEST_F(WetRun, ReportsAnEntangledMeshAsARegularEnd) {
     flag_all();
     const Document d = document();
     EXPECT_EQ(cell(d, "numbers_fem_solver", 0, "how it ended"),
@@ -719,7 +719,7 @@ TEST_F(WetRun, TellsAnEntangledMeshAsARegularEnd) {
     EXPECT_NE(chapter->text.find("it is no fault"), std::string::npos) << chapter->text;
 }
 
-TEST_F(WetRun, TellsTheSettingsOfItsOwnStudyOfAResultFromAnEarlierRun) {
+TEST_F(WetRun, ReportsTheSettingsOfItsOwnStudyForAResultFromAnEarlierRun) {
     edit_study({{"variants",
                  {{{"name", "softened"}, {"overrides", {"/mpm/cell_size=2"}}},
                   {{"name", "not_softened"}, {"overrides", nlohmann::json::array()}}}}});
@@ -764,7 +764,7 @@ TEST_F(WetRun, LooksAtTheFemBehindTheFarthestRunout) {
     EXPECT_EQ(phase_shown(read_run(folder_), "fem_solver")->label, "fem_dense") << "by content";
 }
 
-TEST_F(WetRun, TellsAVariantWithoutARunoutNoOtherVariantsFem) {
+TEST_F(WetRun, ShowsAVariantWithoutARunoutNoOtherVariantsFem) {
     const fs::path tasks = folder_ / "tasks";
     fs::copy(tasks / "fem", tasks / "fem_dense", fs::copy_options::recursive);
     fs::rename(tasks / "fem", tasks / "fem_softened");
@@ -792,7 +792,7 @@ TEST_F(WetRun, TellsAVariantWithoutARunoutNoOtherVariantsFem) {
     EXPECT_EQ(cell(d, "variants", 3, "how the runouts ended"), "none");
 }
 
-TEST_F(WetRun, TellsABadCornerFromAFailure) {
+TEST_F(WetRun, DistinguishesABadCornerFromAFailure) {
     flag_all();
     edit_result("fem", {{"entanglement", {{"time", 20.5}, {"element", 3}, {"kind", "corner"}}},
                         {"flags",
@@ -811,7 +811,7 @@ TEST_F(WetRun, TellsABadCornerFromAFailure) {
               "questionable: entangled corner");
 }
 
-TEST_F(WetRun, TellsOnlyWhatItsOwnSceneAndStudySay) {
+TEST_F(WetRun, ReportsOnlyWhatItsOwnSceneAndStudySay) {
     fs::remove_all(folder_);
     write_wet_run(folder_, "other-dam");
     fs::create_directories(folder_ / "tasks/lem");
@@ -856,7 +856,7 @@ TEST_F(WetRun, TakesTheMotionThatTheFemKept) {
     EXPECT_NEAR(a.y[1], 0.25, 1e-12) << "as applied: not scaled again";
 }
 
-TEST_F(WetRun, TellsHowMuchOfTheMotionCameBeforeTheFemEnded) {
+TEST_F(WetRun, ReportsHowMuchOfTheMotionCameBeforeTheFemEnded) {
     const auto text = [&] {
         const Document d = document();
         return std::ranges::find(d.chapters, "Motion", &Chapter::title)->text;
@@ -973,7 +973,7 @@ TEST_F(WetRun, WithALineThatIsNoTelemetryIsRefused) {
     EXPECT_THROW(document(), fault::BadInput);
 }
 
-TEST_F(WetRun, TakesNoVariantsNameForATransferTime) {
+TEST_F(WetRun, MistakesNoVariantsNameForATransferTime) {
     const fs::path tasks = folder_ / "tasks";
     const auto add = [&](const std::string& label) {
         fs::copy(tasks / "mpm_16.000000_softened", tasks / label, fs::copy_options::recursive);

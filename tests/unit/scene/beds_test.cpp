@@ -79,7 +79,7 @@ TEST(Beds, StrengthsByPlaceCountAsTheyAreThere) {
     EXPECT_EQ(scene::beds_of(parsed(document)).size(), 1U);
 }
 
-TEST(Beds, AnEdgeWithinACellIsToldWithCellsThatMendIt) {
+TEST(Beds, AnEdgeWithinACellIsReportedWithCellsThatFit) {
     json document = slope_on_ground();
     document["mpm"]["cell_size"] = 1.5;
     document["mpm"]["domain_y"] = {-2, 13};
@@ -90,7 +90,7 @@ TEST(Beds, AnEdgeWithinACellIsToldWithCellsThatMendIt) {
     EXPECT_NE(told.find("1 m or 2 m"), std::string::npos) << told;
 }
 
-TEST(Beds, OnTerrainTheFloorThatMendsIt) {
+TEST(Beds, OnTerrainTheReportNamesAFloorThatFits) {
     json document = slope_on_ground();
     document["mpm"]["cell_size"] = 1.5;
     document["mpm"]["domain_y"] = {-5, 13};
@@ -106,7 +106,7 @@ TEST(Beds, OnTerrainTheFloorThatMendsIt) {
     EXPECT_EQ(scene::rows_below_bed(parsed(document), firm), 4);
 }
 
-TEST(Beds, ATopThatSlopesIsTold) {
+TEST(Beds, ATopThatSlopesIsReported) {
     json document = slope_on_ground();
     document["section"]["regions"][0]["polygon"] =
         json::parse("[[0,-2],[90,-2],[90,-1],[34,0],[0,1],[0,-2]]");
@@ -114,7 +114,7 @@ TEST(Beds, ATopThatSlopesIsTold) {
     EXPECT_NE(shared_cells(document).find("/mpm/terrain"), std::string::npos);
 }
 
-TEST(Beds, AMaterialThatAlsoLiesHigherIsTold) {
+TEST(Beds, AMaterialThatAlsoLiesHigherIsReported) {
     json document = slope_on_ground();
     document["section"]["regions"].push_back(
         {{"name", "knoll"},

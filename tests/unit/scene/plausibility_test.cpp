@@ -103,7 +103,7 @@ TEST_P(UnitSlip, IsCaughtAndNamed) {
     EXPECT_NE(said.find(slip.says), std::string::npos) << said;
 }
 
-// Grouped by the unit that was taken for another.
+// Grouped by the unit that was mistaken for another.
 const Slip unit_slips[] = {
     {"/materials/fill/density", "19", Caught::refused, "19 looks like kN/m3: write 1937 kg/m3"},
     {"/materials/fill/density", "1.9", Caught::refused, "1.9 looks like t/m3 (g/cm3): write 1900"},
@@ -216,7 +216,7 @@ TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
     }
 }
 
-TEST(Plausibility, AFaultIsToldOfTheDoubtThatExplainsIt) {
+TEST(Plausibility, AFaultMentionsTheWarningThatExplainsIt) {
     // phi in radians below psi in degrees: the fault alone would send the reader to psi.
     const json document = with({"/materials/fill/law/phi_deg", "0.5585", Caught::refused, ""});
     try {

@@ -98,7 +98,7 @@ TEST(Bisection, FailedTransfersAreOffThePlateau) {
     EXPECT_NEAR(*found.plateau.upper.off, 1.6, 1e-9);
 }
 
-TEST(Bisection, OneTwoOrNoSnapshotsAreNoTrap) {
+TEST(Bisection, OneTwoOrNoSnapshotsAreHandled) {
     EXPECT_TRUE(advise({}, {}, 0.9, 4).run_next.empty());
     EXPECT_EQ(search(
                   grid(1), [](double) { return 1.0; }, 0.9)

@@ -100,7 +100,7 @@ TEST(Convergence, WithoutAnOrderTheFinestIsOffByTheIndexForTwoGrids) {
     EXPECT_FALSE(convergence_of(two).gci);
 }
 
-/// A course that rests on no sizes tells the same of the finest rung whatever they are.
+/// If a course uses no sizes, its error of the finest rung does not depend on them.
 TEST(Convergence, SizesDoNotMatterWhereTheCourseRestsOnNone) {
     const auto with_middle = [](double middle, const std::array<double, 3>& values) {
         return convergence_of(
@@ -129,9 +129,9 @@ TEST(Convergence, TwoRungsHaveNoOrder) {
     EXPECT_EQ(convergence_of({}).course, Course::too_few);
 }
 
-TEST(Convergence, ADifferenceBelowTheNoiseIsNotToldAsAnOrder) {
-    // Differences 3 and 1; the mean of 4 runs that scatter by 1, of 9 degrees of freedom, is told
-    // apart from 2.262 / sqrt 2 on (Student's 97.5 % by any table).
+TEST(Convergence, ADifferenceBelowTheNoiseGivesNoOrder) {
+    // Differences 3 and 1; the mean of 4 runs that scatter by 1, with 9 degrees of freedom, is
+    // distinguished from 2.262 / sqrt 2 on (Student's 97.5 % by any table).
     const auto with_noise = [](double deviation) {
         return convergence_of(std::array{rung(4, 14.0, deviation, 4), rung(2, 11.0, deviation, 4),
                                          rung(1, 10.0, deviation, 4)});
@@ -154,7 +154,7 @@ TEST(Convergence, TwoRungsWithinTheNoiseAreOffByTheirDifference) {
     EXPECT_NEAR(*convergence_of(apart).error_of_finest, 0.12, 1e-12) << "Roache's for two";
 }
 
-TEST(Convergence, RungsThatAreNearAgreeWhateverTheyAreOff) {
+TEST(Convergence, RungsThatAreNearAgreeAtAnyError) {
     // 10 + 4 h: rungs at 1.25 and 1 differ by 1 and are off by 4, which a noise of 1 hides.
     const std::array near{rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
     EXPECT_EQ(convergence_of(near).course, Course::below_noise);
@@ -168,7 +168,7 @@ TEST(Convergence, RungsThatAreNearAgreeWhateverTheyAreOff) {
     EXPECT_NEAR(*convergence_of(apart).error_of_finest, 4.0 / 14.0, 1e-12);
 }
 
-TEST(Shares, AddUpWhereToldAndAsSquaresWhereNot) {
+TEST(Shares, AddUpAboveTheNoiseAndAsSquaresWithinIt) {
     EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.02, true}, Share{0.01, true}}), 0.03);
     EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.03, false}, Share{0.04, false}}), 0.05);
     EXPECT_DOUBLE_EQ(sum_of(std::array{Share{0.03, false}, Share{0.02, true}, Share{0.04, false}}),
@@ -176,7 +176,7 @@ TEST(Shares, AddUpWhereToldAndAsSquaresWhereNot) {
     EXPECT_DOUBLE_EQ(sum_of({}), 0.0);
 }
 
-TEST(Convergence, CoarseRungsThatScatterDoNotHideWhatFineOnesTell) {
+TEST(Convergence, CoarseRungsThatScatterDoNotAffectTheFineOnes) {
     // 10 + h at 8, 4, 2, 1: the coarsest scatters by more than the finest differ
     std::vector<Rung> rungs;
     for (const double h : {8.0, 4.0, 2.0, 1.0})

@@ -127,7 +127,7 @@ TEST(Importance, WithTooFewSamplesOrNothingThatVariesThereIsNone) {
     one[0].values = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
     const std::vector<double> same(12, 3.0);
     EXPECT_FALSE(importance_of(one, same)[0].first_order);
-    one[0].is_choice = true;  // every sample another option: nothing can be told of its options
+    one[0].is_choice = true;  // every sample another option: the options' importance is unknown
     EXPECT_FALSE(importance_of(one, one[0].values)[0].first_order);
 }
 

@@ -69,7 +69,7 @@ TEST(Inverse, WaitsForWhatRunsAndRefusesWhatFailed) {
     EXPECT_EQ(advise_inverse(question, failed).refused, "no run at 2.5 gave a result");
 }
 
-TEST(Inverse, NineOfTenIntervalsCoverTheValueThatTheNoiseHides) {
+TEST(Inverse, NineOfTenIntervalsCoverTheTrueValue) {
     constexpr int seeds = 200;
     int covered = 0;
     std::size_t steps = 0;
@@ -90,7 +90,7 @@ TEST(Inverse, NineOfTenIntervalsCoverTheValueThatTheNoiseHides) {
     EXPECT_LT(steps, 8u * seeds) << "what noise hides is not halved on";
 }
 
-TEST(Inverse, WhereTheDamStandsTheResultIsNoneAndKnowsNoNoise) {
+TEST(Inverse, WithoutATransferTheResultIsZeroAndNotPartOfTheNoise) {
     const std::vector<InverseStep> steps{{.value = 0.4, .results = {300, 302}},
                                          {.value = 0.69, .results = {216, 220}},
                                          {.value = 0.695, .results = {0, 0}, .stood = 2},
@@ -111,7 +111,7 @@ double rises_from(double v) { return std::max(0.0, 100.0 * (v - 0.9)); }
 /// The same the other way round.
 double falls_to(double v) { return std::max(0.0, 100.0 * (1.6 - v)); }
 
-TEST(Inverse, OfATargetThatManyValuesGiveTellsWhereTheResultLeavesIt) {
+TEST(Inverse, OfATargetThatManyValuesGiveFindsWhereTheResultLeavesIt) {
     InverseQuestion none = question;
     none.target = 0.0;
     none.low = 0.5;
@@ -179,7 +179,7 @@ TEST(Inverse, LowerBoundsBesideTheTargetMakeItABoundAsWell) {
     EXPECT_EQ(advise_inverse(question, steps).bound, Bound::at_most) << "it rises with the value";
 }
 
-TEST(Inverse, ALowerBoundThatMissesTheTargetIsToldAsOne) {
+TEST(Inverse, ALowerBoundThatMissesTheTargetIsReportedAsOne) {
     const std::vector<InverseStep> steps{{.value = 0.4, .results = {200}, .moving = 1},
                                          {.value = 2.5, .results = {10}}};
     EXPECT_EQ(advise_inverse(question, steps).refused,

@@ -39,7 +39,7 @@ TEST(Neighbours, OneThatStandsOutIsSeenWhereItStands) {
     EXPECT_NEAR(scatter[14].value(), 0.0, 1e-9);
 }
 
-TEST(Neighbours, FewerThanFiveTellNothing) {
+TEST(Neighbours, FewerThanFiveGiveNoNoise) {
     const std::vector<CurvePoint> few{{0, 1}, {1, 2}, {2, 1}, {3, 2}};
     for (const auto& each : scatter_among_neighbours(few)) EXPECT_FALSE(each);
     EXPECT_TRUE(scatter_among_neighbours({}).empty());

@@ -27,7 +27,7 @@ TEST(Divided, ALineBesideItLeavesItWhole) {
     EXPECT_EQ(divided(square, {{-5, 10}, {15, 10}}, 0.01).size(), 1u);  // along a side
 }
 
-TEST(Divided, APolygonWithTeethComesApartInMore) {
+TEST(Divided, ANotchedPolygonIsDividedIntoMore) {
     const Polygon comb{{0, 0}, {10, 0}, {10, 8}, {8, 2}, {6, 8}, {4, 2}, {2, 8}, {0, 2}};
     const auto pieces = divided(comb, {{-1, 4}, {11, 4}}, 0.01);
     EXPECT_EQ(pieces.size(), 4u);  // three teeth and what they stand on

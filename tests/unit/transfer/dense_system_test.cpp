@@ -30,7 +30,7 @@ TEST(DenseSystem, SolvesAsALibraryDoesWithAnyNumberOfThreads) {
     }
 }
 
-TEST(DenseSystem, TellsHowFarItIsAndStopsWhenAsked) {
+TEST(DenseSystem, ReportsItsProgressAndStopsOnRequest) {
     std::vector<double> shares;
     Eigen::MatrixXd A = matrix(400);
     Eigen::MatrixXd B = A.leftCols(1);

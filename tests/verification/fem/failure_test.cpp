@@ -159,7 +159,7 @@ TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
 }
 
 /// An elastic column that begins to carry its weight at once, damped in the ratio of its mass.
-TEST(KineticEnergy, OverItsPeakFallsToNothingWhereTheMotionDies) {
+TEST(KineticEnergy, OverItsPeakFallsToZeroWithTheMotion) {
     constexpr double H = 10.0, damping = 5.0, duration = 4.0;
     bench::Block block{.height = H, .rows = 20};
     block.stages = json::array({{{"type", "dynamic"},
@@ -323,7 +323,7 @@ TEST(Refusal, SaysWhetherTheStrainLimitOrTheEvaluationsWereHit) {
     EXPECT_NE(in_words(pass.refusal()).find("evaluations were used up"), std::string::npos);
 }
 
-TEST(Refusal, OnAMovingMeshTellsALawThatRefusedFromAnElementThatTurnedInsideOut) {
+TEST(Refusal, OnAMovingMeshDistinguishesALawThatRefusedFromAnElementThatTurnedInsideOut) {
     bench::Block block{.columns = 2, .gravity = 0.0};
     block.law = {{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
     json scene = bench::scene_of(block);
@@ -369,7 +369,7 @@ std::string given_up_under(double pressure_kPa) {
     return "";
 }
 
-TEST(Refusal, IsWhatARunOnAMovingMeshTellsWhenItGivesUpUnlessAnElementTurnedInsideOut) {
+TEST(Refusal, IsTheCauseThatARunOnAMovingMeshReportsUnlessAnElementTurnedInsideOut) {
     const std::string strained = given_up_under(8e3), folded = given_up_under(2e4);
     for (const std::string& words : {strained, folded})
         EXPECT_TRUE(words.starts_with("no convergence at 0 s with the least time step 0.5 s: "));
@@ -430,7 +430,7 @@ std::string upstream_wall_of(double width, double c_kPa) {
     return "";
 }
 
-TEST(UpstreamWall, IsToldWhereTheFailingMassComesNear) {
+TEST(UpstreamWall, IsFlaggedWhereTheFailingMassComesNear) {
     EXPECT_NE(upstream_wall_of(8.0, 5.0).find("at least"), std::string::npos);
     EXPECT_EQ(upstream_wall_of(40.0, 5.0), "") << "far behind the failure";
     EXPECT_EQ(upstream_wall_of(8.0, 100.0), "") << "nothing fails";

@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, StripFooting,
 class Biaxial : public testing::TestWithParam<Specimen> {};
 
 /// A smooth block under sigma_3 all round, then pressed from above. Its stress is the same
-/// everywhere: what it carries is the strength of a point in plane strain, whatever psi.
+/// everywhere: its load is the strength of a point in plane strain, for any psi.
 TEST_P(Biaxial, CarriesMohrCoulombsLoad) {
     constexpr double sigma_3 = 50e3, c = 10e3;
     bench::Block block{.columns = 4, .rows = 4};

@@ -50,7 +50,7 @@ def slides():
     printed(ours, theirs)
     before = max(abs(ours[t] / theirs[t] - 1.0) for t in (2.0, 3.0, 4.0, 5.0))
     passed = judge("y35: crest to 5 s, relative", before, 0.15)
-    # Its hourglass is 5 % of the elastic one for ever; ours follows the soil. Both run away.
+    # Its hourglass stiffness stays at 5 % of the elastic one; ours follows the soil. Both run away.
     last = max(ours)
     speed = (ours[last] - ours[round(last - 1.0, 2)], theirs[END] - theirs[END - 1.0])
     print(f"    over the last second ours moves {speed[0]:.2f} m (to {last} s), OpenSees' {speed[1]:.2f} m (to {END} s)")

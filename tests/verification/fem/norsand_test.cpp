@@ -65,8 +65,8 @@ TEST(NorSandInTheMesh, AnElementShearedUndrainedGivesThePointsPathAndTheTablesPe
     }
 }
 
-/// A wet column of CJ1 under 100 kPa, 70 kPa against each wall; the right wall's push is let go over
-/// 20 s, and the soil has no time to drain. The top row alone, whose edge is drained, may be stronger.
+/// A wet column of CJ1 under 100 kPa, 70 kPa against each wall; the right wall is unloaded over
+/// 20 s, and the soil has no time to drain. The top row, whose edge is drained, may be stronger.
 json wet_column(const std::string& element, double psi_0) {
     constexpr int rows = 8;
     json scene = bench::scene_of({.height = rows, .rows = rows, .law = cj1(psi_0), .gravity = 0.0});
@@ -142,7 +142,7 @@ TEST(NorSandInTheMesh, AnElementCompressedUndrainedGivesThePointsPath) {
     }
 }
 
-TEST(NorSandInTheMesh, TellsThePeakWhereTheShearStressPassesIt) {
+TEST(NorSandInTheMesh, ReportsThePeakWhereTheShearStressPassesIt) {
     Element element("ssp");
     double past = 0.0, peak_at = 0.0, largest_q = 0.0;
     for (int n = 1; n <= 500; ++n) {

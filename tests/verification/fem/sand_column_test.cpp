@@ -1,6 +1,6 @@
 // 20 m of PM4Sand under water over rock (tcl/column_pm4.tcl of the OpenSees reference), shaken
-// until it liquefies: what r_u must be whatever the code, and what the time step and the law's
-// scheme change, and OpenSees' own history beside it.
+// until it liquefies: the r_u that every code must give, the effect of the time step and the law's
+// scheme, and OpenSees' own history beside it.
 #include <cctype>
 #include <cmath>
 #include <fstream>

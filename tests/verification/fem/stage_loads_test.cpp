@@ -120,7 +120,7 @@ TEST(NodeForces, EqualLoadsOnTheTopNodesSettleAColumnAsAPressure) {
     EXPECT_NEAR(u_at(unloaded.go(), {1, H}).norm(), 0.0, 1e-12);
 }
 
-TEST(NodeForces, WhatTheBaseBearsIsTheForce) {
+TEST(NodeForces, TheBasesReactionIsTheForce) {
     json scene = bench::scene_of(
         {.columns = 3,
          .rows = 3,

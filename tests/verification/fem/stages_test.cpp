@@ -1,5 +1,5 @@
 // Stages that change the body, against closed forms of an elastic column: a lift, an excavation, a
-// surcharge, a support that lets go; and what cannot be.
+// surcharge, the removal of a support; and stages that are refused.
 #include <cmath>
 
 #include "core/exchange/excess_pressure.hpp"
@@ -54,7 +54,7 @@ TEST(Stages, ALiftOnAnElasticColumnSettlesItAsTheClosedFormSays) {
     }
 }
 
-TEST(Stages, ALiftThatClosesAGapBearsOnBothSidesAndTheBase) {
+TEST(Stages, ALiftThatClosesAGapRestsOnBothSidesAndTheBase) {
     json scene = column({static_stage("gravity"), static_stage("fill", {{"activate", {"gap"}}})});
     json& regions = scene["section"]["regions"];
     const json one = regions[0];
@@ -120,7 +120,7 @@ TEST(Stages, ASurchargeCompressesTheColumnAndGoesAgain) {
                  std::abs(-u_at(unloaded.go(), {1, 6}).y() / own - 1.0), 1e-8);
 }
 
-TEST(Stages, ASupportThatLetsGoGivesItsReactionBack) {
+TEST(Stages, ARemovedSupportGivesItsReactionBack) {
     // Without gravity: a load on the top, smooth walls; then the right wall goes.
     json scene = column(
         {static_stage("load", {{"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", 50}}}}}),

@@ -64,7 +64,7 @@ TEST(Undrained, AnElasticColumnIsHeldByItsWaterAndSettlesWhenItDrains) {
     }
 }
 
-/// A model whose sides move alike: ground that goes on for ever.
+/// A model with sides that move alike: ground of unlimited extent.
 Model endless(const scene::Scene& scene) {
     Model model = bench::model_of(scene);
     const Mesh& mesh = model.mesh;

@@ -1,5 +1,5 @@
-// Wet columns and steps on them for the tests of pore water: as scenes, and as models with whatever
-// a scene cannot say.
+// Wet columns and steps on them for the tests of pore water: as scenes, and as models beyond what
+// scenes can describe.
 #pragma once
 
 #include <cmath>

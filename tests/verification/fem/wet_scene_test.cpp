@@ -222,7 +222,7 @@ TEST(Hydrostatics, OfASceneAreExact) {
     }
 }
 
-/// A section of 20 m by 10 m in elements of 2 m, whatever the line is.
+/// A section of 20 m by 10 m in elements of 2 m, for any line.
 json drawn_line(const char* element, const char* above, const json& line) {
     WetColumn column{
         .H = 10.0, .width = 20.0, .gravity = 9.81, .rows = 5, .columns = 10, .element = element};

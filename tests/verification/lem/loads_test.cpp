@@ -24,7 +24,7 @@ double factor_of(const json& text) {
 
 json fredlund_krahn() { return cases::load("fk1_case1"); }
 
-TEST(Submergence, DeepWaterIsBuoyantWeightWhateverItsDepth) {
+TEST(Submergence, DeepWaterIsBuoyantWeightAtAnyDepth) {
     const double shallow = factor_of(cases::load("submerged_75"));
     json deeper = cases::load("submerged_75");
     for (json& vertex : deeper["lem"]["water"]["line"]) vertex[1] = 400.0;

@@ -86,7 +86,7 @@ TEST(GivenPolyline, WithManyVerticesIsItsCircle) {
 }
 
 TEST(GivenPolyline, OfOnePieceIsThePlaneWedge) {
-    // sand, no cohesion: F = tan phi / tan beta of the plane, whatever the mass above it
+    // sand, no cohesion: F = tan phi / tan beta of the plane, for any mass above it
     const json text = small::scene(
         {{"sand", small::soil(20, 0, 35)}},
         json::array({small::region("sand", "sand",

@@ -294,7 +294,7 @@ json bank(const json& lem) {
         lem);
 }
 
-TEST(Bound, ThatRaisesTheFactorIsToldWithBothNumbers) {
+TEST(Bound, ThatRaisesTheFactorIsFlaggedWithBothNumbers) {
     const json ranges = {{"entry", {2, 39}}, {"exit", {45, 85}}};
     const auto with = [&](const char* key, const json& value) {
         json search = ranges;
@@ -323,7 +323,7 @@ TEST(Bound, ThatRaisesTheFactorIsToldWithBothNumbers) {
     }
 }
 
-TEST(Bound, OfLeastDepthInSandIsToldWithTheInfiniteSlopesFactor) {
+TEST(Bound, OfLeastDepthInSandIsFlaggedWithTheInfiniteSlopesFactor) {
     const json text = small::scene(
         {{"sand", small::soil(20, 0, 35)}},
         json::array({small::region("sand", "sand",
@@ -336,7 +336,7 @@ TEST(Bound, OfLeastDepthInSandIsToldWithTheInfiniteSlopesFactor) {
         << flag->message;
 }
 
-TEST(UpstreamEnd, CloserThanTheSlopesHeightIsToldOnEitherSide) {
+TEST(UpstreamEnd, CloserThanTheSlopesHeightIsFlaggedOnEitherSide) {
     json near = bank({{"search", {{"entry", {2, 39}}, {"exit", {45, 85}}}}});
     const Analysed far = analysed(near);
     EXPECT_EQ(far.flag("upstream_wall", "/section/regions"), nullptr);

@@ -185,7 +185,7 @@ TEST(CrackToALevel, HasTheFactorOfItsIntegral) {
     }
 }
 
-TEST(CrackToALevel, EndsThereWhateverTheGround) {
+TEST(CrackToALevel, EndsThereBelowAnyGround) {
     json text = small::two_layers(small::some_circle());
     text["section"]["regions"][1] =
         small::region("fill", "fill", {{0, 0}, {40, 0}, {20, 10}, {0, 12}});  // a sloping crest

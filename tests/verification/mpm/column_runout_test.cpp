@@ -1,4 +1,4 @@
-// A column of sand is let go: how far does it run? Against the published scaling and against
+// Runout of a released column of sand, against the published scaling and against
 // another code.
 #include <fstream>
 #include <sstream>

@@ -76,7 +76,7 @@ TEST(ElasticBar, KeepsItsEnergyWithLinearUsl) {
     expect_swing("linear usl", bar(scene::Kernel::linear, scene::UpdateOrder::usl, 0.1), 0.05);
 }
 
-TEST(ElasticBar, LosesEnergyAtTheBlendingRateWhateverTheStep) {
+TEST(ElasticBar, LosesEnergyAtTheBlendingRateInAnyStep) {
     // The first mode is smooth, so affine PIC hardly differs from FLIP: a rate of 1/s must cost
     // little, at any step.
     double loss[2];

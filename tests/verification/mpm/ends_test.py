@@ -55,7 +55,7 @@ def test_walls(scratch):
     walled = Run(scratch, column(domain_x=[0, 25], right="roller"))
     flag = walled.flag("reached_wall")
     assert walled.result["runout"] < 0.6 * runout and flag["severity"] == "questionable" and "x = 25 m" in flag["message"], flag
-    # The advice, as it stands in the message.
+    # The advice, copied from the message.
     wider = json.loads(flag["message"].split('"domain_x": ')[1].split("]")[0] + "]")
     again = Run(scratch, column(domain_x=wider, right="roller"))
     assert again.flag("reached_wall") is None and abs(again.result["runout"] / runout - 1) < 0.05, (wider, again.result["runout"])
@@ -79,7 +79,7 @@ def test_end_of_the_ground(scratch):
     flag = short.flag("reached_wall")
     assert flag and flag["severity"] == "questionable" and flag["pointer"] == "/section/regions", short.result["flags"]
     assert "end of the section's ground (x = 25 m), where the model drops by 3 m" in flag["message"], flag
-    # The advice, as it stands in the message.
+    # The advice, copied from the message.
     beyond = json.loads("[" + flag["message"].split("[..., ")[1].split("]]")[0] + "]]")
     floor = {"level": -5, "friction": [{"from": 0, "to": 100, "coefficient": 0.5}]}
     advised = Run(scratch, on_ground(25, floor=floor, terrain=[[0, -3], *beyond]))

@@ -169,7 +169,7 @@ TEST(Extremes, ATornOffPointOpensNoFurtherThanTheCellsAboutIt) {
     EXPECT_GT(body.points.volume[0], 0.9 * cells);
     expect_error_within("gap against the volume's own strain",
                         body.points.gap[0] / std::log(body.points.volume[0] / V) - 1.0, 0.01);
-    // Pressed together again it closes as far as it opened, then bears, and rebounds.
+    // Pressed together again it closes as far as it opened, then carries load, and rebounds.
     body.points.Lxx[0] = body.points.Lyy[0] = -1.5;
     double volume_when_closed = 0.0;
     double lowest_stress = 0.0;

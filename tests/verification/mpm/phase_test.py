@@ -39,7 +39,7 @@ def telemetry(folder):
 
 
 def series(folder):
-    """Time and name of each frame, as ParaView is told."""
+    """Time and name of each frame in ParaView's series file."""
     with open(os.path.join(folder, "frames.vtkhdf.series")) as file:
         document = json.load(file)
     assert document["file-series-version"] == "1.0", document

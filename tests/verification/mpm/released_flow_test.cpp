@@ -1,4 +1,4 @@
-// Water and aluminium bars are let go: Ritter's dam break, and the experiment of Bui et al. (2008).
+// Released water and aluminium bars: Ritter's dam break, and the experiment of Bui et al. (2008).
 #include "mpm_solver/measure/flow.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"

@@ -1,4 +1,4 @@
-// A block on a frictional floor, let go with v0: it stops after v0^2 / (2 mu g). On an inclined
+// A block on a frictional floor, released at v0: it stops after v0^2 / (2 mu g). On an inclined
 // floor (gravity turned) it accelerates by g (sin theta - mu cos theta).
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"

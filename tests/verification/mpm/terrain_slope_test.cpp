@@ -200,7 +200,7 @@ TEST(TerrainArc, BlockSlipsOffAHilltopAsARigidBody) {
     expect_rigid_turn("from 10 degrees, 1.6 s", {24.0, -24.0}, 10.0 * pi / 180.0, 1.0, 2.5);
 }
 
-// ------------------------------------------------ a heap let go, against a grid along the slope
+// ------------------------------------------- a released heap, against a grid along the slope
 
 struct Spread {
     double half;

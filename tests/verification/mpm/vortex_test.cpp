@@ -19,7 +19,7 @@ const mechanics::Vec2 centre{1.5, 1.5};
 
 /// Every point keeps its radius R and turns by the angle g(t) h(R), g = A sin(pi t), h = (1 - 4
 /// s^2)^2, s = (R - R_m) / (R_o - R_i): h and h' vanish at both edges (de Vaucorbeil et al. 2020,
-/// with a rotation that the law bears).
+/// with a rotation that the law withstands).
 /// The published solution is that of a neo-Hookean solid. Ours is rate-type: the stress turns with
 /// the spin and grows by 2 G dev D. A point's shear strain is gamma = R g h', its gradient of
 /// velocity in the frame (e_r, e_theta) that goes round with it is pure shear of rate d gamma / dt

@@ -1,4 +1,4 @@
-"""fem_solver element-test with NorSand from the outside: results, files, and what is refused or doubted."""
+"""fem_solver element-test with NorSand from the outside: results, files, refusals and flags."""
 import json
 import os
 import pathlib

@@ -148,7 +148,7 @@ TEST(CalibrationToTheLaboratory, WeighsItsTargetsAndNeedsWhatItCountsAgainst) {
     EXPECT_THROW(Calibration{problem}, std::invalid_argument);
 }
 
-/// By the slope of 0 that repeats have, whatever they count was right.
+/// By the slope of 0 between repeats, any count was right.
 TEST(CalibrationToTheLaboratory, RepeatsAtOneStressRatioCountAsItsMeanDoes) {
     const auto problem = [](std::vector<CyclicTarget> targets) {
         return CalibrationProblem{.start = soil("embankment"),

@@ -22,7 +22,7 @@ Specimen specimen(const char* name, double sigma_v, const Options& options, doub
     return {SandPoint{law, options, consolidated(law, sigma_v, K0)}};
 }
 
-TEST(Schemes, UndrainedStrengthOfTheDefaultSchemeDoesNotHangOnTheStep) {
+TEST(Schemes, UndrainedStrengthOfTheDefaultSchemeDoesNotDependOnTheStep) {
     // Limit of vanishing steps at 100 kPa: 5.827 kPa
     // (docs/reference/methods/pm4sand_integration.md, 17); allowed 0.1 %.
     for (const double sigma_v : {50.0, 100.0, 250.0}) {
@@ -89,7 +89,7 @@ TEST(Schemes, UndrainedShearFromOutsideTheBoundIsNoReversal) {
 }
 
 /// The tailings' bound lies at K0 = 0.303. A point that begins on it, or a little outside, strains no differently from its neighbours.
-TEST(Schemes, UndrainedShearDoesNotHangOnWhichSideOfTheBoundItBegins) {
+TEST(Schemes, UndrainedShearDoesNotDependOnTheSideOfTheBoundWhereItBegins) {
     const auto tau = [](double K0, double strain, double step) {
         return monotonic(specimen("tailings_cal", 100.0, {}, K0), Boundary::undrained_shear, strain,
                          {.step = step, .every = 0})

@@ -246,7 +246,7 @@ std::vector<std::string> warned(const json& text, const std::string& code) {
     return pointers;
 }
 
-TEST(TwoStrengths, OfOneSoilAreToldWithBothPlacesAndValues) {
+TEST(TwoStrengths, OfOneSoilAreFlaggedWithBothPlacesAndValues) {
     EXPECT_TRUE(warned(slope(soil(profile())), "strengths_differ").empty());
     json text = slope(soil(profile()));
     text["lem"]["liquefaction"][0]["residual_strength_kPa"] = 1.0;
@@ -283,7 +283,7 @@ TEST(TwoStrengths, AreFoundWithoutAProfileToo) {
     EXPECT_EQ(warned(text, "strengths_differ").size(), 1u);
 }
 
-TEST(Relations, OutsideTheirRangeAreToldWithIt) {
+TEST(Relations, OutsideTheirRangeAreFlaggedWithIt) {
     json text = slope(soil(profile()));
     EXPECT_TRUE(warned(text, "outside_relation").empty());
     text["materials"]["soil"]["strength"]["residual"] = {

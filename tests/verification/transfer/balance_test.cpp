@@ -65,7 +65,7 @@ TEST(Balance, TheKernelIsTheScenesAndLosingTheWaterWouldShow) {
 
 // A body in free fall: no stress, so the force is the weight, and it is what the acceleration
 // needs.
-TEST(Balance, TheInertiaOfTheFemIsTheYardstick) {
+TEST(Balance, TheInertiaOfTheFemIsTheReference) {
     auto mesh = meshes::grid({.nx = 8, .ny = 10, .width = 8.0, .height = 10.0});
     for (auto& x : mesh.position_0) x.y() += 5.0;  // above the floor
     for (auto& a : mesh.acceleration) a = {0.0, -g};

@@ -107,7 +107,7 @@ TEST(Conservation, ARectangleInTranslationHasTheTextbookAmounts) {
 }
 
 // The sums themselves must not eat the digits that the ledger promises: 360,000 equal points.
-TEST(Conservation, ManyPointsDoNotWearOutTheSums) {
+TEST(Conservation, ManyPointsDoNotDegradeTheSums) {
     auto mesh = meshes::grid({.nx = 300, .ny = 300});
     for (auto& v : mesh.velocity) v = {0.1, -0.7};
     Points points = meshes::points_on(mesh, 2);

@@ -1,4 +1,4 @@
-// Which fields come over exactly, whatever the mesh.
+// Fields that are transferred exactly on any mesh.
 #include <gtest/gtest.h>
 
 #include "tests/verification/transfer/meshes.hpp"
@@ -109,7 +109,7 @@ TEST(NodalFields, ALinearVelocityKeepsItsValueAndItsGradient) {
     }
 }
 
-TEST(GaussFields, EquivalentStrainNeverSwingsBelowZero) {
+TEST(GaussFields, EquivalentStrainIsNeverNegative) {
     auto mesh = meshes::grid({.nx = 12, .ny = 12});
     const auto places = meshes::gauss_places(mesh);
     for (std::size_t g = 0; g < places.size(); ++g)  // a shear band one element wide

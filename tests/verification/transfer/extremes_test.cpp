@@ -123,7 +123,7 @@ TEST(Extreme, AJumpOfTenThousandTimesBetweenNeighboursStaysFinite) {
     }
 }
 
-TEST(Stop, BothModesLetGoWhenAskedAndTellHowFarTheyAre) {
+TEST(Stop, BothModesStopOnRequestAndReportTheirProgress) {
     const auto mesh = meshes::grid({.nx = 30, .ny = 20});
     for (const auto mode : {Interpolation::local, Interpolation::paper}) {
         const auto scene = meshes::scene_for(mesh, meshes::elastic, meshes::settings(3, mode));

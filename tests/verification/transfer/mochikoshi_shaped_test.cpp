@@ -72,7 +72,7 @@ Transferred transferred_with(const scene::Scene& shipped, const exchange::MeshSn
     return *transfer(mesh, scene, {.threads = 2}, "snapshot");
 }
 
-TEST_F(MochikoshiShaped, PointsOutsideTheRangeAreLeftOutAndTold) {
+TEST_F(MochikoshiShaped, PointsOutsideTheRangeAreLeftOutAndReported) {
     const Transferred cut = transferred_with(*scene_, *mesh_, [](auto& t) {
         t.keep_x = {{20.0, 220.0}};
     });
