@@ -4,6 +4,7 @@
 
 #include "core/check/findings.hpp"
 #include "core/check/recordings.hpp"
+#include "core/geometry/polygon.hpp"
 #include "core/scene/reading.hpp"
 #include "core/scene/schema.hpp"
 
@@ -32,6 +33,20 @@ Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
     return findings;
 }
 
+/// A model of 10 cm has cells of millimetres: cells that fit the section are no slip of the unit.
+static void drop_warnings_of_fitting_cells(scene::Scene& scene) {
+    if (!scene.mpm || !has_soil(scene)) return;
+    double area = 0.0;
+    for (const scene::Region& region : scene.section.regions)
+        area += geometry::area(region.polygon);
+    const double cells = area / (scene.mpm->cell_size * scene.mpm->cell_size);
+    constexpr double fewest = 50.0, most = 2.5e5;
+    if (cells < fewest || cells > most) return;
+    std::erase_if(scene.warnings, [](const fault::Flag& each) {
+        return each.code == "implausible" && each.pointer == "/mpm/cell_size";
+    });
+}
+
 Checked checked_text(std::string_view text, const std::string& name,
                      const std::filesystem::path& folder,
                      const std::vector<std::string>& overrides) {
@@ -49,6 +64,7 @@ Checked checked_document(nlohmann::json document, const std::string& name,
                          const std::filesystem::path& folder,
                          const std::vector<std::string>& overrides, Recordings& recordings) {
     scene::Reading reading = scene::read_document(std::move(document), name, folder, overrides);
+    drop_warnings_of_fitting_cells(reading.scene);
     Findings findings = findings_of(reading.scene, recordings);
     Checked checked{std::move(reading.scene), std::move(reading.faults),
                     std::move(reading.completed)};

@@ -17,6 +17,35 @@ TEST(Check, RefusesSoilSofterThanItsFallAllowsAndSaysWhatWouldDo) {
     EXPECT_TRUE(changed("mochikoshi", {"/mpm/stiffness_scale=0.002"}).faults.empty());
 }
 
+/// slope.json in millimetres: its section is 6 cm long.
+TEST(Check, CellsThatFitASmallSectionAreNoSlip) {
+    auto document = nlohmann::json::parse(file_text(BREACH_ROOT "/workflows/scenes/slope.json"));
+    for (nlohmann::json& region : document["section"]["regions"])
+        for (nlohmann::json& point : region["polygon"])
+            point = {1e-3 * point[0].get<double>(), 1e-3 * point[1].get<double>()};
+    const double cell = document["mpm"]["cell_size"].get<double>();
+    const auto suspects = [&](double size) {
+        document["mpm"]["cell_size"] = size;
+        return has_warning(
+            checked_text(document.dump(), "small", BREACH_ROOT "/workflows/scenes", {}),
+            "implausible", "/mpm/cell_size");
+    };
+    EXPECT_FALSE(suspects(1e-3 * cell));
+    EXPECT_TRUE(suspects(1e-6 * cell));
+}
+
+TEST(Check, SurchargeOfTheFemBesideTheSectionIsRefusedAndPascalsAreSuspected) {
+    const auto with = [](const std::string& surcharge) {
+        return changed("slope", {"/fem/stages/0/surcharge=[" + surcharge + "]"});
+    };
+    expect_only(with(R"({"from":900,"to":950,"pressure_kPa":10})"), "/fem/stages/0/surcharge/0",
+                "lies beside the section");
+    EXPECT_TRUE(has_warning(with(R"({"from":2,"to":9,"pressure_kPa":20000})"), "implausible",
+                            "/fem/stages/0/surcharge/0/pressure_kPa"));
+    EXPECT_FALSE(has_warning(with(R"({"from":2,"to":9,"pressure_kPa":20})"), "implausible",
+                             "/fem/stages/0/surcharge/0/pressure_kPa"));
+}
+
 TEST(Check, SandWithoutAMappingCannotBecomePoints) {
     const Checked checked = changed(
         "mochikoshi", {R"(/transfer/mapping=[{"region":"foundation","to":"foundation_elastic"},)"
