@@ -12,6 +12,7 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/fault/fault.hpp"
 #include "core/motion/units.hpp"
@@ -125,45 +126,79 @@ struct PeerSize {
     double dt;
 };
 
+/// ".01SEC" is a number and the word behind it; other words stay whole.
+std::vector<std::string> parted_from_number(const std::string& word) {
+    double value = 0.0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), value).ptr;
+    const std::string unit(end, word.data() + word.size());
+    const bool parts =
+        end != word.data() && std::isalpha(static_cast<unsigned char>(unit.c_str()[0])) != 0;
+    return parts ? std::vector{word.substr(0, word.size() - unit.size()), unit} : std::vector{word};
+}
+
 /// "NPTS= 8000, DT= .0050 SEC" or "4096 0.0100 NPTS, DT", the labels and numbers in their order.
 struct SizeLine {
     std::vector<double> numbers;
     std::vector<std::string> labels;
-    std::string unit;  ///< of the time step, where it is another than seconds
+    std::vector<std::string> behind_number;  ///< the word that follows each, where one does
+    std::string behind_dt;                   ///< behind the label DT
 
     explicit SizeLine(std::string line) {
         if (line.find('.') == std::string::npos)
             for (std::size_t i = 0; i + 1 < line.size(); ++i)  // a decimal comma
                 if (line[i] == ',' && std::isdigit(static_cast<unsigned char>(line[i + 1])) != 0)
                     line[i] = '.';
-        for (std::string word : words_of(upper(line))) {
-            if (word.size() > 3 && word.ends_with("SEC") && number_from(word.substr(0, 1)))
-                word.resize(word.size() - 3);
-            if (const auto value = number_from(word)) {
-                numbers.push_back(*value);
-            } else if (word == "NPTS" || word == "DT") {
-                labels.push_back(word);
-            } else if (word.starts_with("MS") || word.starts_with("MILLI")) {
-                unit = word;
-            }
-        }
+        std::ranges::replace_if(
+            line, [](char c) { return std::string_view("()[]").find(c) != std::string_view::npos; },
+            ' ');
+        std::string* behind = nullptr;
+        for (const std::string& each : words_of(upper(line)))
+            for (const std::string& word : parted_from_number(each)) behind = take(word, behind);
     }
     bool is_one() const { return labels.size() >= 2 && labels[0] != labels[1]; }
+
+  private:
+    /// Where the word behind this one goes.
+    std::string* take(std::string word, std::string* behind) {
+        if (const auto value = number_from(word)) {
+            numbers.push_back(*value);
+            return &behind_number.emplace_back();
+        }
+        while (word.size() > 1 && word.back() == '.') word.pop_back();
+        if (word == "NPTS" || word == "DT") {
+            labels.push_back(word);
+            return word == "DT" ? &behind_dt : nullptr;
+        }
+        if (behind != nullptr) *behind = word;
+        return nullptr;
+    }
 };
+
+bool means_seconds(const std::string& unit) {
+    return unit.empty() || unit == "S" || unit == "SEC" || unit == "SECS" || unit == "SECOND" ||
+           unit == "SECONDS";
+}
 
 /// A number belongs to the label before it, or, when the line begins with numbers, to the label of
 /// the same rank.
 PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t line) {
-    const auto& [numbers, labels, unit] = size;
+    const auto& [numbers, labels, behind_number, behind_dt] = size;
     if (numbers.size() < 2 || !size.is_one())
         reject(name, line, "does not give NPTS and DT", "write e.g. NPTS= 4000, DT= .0100 SEC");
-    const double count = labels[0] == "NPTS" ? numbers[0] : numbers[1];
-    const double dt = labels[0] == "NPTS" ? numbers[1] : numbers[0];
+    const std::size_t of_dt = labels[0] == "NPTS" ? 1 : 0;
+    const double count = numbers[1 - of_dt], dt = numbers[of_dt];
     if (!(dt > 0.0) || count < 2.0 || count > 1e8 || count != std::floor(count))
         reject(name, line, "NPTS must be a whole number above 1 and DT positive",
                "correct the header");
-    if (!unit.empty())
-        reject(name, line, "gives DT in " + unit, "write it in seconds: DT= .0100 SEC");
+    for (const std::string& unit : {behind_number[of_dt], behind_dt}) {
+        if (means_seconds(unit)) continue;
+        const double seconds = unit == "HZ"                                          ? 1.0 / dt
+                               : unit.starts_with("MS") || unit.starts_with("MILLI") ? 1e-3 * dt
+                                                                                     : 0.0;
+        reject(name, line, "gives DT in " + unit,
+               "write it in seconds: DT= " +
+                   (seconds > 0.0 ? number_text(seconds) : std::string(".0100")) + " SEC");
+    }
     return {static_cast<std::size_t>(count), dt};
 }
 

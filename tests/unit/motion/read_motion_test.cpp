@@ -58,6 +58,27 @@ TEST(Peer, NamesTheLineOfAFault) {
     EXPECT_EQ(fault_of(read_peer, "a\n"), "line 1: the header has no line that gives NPTS and DT");
 }
 
+TEST(Peer, GivesItsTimeStepInSecondsOnly) {
+    for (const std::string size :
+         {"NPTS= 2, DT= .01", "NPTS= 2, DT= .01 SEC", "NPTS=2,DT=.01SEC", "NPTS=2,DT=.01S",
+          "NPTS= 2 POINTS, DT= 0.01 Sec.", "NPTS= 2, DT= .01 SEC, FILTER 5 HZ",
+          "2 .01 NPTS, DT (SEC)", "2 .01 SEC NPTS, DT", "DT= 1E-2 SECONDS, NPTS= 2",
+          "DT (s)= .01, NPTS= 2"}) {
+        std::istringstream in(header + size + "\n0.1 0.2\n");
+        EXPECT_DOUBLE_EQ(read_peer(in, "file").series.dt, 0.01) << size;
+    }
+    const std::pair<const char*, const char*> others[] = {{"NPTS= 2, DT= 100 HZ", "HZ"},
+                                                          {"NPTS= 2, DT= 100Hz", "HZ"},
+                                                          {"NPTS= 2, DT= 0.01 MIN", "MIN"},
+                                                          {"NPTS= 2, DT= 10 MSEC", "MSEC"},
+                                                          {"2 10 MS NPTS, DT", "MS"},
+                                                          {"2 100 NPTS, DT (HZ)", "HZ"},
+                                                          {"DT= 10MILLISEC NPTS= 2", "MILLISEC"}};
+    for (const auto& [size, unit] : others)
+        EXPECT_EQ(fault_of(read_peer, header + size + "\n0.1 0.2\n"),
+                  std::string("line 4: gives DT in ") + unit);
+}
+
 TEST(TwoColumns, AreTimeAndAccelerationInG) {
     std::istringstream in("# made up\n0.00\t0.1\n0.01\t-0.2\n\n0.02 0.3\n");
     const Recording r = read_two_columns(in, "file");
