@@ -31,6 +31,13 @@ struct Remarks {
 /// point at `pointer`; what is refused is not flagged as well.
 Remarks remarks_about(const Recording& motion, const std::string& pointer);
 
+/// One value throughout is no record, whatever its unit; zeros are a motion.
+std::optional<fault::Fault> fault_of_constant(const Recording& motion, const std::string& pointer);
+
+/// All of this for those who read a motion without refusing it: what is refused becomes a
+/// questionable flag "impossible". Nothing of a displacement.
+std::vector<fault::Flag> warnings_about(const Recording& motion, const std::string& pointer);
+
 /// "coarse_step": steps of an analysis that pass over samples of the motion.
 std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
                                               const std::string& pointer);
