@@ -99,7 +99,13 @@ double needed_number(const std::string& word, const std::string& name, std::size
     return *value;
 }
 
-/// Lines with their numbers, without the mark of UTF-8.
+/// A table that puts its entries in quotes; other lines stay as they are.
+void without_quotes(std::string& line) {
+    const std::string whole = trimmed(line);
+    if (whole.size() > 1 && whole.front() == '"') std::erase(line, '"');
+}
+
+/// Lines with their numbers, without the mark of UTF-8 and the quotes around a table's entries.
 struct Lines {
     std::istream& in;
     const std::string& name;
@@ -111,6 +117,7 @@ struct Lines {
             reject(name, number, "holds zero bytes: the file is UTF-16 text, or no text",
                    "save it as UTF-8");
         if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+        without_quotes(line);
         line = trimmed(line);
         return true;
     }
@@ -321,9 +328,25 @@ std::optional<Unit> unit_of_columns(const std::string& header) {
     return unit_of_column(header.substr(parted + 1));
 }
 
-constexpr const char* comment_remedy =
-    "write e.g. # acceleration in m/s2, or take the comment out where the values are in g; units "
-    "are ";
+/// What to write for a unit that is not read.
+std::string meant_unit(const std::string& header, const char* otherwise = "G") {
+    const std::string text = ' ' + upper(header) + ' ';
+    const auto has = [&](std::string_view part) { return text.find(part) != std::string::npos; };
+    if (has("% G") || has("%G") || has("PERCENT") || has("HUNDREDTH")) return "0.01*G";
+    if (has(" MG ") || has("(MG)") || has("[MG]") || has("_MG ") || has("MILLI") ||
+        has("THOUSANDTH"))
+        return "0.001*G";
+    if (has("TENTH")) return "0.1*G";
+    return otherwise;
+}
+
+std::string csv_remedy(const std::string& header) {
+    const std::string meant = meant_unit(header, "");
+    return "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, velocity_m_s, "
+           "velocity_cm_s)" +
+           (meant.empty() ? ""
+                          : "; the values times " + meant.substr(0, meant.find('*')) + " are in g");
+}
 
 /// Of a comment or a header above two columns. Two of them must not name different units.
 void take_unit(std::optional<Unit>& unit, const std::string& text, const std::string& name,
@@ -332,7 +355,9 @@ void take_unit(std::optional<Unit>& unit, const std::string& text, const std::st
     const Named named = columns ? Named{columns, ""} : unit_in_comment(text);
     if (!named.unknown.empty())
         reject(name, line, "names no unit that is known: " + in_quotes(trimmed(text)),
-               comment_remedy + std::string(known_units));
+               "write e.g. # acceleration in " + meant_unit(text, "m/s2") +
+                   ", or take the comment out where the values are in g; units are " +
+                   std::string(known_units));
     if (!named.unit) return;
     if (unit && !(*unit == *named.unit))
         reject(name, line, "names another unit than a line before it: " + in_quotes(trimmed(text)),
@@ -353,8 +378,34 @@ void take_unit_of_header(std::optional<Unit>& unit, const std::string& text,
     take_unit(unit, text, name, line);
     if (!unit)
         reject(name, line, "is a header that names no known unit: " + in_quotes(text),
-               "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, "
-               "velocity_m_s, velocity_cm_s)");
+               csv_remedy(text));
+}
+
+/// Publishers' forms that are not read, each by the words of one of its first lines.
+void reject_other_forms(const std::string& line, const std::string& name, std::size_t number) {
+    struct Other {
+        std::string_view mark, also, form, convert;
+    };
+    constexpr Other others[] = {
+        {"SAMPLING FREQ(HZ)", "", "K-NET and KiK-net",
+         "multiply the counts by its Scale Factor (in gal) and take off their mean"},
+        {"SCALE FACTOR", "(GAL)/", "K-NET and KiK-net",
+         "multiply the counts by its Scale Factor (in gal) and take off their mean"},
+        {"(FORMAT V", "TEXT LINES", "COSMOS", "take the acceleration, in the unit its block names"},
+        {"INTEGER-HEADER VALUES FOLLOW", "", "COSMOS",
+         "take the acceleration, in the unit its block names"},
+        {"SAMPLING_INTERVAL_S:", "", "ESM (DYNA)",
+         "count the time in steps of SAMPLING_INTERVAL_S, and take the values in the unit of "
+         "UNITS"},
+    };
+    const std::string text = upper(line);
+    for (const Other& each : others)
+        if (text.find(each.mark) != std::string::npos && text.find(each.also) != std::string::npos)
+            reject(name, number,
+                   "is of a file in the form of " + std::string(each.form) + ", which is not read",
+                   "convert it to a CSV file with the header time_s,acceleration_cm_s2 (or "
+                   "acceleration_g): " +
+                       std::string(each.convert));
 }
 
 enum class Form { peer, csv, two_columns };
@@ -366,6 +417,7 @@ Form form_of(std::istream& in, const std::string& name, const std::string& endin
     bool is_csv = false;
     while (lines.number < most_header_lines && lines.next(line)) {
         if (line.starts_with('#')) continue;
+        reject_other_forms(line, name, lines.number);
         if (SizeLine(line).is_one()) return Form::peer;
         is_csv = is_csv || unit_of_columns(line);
     }
@@ -392,9 +444,9 @@ Recording read_peer(std::istream& in, const std::string& name) {
     }
     const auto unit = unit_in_header(before);
     if (!unit)
-        reject(
-            name, lines.number - 1, "names no known unit: " + in_quotes(before),
-            "write ACCELERATION TIME SERIES IN UNITS OF G; units are " + std::string(known_units));
+        reject(name, lines.number - 1, "names no known unit: " + in_quotes(before),
+               "write ACCELERATION TIME SERIES IN UNITS OF " + meant_unit(before) + "; units are " +
+                   std::string(known_units));
     const auto [count, dt] = peer_size(*size, name, lines.number);
     recording.quantity = unit->quantity;
     recording.series.dt = dt;
@@ -442,9 +494,7 @@ Recording read_csv(std::istream& in, const std::string& name) {
         }
         unit = unit_of_columns(line);
         if (!unit)
-            reject(name, lines.number, "is no known header: " + in_quotes(line),
-                   "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, "
-                   "velocity_m_s, velocity_cm_s)");
+            reject(name, lines.number, "is no known header: " + in_quotes(line), csv_remedy(line));
     }
     if (!unit) reject(name, lines.number, "holds no header", "write time_s,acceleration_g first");
     return {unit->quantity, series_from(samples, unit->factor, name, lines.number), name};
