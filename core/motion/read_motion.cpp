@@ -186,6 +186,15 @@ bool means_seconds(const std::string& unit) {
            unit == "SECONDS";
 }
 
+/// What to write instead.
+std::string in_seconds(double dt, const std::string& unit) {
+    double seconds = 0.0;
+    if (unit == "HZ") seconds = 1.0 / dt;
+    if (unit.starts_with("MS") || unit.starts_with("MILLI")) seconds = 1e-3 * dt;
+    if (unit == "MIN" || unit.starts_with("MINUTE")) seconds = 60.0 * dt;
+    return seconds > 0.0 ? "DT= " + number_text(seconds) + " SEC" : "e.g. DT= .0100 SEC";
+}
+
 /// A number belongs to the label before it, or, when the line begins with numbers, to the label of
 /// the same rank.
 PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t line) {
@@ -199,12 +208,7 @@ PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t li
                "correct the header");
     for (const std::string& unit : {behind_number[of_dt], behind_dt}) {
         if (means_seconds(unit)) continue;
-        const double seconds = unit == "HZ"                                          ? 1.0 / dt
-                               : unit.starts_with("MS") || unit.starts_with("MILLI") ? 1e-3 * dt
-                                                                                     : 0.0;
-        reject(name, line, "gives DT in " + unit,
-               "write it in seconds: DT= " +
-                   (seconds > 0.0 ? number_text(seconds) : std::string(".0100")) + " SEC");
+        reject(name, line, "gives DT in " + unit, "write it in seconds: " + in_seconds(dt, unit));
     }
     return {static_cast<std::size_t>(count), dt};
 }
