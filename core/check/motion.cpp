@@ -56,17 +56,6 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& fi
                "give the acceleration, or take it as recorded");
 }
 
-/// A constant series is no record in any unit. Zeros are a motion: core/motion warns of it.
-bool moves(const motion::Series& series, Findings& findings) {
-    const auto [low, high] = std::ranges::minmax(series.values);
-    if (low != high || low == 0.0) return true;
-    refuse(findings, file_pointer,
-           "holds one constant value, " + text(low) + ", in " +
-               std::to_string(series.values.size()) + " samples",
-           "give a motion that moves: is the second column the right one?");
-    return false;
-}
-
 double dynamic_duration(const scene::Fem& fem) {
     double sum = 0.0;
     for (const scene::Stage& stage : fem.stages) sum += stage.duration;
@@ -131,8 +120,11 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
     const auto recording = recording_of(*fem.motion, recordings, findings);
     if (!recording) return;
     check_kind(*fem.motion, recording->quantity, findings);
-    if (recording->quantity == Quantity::displacement || !moves(recording->series, findings))
+    if (recording->quantity == Quantity::displacement) return;
+    if (auto constant = motion::fault_of_constant(*recording, file_pointer)) {
+        findings.faults.push_back(std::move(*constant));
         return;
+    }
     const Recording shaking = applied(*fem.motion, *recording);
     motion::Remarks remarks = motion::remarks_about(shaking, file_pointer);
     for (fault::Fault& each : remarks.faults) findings.faults.push_back(std::move(each));

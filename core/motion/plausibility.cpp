@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 namespace breach::motion {
 
@@ -159,6 +161,30 @@ Remarks remarks_about(const Recording& motion, const std::string& pointer) {
                                          ": \"baseline\": \"corrected\" takes both off");
     }
     return std::move(find.remarks);
+}
+
+std::optional<fault::Fault> fault_of_constant(const Recording& motion, const std::string& pointer) {
+    const auto [low, high] = std::ranges::minmax(motion.series.values);
+    if (low != high || low == 0.0) return std::nullopt;
+    return fault::Fault{pointer,
+                        "holds one constant value, " + text(low) + ", in " +
+                            std::to_string(motion.series.values.size()) + " samples",
+                        "give a motion that moves: is the second column the right one?"};
+}
+
+std::vector<fault::Flag> warnings_about(const Recording& motion, const std::string& pointer) {
+    if (motion.quantity == Quantity::displacement) return {};
+    Remarks remarks;
+    if (auto constant = fault_of_constant(motion, pointer))
+        remarks.faults.push_back(std::move(*constant));
+    else
+        remarks = remarks_about(motion, pointer);
+    std::vector<fault::Flag> all;
+    for (const fault::Fault& each : remarks.faults)
+        all.push_back({"impossible", fault::Severity::questionable,
+                       "the motion " + each.cause + ": " + each.remedy, each.pointer});
+    std::ranges::move(remarks.flags, std::back_inserter(all));
+    return all;
 }
 
 std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,

@@ -31,6 +31,13 @@ struct Remarks {
 /// point at `pointer`; a refused motion is not flagged as well.
 Remarks remarks_about(const Recording& motion, const std::string& pointer);
 
+/// A constant series is no record in any unit; zeros are a motion.
+std::optional<fault::Fault> fault_of_constant(const Recording& motion, const std::string& pointer);
+
+/// All of this for those who read a motion without refusing it: a fault becomes a questionable flag
+/// "impossible". None for a displacement.
+std::vector<fault::Flag> warnings_about(const Recording& motion, const std::string& pointer);
+
 /// "coarse_step": steps of an analysis that skip samples of the motion.
 std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
                                               const std::string& pointer);

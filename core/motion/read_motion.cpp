@@ -12,6 +12,7 @@
 #include <ostream>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 #include "core/fault/fault.hpp"
 #include "core/motion/units.hpp"
@@ -98,7 +99,13 @@ double needed_number(const std::string& word, const std::string& name, std::size
     return *value;
 }
 
-/// Lines with their numbers, without the mark of UTF-8.
+/// A table that puts its entries in quotes; other lines stay as they are.
+void without_quotes(std::string& line) {
+    const std::string whole = trimmed(line);
+    if (whole.size() > 1 && whole.front() == '"') std::erase(line, '"');
+}
+
+/// Lines with their numbers, without the mark of UTF-8 and the quotes around a table's entries.
 struct Lines {
     std::istream& in;
     const std::string& name;
@@ -110,6 +117,7 @@ struct Lines {
             reject(name, number, "holds zero bytes: the file is UTF-16 text, or no text",
                    "save it as UTF-8");
         if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+        without_quotes(line);
         line = trimmed(line);
         return true;
     }
@@ -125,45 +133,83 @@ struct PeerSize {
     double dt;
 };
 
+/// ".01SEC" is a number and the word behind it; other words stay whole.
+std::vector<std::string> parted_from_number(const std::string& word) {
+    double value = 0.0;
+    const auto end = std::from_chars(word.data(), word.data() + word.size(), value).ptr;
+    const std::string unit(end, word.data() + word.size());
+    const bool parts =
+        end != word.data() && std::isalpha(static_cast<unsigned char>(unit.c_str()[0])) != 0;
+    return parts ? std::vector{word.substr(0, word.size() - unit.size()), unit} : std::vector{word};
+}
+
 /// "NPTS= 8000, DT= .0050 SEC" or "4096 0.0100 NPTS, DT", the labels and numbers in their order.
 struct SizeLine {
     std::vector<double> numbers;
     std::vector<std::string> labels;
-    std::string unit;  ///< of the time step, where it is another than seconds
+    std::vector<std::string> behind_number;  ///< the word that follows each, where one does
+    std::string behind_dt;                   ///< behind the label DT
 
     explicit SizeLine(std::string line) {
         if (line.find('.') == std::string::npos)
             for (std::size_t i = 0; i + 1 < line.size(); ++i)  // a decimal comma
                 if (line[i] == ',' && std::isdigit(static_cast<unsigned char>(line[i + 1])) != 0)
                     line[i] = '.';
-        for (std::string word : words_of(upper(line))) {
-            if (word.size() > 3 && word.ends_with("SEC") && number_from(word.substr(0, 1)))
-                word.resize(word.size() - 3);
-            if (const auto value = number_from(word)) {
-                numbers.push_back(*value);
-            } else if (word == "NPTS" || word == "DT") {
-                labels.push_back(word);
-            } else if (word.starts_with("MS") || word.starts_with("MILLI")) {
-                unit = word;
-            }
-        }
+        std::ranges::replace_if(
+            line, [](char c) { return std::string_view("()[]").find(c) != std::string_view::npos; },
+            ' ');
+        std::string* behind = nullptr;
+        for (const std::string& each : words_of(upper(line)))
+            for (const std::string& word : parted_from_number(each)) behind = take(word, behind);
     }
     bool is_one() const { return labels.size() >= 2 && labels[0] != labels[1]; }
+
+  private:
+    /// Where the word behind this one goes.
+    std::string* take(std::string word, std::string* behind) {
+        if (const auto value = number_from(word)) {
+            numbers.push_back(*value);
+            return &behind_number.emplace_back();
+        }
+        while (word.size() > 1 && word.back() == '.') word.pop_back();
+        if (word == "NPTS" || word == "DT") {
+            labels.push_back(word);
+            return word == "DT" ? &behind_dt : nullptr;
+        }
+        if (behind != nullptr) *behind = word;
+        return nullptr;
+    }
 };
+
+bool means_seconds(const std::string& unit) {
+    return unit.empty() || unit == "S" || unit == "SEC" || unit == "SECS" || unit == "SECOND" ||
+           unit == "SECONDS";
+}
+
+/// What to write instead.
+std::string in_seconds(double dt, const std::string& unit) {
+    double seconds = 0.0;
+    if (unit == "HZ") seconds = 1.0 / dt;
+    if (unit.starts_with("MS") || unit.starts_with("MILLI")) seconds = 1e-3 * dt;
+    if (unit == "MIN" || unit.starts_with("MINUTE")) seconds = 60.0 * dt;
+    return seconds > 0.0 ? "DT= " + number_text(seconds) + " SEC" : "e.g. DT= .0100 SEC";
+}
 
 /// A number belongs to the label before it, or, when the line begins with numbers, to the label of
 /// the same rank.
 PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t line) {
-    const auto& [numbers, labels, unit] = size;
+    const auto& [numbers, labels, behind_number, behind_dt] = size;
     if (numbers.size() < 2 || !size.is_one())
         reject(name, line, "does not give NPTS and DT", "write e.g. NPTS= 4000, DT= .0100 SEC");
-    const double count = labels[0] == "NPTS" ? numbers[0] : numbers[1];
-    const double dt = labels[0] == "NPTS" ? numbers[1] : numbers[0];
+    const std::size_t of_dt = labels[0] == "NPTS" ? 1 : 0;
+    const double count = numbers[1 - of_dt], dt = numbers[of_dt];
     if (!(dt > 0.0) || count < 2.0 || count > 1e8 || count != std::floor(count))
         reject(name, line, "NPTS must be a whole number above 1 and DT positive",
                "correct the header");
-    if (!unit.empty())
-        reject(name, line, "gives DT in " + unit, "write it in seconds: DT= .0100 SEC");
+    for (const std::string& unit : {behind_number[of_dt], behind_dt}) {
+        if (means_seconds(unit)) continue;
+        reject(name, line, "gives DT in " + unit, "write it in seconds: " + in_seconds(dt, unit));
+    }
     return {static_cast<std::size_t>(count), dt};
 }
 
@@ -286,9 +332,25 @@ std::optional<Unit> unit_of_columns(const std::string& header) {
     return unit_of_column(header.substr(parted + 1));
 }
 
-constexpr const char* comment_remedy =
-    "write e.g. # acceleration in m/s2, or take the comment out where the values are in g; units "
-    "are ";
+/// What to write for a unit that is not read.
+std::string meant_unit(const std::string& header, const char* otherwise = "G") {
+    const std::string text = ' ' + upper(header) + ' ';
+    const auto has = [&](std::string_view part) { return text.find(part) != std::string::npos; };
+    if (has("% G") || has("%G") || has("PERCENT") || has("HUNDREDTH")) return "0.01*G";
+    if (has(" MG ") || has("(MG)") || has("[MG]") || has("_MG ") || has("MILLI") ||
+        has("THOUSANDTH"))
+        return "0.001*G";
+    if (has("TENTH")) return "0.1*G";
+    return otherwise;
+}
+
+std::string csv_remedy(const std::string& header) {
+    const std::string meant = meant_unit(header, "");
+    return "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, velocity_m_s, "
+           "velocity_cm_s)" +
+           (meant.empty() ? ""
+                          : "; the values times " + meant.substr(0, meant.find('*')) + " are in g");
+}
 
 /// Of a comment or a header above two columns. Two of them must not name different units.
 void take_unit(std::optional<Unit>& unit, const std::string& text, const std::string& name,
@@ -297,7 +359,9 @@ void take_unit(std::optional<Unit>& unit, const std::string& text, const std::st
     const Named named = columns ? Named{columns, ""} : unit_in_comment(text);
     if (!named.unknown.empty())
         reject(name, line, "names no unit that is known: " + in_quotes(trimmed(text)),
-               comment_remedy + std::string(known_units));
+               "write e.g. # acceleration in " + meant_unit(text, "m/s2") +
+                   ", or take the comment out where the values are in g; units are " +
+                   std::string(known_units));
     if (!named.unit) return;
     if (unit && !(*unit == *named.unit))
         reject(name, line, "names another unit than a line before it: " + in_quotes(trimmed(text)),
@@ -318,8 +382,34 @@ void take_unit_of_header(std::optional<Unit>& unit, const std::string& text,
     take_unit(unit, text, name, line);
     if (!unit)
         reject(name, line, "is a header that names no known unit: " + in_quotes(text),
-               "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, "
-               "velocity_m_s, velocity_cm_s)");
+               csv_remedy(text));
+}
+
+/// Publishers' forms that are not read, each by the words of one of its first lines.
+void reject_other_forms(const std::string& line, const std::string& name, std::size_t number) {
+    struct Other {
+        std::string_view mark, also, form, convert;
+    };
+    constexpr Other others[] = {
+        {"SAMPLING FREQ(HZ)", "", "K-NET and KiK-net",
+         "multiply the counts by its Scale Factor (in gal) and take off their mean"},
+        {"SCALE FACTOR", "(GAL)/", "K-NET and KiK-net",
+         "multiply the counts by its Scale Factor (in gal) and take off their mean"},
+        {"(FORMAT V", "TEXT LINES", "COSMOS", "take the acceleration, in the unit its block names"},
+        {"INTEGER-HEADER VALUES FOLLOW", "", "COSMOS",
+         "take the acceleration, in the unit its block names"},
+        {"SAMPLING_INTERVAL_S:", "", "ESM (DYNA)",
+         "count the time in steps of SAMPLING_INTERVAL_S, and take the values in the unit of "
+         "UNITS"},
+    };
+    const std::string text = upper(line);
+    for (const Other& each : others)
+        if (text.find(each.mark) != std::string::npos && text.find(each.also) != std::string::npos)
+            reject(name, number,
+                   "is of a file in the form of " + std::string(each.form) + ", which is not read",
+                   "convert it to a CSV file with the header time_s,acceleration_cm_s2 (or "
+                   "acceleration_g): " +
+                       std::string(each.convert));
 }
 
 enum class Form { peer, csv, two_columns };
@@ -331,6 +421,7 @@ Form form_of(std::istream& in, const std::string& name, const std::string& endin
     bool is_csv = false;
     while (lines.number < most_header_lines && lines.next(line)) {
         if (line.starts_with('#')) continue;
+        reject_other_forms(line, name, lines.number);
         if (SizeLine(line).is_one()) return Form::peer;
         is_csv = is_csv || unit_of_columns(line);
     }
@@ -357,9 +448,9 @@ Recording read_peer(std::istream& in, const std::string& name) {
     }
     const auto unit = unit_in_header(before);
     if (!unit)
-        reject(
-            name, lines.number - 1, "names no known unit: " + in_quotes(before),
-            "write ACCELERATION TIME SERIES IN UNITS OF G; units are " + std::string(known_units));
+        reject(name, lines.number - 1, "names no known unit: " + in_quotes(before),
+               "write ACCELERATION TIME SERIES IN UNITS OF " + meant_unit(before) + "; units are " +
+                   std::string(known_units));
     const auto [count, dt] = peer_size(*size, name, lines.number);
     recording.quantity = unit->quantity;
     recording.series.dt = dt;
@@ -407,9 +498,7 @@ Recording read_csv(std::istream& in, const std::string& name) {
         }
         unit = unit_of_columns(line);
         if (!unit)
-            reject(name, lines.number, "is no known header: " + in_quotes(line),
-                   "write time_s,acceleration_g (or acceleration_m_s2, acceleration_cm_s2, "
-                   "velocity_m_s, velocity_cm_s)");
+            reject(name, lines.number, "is no known header: " + in_quotes(line), csv_remedy(line));
     }
     if (!unit) reject(name, lines.number, "holds no header", "write time_s,acceleration_g first");
     return {unit->quantity, series_from(samples, unit->factor, name, lines.number), name};

@@ -5,7 +5,9 @@
 #include <ranges>
 
 #include "core/check/applied_motion.hpp"
+#include "core/fault/flag.hpp"
 #include "core/motion/measures.hpp"
+#include "core/motion/plausibility.hpp"
 #include "services/cli/table.hpp"
 
 namespace breach::cli {
@@ -14,15 +16,30 @@ using nlohmann::json;
 
 namespace {
 
-motion::Series acceleration_in(const std::filesystem::path& file, const MotionOptions& options) {
-    const motion::Recording motion =
+motion::Recording acceleration_in(const std::filesystem::path& file, const MotionOptions& options) {
+    motion::Recording motion =
         check::applied_motion({.file = file,
                                .scale_to_pga_g = options.scale_to_pga_g,
                                .baseline = options.corrected ? scene::Baseline::corrected
                                                              : scene::Baseline::as_recorded});
-    if (motion.quantity == motion::Quantity::acceleration) return motion.series;
+    if (motion.quantity == motion::Quantity::acceleration) return motion;
     throw fault::BadInput(file.string(),
                           {{"", "is no acceleration", "give the acceleration of the record"}});
+}
+
+/// What the check of a scene says of this motion. A study may scale it: then as scaled. Whether it is
+/// possible.
+bool tell_warnings(const std::filesystem::path& file, motion::Recording motion,
+                   const MotionOptions& options, const Console& console) {
+    if (!options.pga_g.empty())
+        motion.series = motion::scaled_to_peak(std::move(motion.series),
+                                               options.pga_g.front() * motion::standard_gravity);
+    const auto flags = motion::warnings_about(motion, "");
+    for (const fault::Flag& each : flags)
+        console.notes << harmless(file.filename().string() + ": " + fault::name_of(each.severity) +
+                                  ": " + each.message)
+                      << "\n";
+    return !fault::is_questionable(flags);
 }
 
 std::string as_text(const json& all) {
@@ -49,7 +66,8 @@ struct Measured {
     json measures;
 };
 
-/// The records of a folder, sorted by name. A file that is no record is named and left out.
+/// The records of a folder, sorted by name. A file that is no record, or of a motion that cannot be, is
+/// named and left out.
 std::vector<Measured> records_in(const MotionOptions& options, const Console& console) {
     std::vector<std::filesystem::path> files;
     for (const auto& each : std::filesystem::directory_iterator(options.file))
@@ -58,8 +76,11 @@ std::vector<Measured> records_in(const MotionOptions& options, const Console& co
     std::vector<Measured> found;
     for (const auto& each : files) {
         try {
-            found.push_back(
-                {each, motion::as_json(motion::measures_of(acceleration_in(each, options)))});
+            const motion::Recording motion = acceleration_in(each, options);
+            if (tell_warnings(each, motion, options, console))
+                found.push_back({each, motion::as_json(motion::measures_of(motion.series))});
+            else
+                console.notes << each.filename().string() << ": left out\n";
         } catch (const fault::BadInput& error) {
             console.notes << each.filename().string() << ": left out: " << error.what() << "\n";
         }
@@ -180,9 +201,11 @@ fault::ExitCode show_motion(Server& server, const MotionOptions& options, const 
         else
             show(all, [&] { return as_text(records); });
     } else {
-        const json all =
-            motion::as_json(motion::measures_of(acceleration_in(options.file, options)));
+        const motion::Recording motion = acceleration_in(options.file, options);
+        const json all = motion::as_json(motion::measures_of(motion.series));
         show(all, [&] { return as_text(all); });
+        if (!tell_warnings(options.file, motion, options, console))
+            return fault::ExitCode::bad_input;
     }
     return fault::ExitCode::done;
 }

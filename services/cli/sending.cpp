@@ -76,6 +76,10 @@ std::string send_file(Server& server, const fs::path& file, const Console& conso
                                              " bytes had arrived before"
                                        : "")
                           << "\n";
+            if (const auto warnings = answer.find("warnings"); warnings != answer.end())
+                for (const json& each : *warnings)
+                    console.notes << cell(each, "severity") << ": " << cell(each, "message")
+                                  << "\n";
             return answer.at("reference");
         } catch (const Unreachable&) {
             if (tries == most_tries) throw;

@@ -93,18 +93,21 @@ ArrivingFile arriving_file(const Service& service, const std::string& sha256,
         std::to_string(file->bytes()) + " bytes of it have arrived, so from must be that, or 0"};
 }
 
-/// What the file is, by those who will read it. Throws BadInput with the sender's name of it.
-void recognise(const fs::path& path, StoredFile& file) {
+/// What the file is, by those who will read it, and what they would warn of. Throws BadInput with the
+/// sender's name of it.
+std::vector<fault::Flag> recognise(const fs::path& path, StoredFile& file) {
     try {
         if (path.extension() == ".msh") {
             const check::MeshHead head = check::read_mesh_head(path);
             file.kind = "mesh";
             file.about = "gmsh " + head.version + ", " + std::to_string(head.surfaces.size()) +
                          " physical surfaces";
-        } else {
-            file.kind = "motion";
-            file.about = motion::summary_of(motion::read_motion(path));
+            return {};
         }
+        const motion::Recording motion = motion::read_motion(path);
+        file.kind = "motion";
+        file.about = motion::summary_of(motion);
+        return motion::warnings_about(motion, "");
     } catch (const fault::BadInput& error) {
         std::vector<fault::Fault> faults = error.faults();
         for (fault::Fault& each : faults)
@@ -113,6 +116,15 @@ void recognise(const fs::path& path, StoredFile& file) {
                                "send a motion (.AT2, .VT2, .csv or two columns) or a mesh "
                                "(.msh): nothing else is read");
         throw fault::BadInput("file " + file.name, std::move(faults));
+    }
+}
+
+/// Of a motion that was taken earlier; what was read then may be refused now.
+std::vector<fault::Flag> warnings_again(const fs::path& path) {
+    try {
+        return motion::warnings_about(motion::read_motion(path), "");
+    } catch (const fault::BadInput& error) {
+        return {{"impossible", fault::Severity::questionable, error.what()}};
     }
 }
 
@@ -162,10 +174,16 @@ void upload(Service& service, Call& call) {
     const auto known = service.store.file(file.sha256);
     file.file = known ? known->file : file.sha256 + ending_of(file.name);
     const bool is_here = known && is_whole(service, *known);
-    if (!is_here) recognise(arriving.path(), file);
+    std::vector<fault::Flag> warnings;
+    if (!is_here)
+        warnings = recognise(arriving.path(), file);
+    else if (known->kind == "motion")
+        warnings = warnings_again(arriving.path());
     keep(service, arriving, file);
     call.response.set_header("Location", "/v1/files/" + file.sha256);
-    reply(call.response, as_json(service.store.file(file.sha256).value()), is_here ? 200 : 201);
+    json answer = as_json(service.store.file(file.sha256).value());
+    answer["warnings"] = warnings_json(warnings);
+    reply(call.response, answer, is_here ? 200 : 201);
 }
 
 void list_files(const Service& service, Call& call) {

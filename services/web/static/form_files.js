@@ -50,6 +50,7 @@ export class FileField {
             this.wanted_kind(answer);
             this.form.set(this.parts, answer.reference);
             this.tell(answer);
+            if (answer.warnings?.length) this.refuse({ faults: answer.warnings.map(({ message }) => ({ cause: message })) }, file.name);
         } catch (fault) {
             set_text(this.state, before);
             this.refuse(fault, file.name);

@@ -48,6 +48,23 @@ TEST(MotionPlausibility, AnOrdinaryMotionPassesWithoutAWord) {
     EXPECT_TRUE(remarks_about(shaking(0.3, Quantity::velocity), "/here").flags.empty());
 }
 
+TEST(MotionPlausibility, WhatIsRefusedIsToldToThoseWhoOnlyReadIt) {
+    const auto impossible = warnings_about(shaking(196.2 * standard_gravity), "/here");
+    ASSERT_EQ(impossible.size(), 1U);
+    EXPECT_EQ(impossible[0].code, "impossible");
+    EXPECT_EQ(impossible[0].severity, fault::Severity::questionable);
+    expect_says(impossible[0].message, "the motion has a PGA of 196.2 g, which no earthquake has");
+    const auto strong = shaking(1.962 * standard_gravity);
+    ASSERT_EQ(warnings_about(strong, "/here").size(), 1U);
+    EXPECT_EQ(warnings_about(strong, "/here")[0].message,
+              remarks_about(strong, "/here").flags[0].message);
+    EXPECT_TRUE(warnings_about(shaking(0.3 * standard_gravity), "/here").empty());
+    EXPECT_TRUE(warnings_about(shaking(500.0, Quantity::displacement), "/here").empty());
+    const Recording constant{Quantity::acceleration, {0.01, std::vector<double>(1000, 1.0)}, ""};
+    ASSERT_EQ(warnings_about(constant, "/here").size(), 1U);
+    expect_says(warnings_about(constant, "/here")[0].message, "one constant value, 1, in 1000");
+}
+
 TEST(MotionPlausibility, MetresPerSecondSquaredGivenAsGAreNamed) {
     expect_says(warning(shaking(1.962 * standard_gravity)),
                 "a PGA of 1.962 g, hardly plausible: 1.962 looks like m/s2 given as g: divide by "

@@ -58,6 +58,27 @@ TEST(Peer, NamesTheLineOfAFault) {
     EXPECT_EQ(fault_of(read_peer, "a\n"), "line 1: the header has no line that gives NPTS and DT");
 }
 
+TEST(Peer, GivesItsTimeStepInSecondsOnly) {
+    for (const std::string size :
+         {"NPTS= 2, DT= .01", "NPTS= 2, DT= .01 SEC", "NPTS=2,DT=.01SEC", "NPTS=2,DT=.01S",
+          "NPTS= 2 POINTS, DT= 0.01 Sec.", "NPTS= 2, DT= .01 SEC, FILTER 5 HZ",
+          "2 .01 NPTS, DT (SEC)", "2 .01 SEC NPTS, DT", "DT= 1E-2 SECONDS, NPTS= 2",
+          "DT (s)= .01, NPTS= 2"}) {
+        std::istringstream in(header + size + "\n0.1 0.2\n");
+        EXPECT_DOUBLE_EQ(read_peer(in, "file").series.dt, 0.01) << size;
+    }
+    const std::pair<const char*, const char*> others[] = {{"NPTS= 2, DT= 100 HZ", "HZ"},
+                                                          {"NPTS= 2, DT= 100Hz", "HZ"},
+                                                          {"NPTS= 2, DT= 0.01 MIN", "MIN"},
+                                                          {"NPTS= 2, DT= 10 MSEC", "MSEC"},
+                                                          {"2 10 MS NPTS, DT", "MS"},
+                                                          {"2 100 NPTS, DT (HZ)", "HZ"},
+                                                          {"DT= 10MILLISEC NPTS= 2", "MILLISEC"}};
+    for (const auto& [size, unit] : others)
+        EXPECT_EQ(fault_of(read_peer, header + size + "\n0.1 0.2\n"),
+                  std::string("line 4: gives DT in ") + unit);
+}
+
 TEST(TwoColumns, AreTimeAndAccelerationInG) {
     std::istringstream in("# made up\n0.00\t0.1\n0.01\t-0.2\n\n0.02 0.3\n");
     const Recording r = read_two_columns(in, "file");
@@ -138,6 +159,9 @@ TEST(Csv, CarriesItsUnitInTheHeader) {
     EXPECT_DOUBLE_EQ(second("time_s,acceleration_g"), 2 * standard_gravity);
     EXPECT_DOUBLE_EQ(second("time_s,acceleration_m_s2"), 2.0);
     EXPECT_DOUBLE_EQ(second("time_s,velocity_cm_s"), 0.02);
+    EXPECT_DOUBLE_EQ(second("\"time_s\",\"acceleration_m_s2\""), 2.0);
+    std::istringstream quoted("\"time_s\",\"acceleration_m_s2\"\n\"0\",\"1\"\n\"0.5\",\"2\"\n");
+    EXPECT_DOUBLE_EQ(read_csv(quoted, "file").series.values.at(1), 2.0);
     EXPECT_EQ(fault_of(read_csv, "t,a\n" + rows), "line 1: is no known header: \"t,a\"");
     EXPECT_DOUBLE_EQ(second("\xEF\xBB\xBFtime_s,acceleration_gal"), 0.02);
     EXPECT_DOUBLE_EQ(second("Time (s);Acceleration (cm/s²)"), 0.02);
@@ -322,6 +346,50 @@ TEST(Motion, IsReadInTheFormThatItHasUnderAnyName) {
     EXPECT_EQ(fault_of(read_csv, std::string("\xFF\xFEt\0i\0", 6)),
               "line 1: holds zero bytes: the file is UTF-16 text, or no text");
     std::filesystem::remove_all(folder);
+}
+
+TEST(Motion, OfAPublishersOtherFormIsRefusedByItsName) {
+    const auto file = std::filesystem::temp_directory_path() / "breach_other_form.NS";
+    const std::pair<const char*, const char*> forms[] = {
+        {"Origin Time 2011/03/11 14:46:00\nSampling Freq(Hz) 100Hz\n0 119\n", "KiK-net"},
+        {"Corrected acceleration   (Format v01.20 with 13 text lines)\nStation\n", "COSMOS"},
+        {"EVENT_NAME: X\nSAMPLING_INTERVAL_S: 0.010000\nUNITS: cm/s^2\n0.0\n", "ESM"}};
+    for (const auto& [text, form] : forms) {
+        std::ofstream(file) << text;
+        try {
+            read_motion(file);
+            ADD_FAILURE() << form;
+        } catch (const fault::BadInput& bad) {
+            EXPECT_NE(bad.faults().at(0).cause.find(form), std::string::npos);
+            EXPECT_NE(bad.faults().at(0).remedy.find("convert it"), std::string::npos);
+        }
+    }
+    std::filesystem::remove(file);
+}
+
+TEST(Unit, ThatIsRefusedHasTheRightFactorInItsRemedy) {
+    const auto remedy = [](auto read, const std::string& text) {
+        std::istringstream in(text);
+        try {
+            read(in, "file");
+        } catch (const fault::BadInput& bad) {
+            return bad.faults().at(0).remedy;
+        }
+        return std::string("none");
+    };
+    const auto peer = [&](const std::string& unit) {
+        return remedy(read_peer, "PEER\nA quake\nACCELERATION IN UNITS OF " + unit +
+                                     "\nNPTS= 2, DT= .01 SEC\n 1.0 1.0\n");
+    };
+    EXPECT_NE(peer("% G").find("UNITS OF 0.01*G;"), std::string::npos);
+    EXPECT_NE(peer("MG").find("UNITS OF 0.001*G;"), std::string::npos);
+    EXPECT_EQ(peer("0.001*G"), "none");
+    EXPECT_EQ(remedy(read_two_columns, "# acceleration in 0.001*G\n0 1\n1 2\n"), "none");
+    EXPECT_NE(peer("COUNTS").find("UNITS OF G;"), std::string::npos);
+    EXPECT_NE(remedy(read_two_columns, "# acceleration in mg\n0 1\n").find("in 0.001*G,"),
+              std::string::npos);
+    EXPECT_NE(remedy(read_csv, "time_s,acceleration_mg\n0,1\n").find("times 0.001 are in g"),
+              std::string::npos);
 }
 
 TEST(Motion, ThatIsMissingIsAnIoError) {
