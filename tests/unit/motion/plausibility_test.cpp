@@ -48,7 +48,7 @@ TEST(MotionPlausibility, AnOrdinaryMotionPassesWithoutAWord) {
     EXPECT_TRUE(remarks_about(shaking(0.3, Quantity::velocity), "/here").flags.empty());
 }
 
-TEST(MotionPlausibility, WhatIsRefusedIsToldToThoseWhoOnlyReadIt) {
+TEST(MotionPlausibility, AFaultIsAFlagForThoseWhoOnlyReadTheMotion) {
     const auto impossible = warnings_about(shaking(196.2 * standard_gravity), "/here");
     ASSERT_EQ(impossible.size(), 1U);
     EXPECT_EQ(impossible[0].code, "impossible");
