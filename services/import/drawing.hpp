@@ -43,6 +43,7 @@ struct Drawing {
     std::vector<std::string> remarks;  ///< what was passed over or assumed
     std::string unit = "m";            ///< that its coordinates were in
     bool knows_unit = true;
+    bool says_unit = false;  ///< in a table's header
 };
 
 /// Outlines and their points that are taken: more are no section.

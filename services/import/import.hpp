@@ -27,7 +27,8 @@ struct Request {
     std::vector<std::string> layers =
         {};  ///< "REGION=5,10,15": by depth below the phreatic line [m]
     std::optional<Sent> phreatic = {}, terrain = {}, ground = {};  ///< CSV with x, y
-    std::string unit = "";               ///< empty: what the drawing says, metres for CSV
+    std::string unit =
+        "";  ///< empty: what the drawing or the CSV's header says, else metres for CSV
     double tolerance = 0.05;             ///< nearer is meant to touch [m]
     std::optional<double> flatten = {};  ///< arcs become chords that are off by so much [m]
     std::string name = "";               ///< of the scene; empty: of the file
@@ -36,7 +37,7 @@ struct Request {
 
 struct Imported {
     nlohmann::json scene;  ///< null when there are faults
-    /// unit, unit_from ("asked", "drawing", "default"), size [length, height, m], tolerance, healed,
+    /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m], tolerance, healed,
     /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
     nlohmann::json report;
     /// What looks like a slip and is not confirmed; they are faults as well.
