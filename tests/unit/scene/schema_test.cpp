@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/words/encoding.hpp"
+
 namespace {
 
 using breach::fault::BadInput;
@@ -95,9 +97,28 @@ TEST(StrictJson, NamesUtf16) {
             parse_json(text, "x");
             ADD_FAILURE();
         } catch (const BadInput& bad) {
-            EXPECT_EQ(bad.faults().at(0).cause, "is UTF-16 text, and JSON is UTF-8");
+            EXPECT_TRUE(bad.faults().at(0).cause.starts_with("is UTF-16"));
         }
     EXPECT_NO_THROW(parse_json("\xEF\xBB\xBF{}", "x"));  // the mark of UTF-8
+}
+
+TEST(StrictJson, NamesOtherEncodingsWithARemedyAndEchoesNoRawByte) {
+    const auto told = [](const std::string& text) {
+        try {
+            parse_json(text, "x");
+        } catch (const BadInput& bad) {
+            return bad.faults().at(0).cause + " | " + bad.faults().at(0).remedy;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(told("{\n\"B\xF6schung\": 1}"),
+              "is not UTF-8 text (line 2): it looks like Latin-1 (ISO-8859-1) | save it as UTF-8 "
+              "(iconv -f ISO-8859-1 -t UTF-8 FILE)");
+    EXPECT_NE(told(std::string("\xFF\xFE\0\0{\0\0\0", 8)).find("iconv -f UTF-32 "),
+              std::string::npos);
+    EXPECT_NE(told(std::string("{\0\0\0}\0\0\0", 8)).find("iconv -f UTF-32LE "), std::string::npos);
+    EXPECT_NE(told(std::string("\x1F\x8B\x08\0", 4)).find("it is no text"), std::string::npos);
+    EXPECT_EQ(breach::words::first_not_utf8(told("{\xC3\xB6}")), std::string::npos);
 }
 
 TEST(Override, SetsNumbersWordsAndNewKeys) {
