@@ -345,6 +345,56 @@ json parse_json(std::string_view text, const std::string& file) {
     return document;
 }
 
+std::optional<Fault> missing_parent(const json& document, const std::string& pointer) {
+    const json* at = &document;
+    for (std::size_t start = 1; start < pointer.size();) {
+        const std::string path = pointer.substr(0, start - 1);
+        const std::size_t end = std::min(pointer.find('/', start), pointer.size());
+        const std::string token = pointer.substr(start, end - start);
+        const bool is_last = end == pointer.size();
+        if (at->is_array()) {
+            if (token.empty() || token.find_first_not_of("0123456789") != std::string::npos)
+                return std::nullopt;
+            const std::size_t place = token.size() > 9 ? 999'999'999 : std::stoul(token);
+            const std::size_t size = at->size();
+            if (place > size || (place == size && !is_last)) {
+                const std::string name = path.substr(path.rfind('/') + 1);
+                const std::string entries = name.ends_with('s') ? name : "entries";
+                return Fault{pointer,
+                             "there is no " + path + "/" + token + ": " + path + " has " +
+                                 (size == 0 ? "no " + entries
+                                            : std::to_string(size) + " " + entries + ", 0 to " +
+                                                  std::to_string(size - 1)),
+                             "name one that exists, or append one as a whole: " + path + "/-=..."};
+            }
+            if (place == size) return std::nullopt;
+            at = &(*at)[place];
+        } else if (at->is_object()) {
+            const auto found = at->find(token);
+            if (found == at->end()) {
+                if (path != "/materials" || is_last) return std::nullopt;
+                std::vector<std::string> names;
+                std::string all;
+                for (const auto& [name, material] : at->items()) {
+                    names.push_back(name);
+                    all += (all.empty() ? "" : ", ") + name;
+                }
+                const std::string nearest = words::nearest(token, names);
+                return Fault{pointer, "there is no material \"" + token + "\"",
+                             nearest.empty()
+                                 ? "the materials are " + all +
+                                       "; give a new one as a whole: /materials/" + token + "={...}"
+                                 : "did you mean \"" + nearest + "\"?"};
+            }
+            at = &*found;
+        } else {
+            return std::nullopt;
+        }
+        start = end + 1;
+    }
+    return std::nullopt;
+}
+
 std::vector<Fault> apply_override(json& document, const std::string& assignment) {
     const std::size_t equals = assignment.find('=');
     const Fault malformed{"", "--set " + assignment + " is not an assignment",
@@ -354,6 +404,7 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
     const std::string pointer = assignment.substr(0, equals);
     if (pointer.find('~') != std::string::npos)
         return {{pointer, "has a ~, which no entry's name has", "name an entry that exists"}};
+    if (auto missing = missing_parent(document, pointer)) return {std::move(*missing)};
     const std::string text = assignment.substr(equals + 1);
     json value = json::parse(text, nullptr, false);
     if (value.is_discarded()) value = text;

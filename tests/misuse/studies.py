@@ -19,6 +19,12 @@ def studies(bases):
         ("a step of zero", study(transfer_times={"from": 0.1, "to": 0.7, "step": 0}), r"step"),
         ("an override of nothing", study(overrides=["/mpm/no_such=3"]), r"no_such"),
         ("an override that is no pointer", study(overrides=["cell_size=3"]), r"cell_size"),
+        ("an override of a misspelt material", study(overrides=["/materials/slope_soli/law/c_kPa=5"]),
+         r"no material \"slope_soli\"[\s\S]*did you mean \"slope_soil\""),
+        ("an override of a stage that is not there", study(overrides=["/fem/stages/7/duration=2"]), r"has \d+ stages, 0 to \d"),
+        ("a factor on a misspelt material", study(uncertainty={"samples": 4, "parameters": [
+            {"name": "c", "factor_on": ["/materials/slope_soli/law/c_kPa"], "distribution": {"type": "lognormal", "median": 1, "cov": 0.3}}]}),
+         r"did you mean \"slope_soil\""),
         ("two variants of one name", study(variants=[{"name": "a", "overrides": ["/mpm/cfl=0.5"]},
                                                      {"name": "a", "overrides": ["/mpm/cfl=0.3"]}]), r"\ba\b|twice|unique"),
         ("a later variant's material", study(variants=[{"name": "a", "overrides": ["/mpm/cfl=0.5"]},

@@ -129,6 +129,35 @@ TEST(Override, SetsNumbersWordsAndNewKeys) {
     EXPECT_EQ(document, json::parse(R"({"a": {"b": 2.5, "word": "fast"}, "list": [3]})"));
 }
 
+TEST(Override, NamesTheNearMaterialOrTheLengthOfTheListThatItMisses) {
+    json document = json::parse(
+        R"({"materials": {"slope_soil": {"density": 1}}, "fem": {"stages": [{}, {}, {}]}})");
+    const json before = document;
+    const auto told = [&](const std::string& assignment) {
+        std::string all;
+        for (const auto& each : apply_override(document, assignment))
+            all += each.pointer + ": " + each.cause + " | " + each.remedy;
+        return all;
+    };
+    EXPECT_EQ(told("/materials/slope_soli/law/c_kPa=5"),
+              "/materials/slope_soli/law/c_kPa: there is no material \"slope_soli\" | did you mean "
+              "\"slope_soil\"?");
+    EXPECT_EQ(told("/materials/clay/density=5"),
+              "/materials/clay/density: there is no material \"clay\" | the materials are "
+              "slope_soil; give a new one as a whole: /materials/clay={...}");
+    for (const char* place : {"7", "3", "99999999999999999999"})
+        EXPECT_NE(told("/fem/stages/" + std::string(place) + "/duration=1")
+                      .find("/fem/stages has 3 stages, 0 to 2"),
+                  std::string::npos);
+    EXPECT_EQ(document, before);
+    EXPECT_EQ(told("/materials/clay={\"density\": 2}"), "");
+    EXPECT_EQ(told("/materials/clay/density=3"), "");
+    EXPECT_EQ(told("/fem/stages/-={}"), "");
+    EXPECT_EQ(told("/fem/stages/4={}"), "");
+    EXPECT_EQ(told("/fem/stages/4/duration=2"), "");
+    EXPECT_EQ(told("/lem/non_circular/vertices=13"), "");
+}
+
 TEST(Override, SaysWhatIsWrongWithAnAssignment) {
     json document = json::parse(R"({"a": {"b": 1}, "list": [1, 2]})");
     EXPECT_FALSE(apply_override(document, "a/b=1").empty());
