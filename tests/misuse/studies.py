@@ -15,7 +15,7 @@ def studies(bases):
         ("a scene sent as a study", copy.deepcopy(bases["slope"]), r"scene, not a study|is a scene"),
         ("a study without a scene", study(scene=None), r"scene"),
         ("a transfer after the FEM's end", study(transfer_times=[50]), r"transfer_times|end"),
-        ("a transfer time in ms", study(transfer_times=[500]), r"transfer_times|end"),
+        ("a transfer time in ms", study(transfer_times=[500]), r"transfer_times[\s\S]*for 500 ms, write 0\.5"),
         ("a step of zero", study(transfer_times={"from": 0.1, "to": 0.7, "step": 0}), r"step"),
         ("an override of nothing", study(overrides=["/mpm/no_such=3"]), r"no_such"),
         ("an override that is no pointer", study(overrides=["cell_size=3"]), r"cell_size"),

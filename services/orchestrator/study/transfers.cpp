@@ -6,6 +6,7 @@
 
 #include "core/check/measured.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/words/milliseconds.hpp"
 #include "core/words/number.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
@@ -90,11 +91,13 @@ void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<Fault>& faults) {
     if (times.empty()) return;
     if (is_late(times.back(), fem)) {
-        faults.push_back({"/transfer_times",
-                          "the transfer at " + words::text_of(times.back(), 9) +
-                              " s comes after the end of the dynamic stages at " +
-                              words::text_of(dynamic_duration(fem), 9) + " s",
-                          "transfer earlier or lengthen /scene/fem/stages"});
+        const std::string in_ms = words::seconds_remedy(times.back(), dynamic_duration(fem));
+        faults.push_back(
+            {"/transfer_times",
+             "the transfer at " + words::text_of(times.back(), 9) +
+                 " s comes after the end of the dynamic stages at " +
+                 words::text_of(dynamic_duration(fem), 9) + " s",
+             in_ms.empty() ? "transfer earlier or lengthen /scene/fem/stages" : in_ms});
     }
 }
 

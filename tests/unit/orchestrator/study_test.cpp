@@ -81,6 +81,19 @@ TEST(Study, TransferAfterTheEndOfTheFemIsRefused) {
     json study = slope_study();
     study["transfer_times"] = {1.0, 3.5};  // the scene's dynamic stage lasts 3 s
     EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/transfer_times"});
+    const auto remedy = [](const json& asked) {
+        try {
+            read_study(asked.dump());
+        } catch (const fault::BadInput& error) {
+            return error.faults().at(0).remedy;
+        }
+        return std::string();
+    };
+    study["transfer_times"] = {2000};
+    EXPECT_EQ(remedy(study), "times are in seconds: for 2000 ms, write 2");
+    study["transfer_times"] = {1.0};
+    study["scene"]["fem"]["snapshot_times"] = {2000};
+    EXPECT_EQ(remedy(study), "times are in seconds: for 2000 ms, write 2");
 }
 
 TEST(Study, AllFaultsOfStudyAndSceneAreReportedAtOnceWithPointersIntoTheStudy) {
