@@ -6,6 +6,7 @@
 
 #include "core/check/measured.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/criteria/ranges.hpp"
 #include "core/words/milliseconds.hpp"
 #include "core/words/number.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -64,6 +65,31 @@ std::vector<double> wanted_times(const json& entry, std::vector<Fault>& faults) 
                           "give each transfer time once (two times differ by 1e-6 s or more)"});
     }
     return times;
+}
+
+/// Warns of criteria that wait for a time after the FEM's end.
+void warn_about_late_criteria(const json& triggers, double span,
+                              std::vector<fault::Flag>& warnings) {
+    const auto range = [&](const std::string& field) {
+        return field == "time" ? criteria::Range{0.0, span} : criteria::Range{};
+    };
+    for (std::size_t i = 0; i < triggers.size(); ++i) {
+        if (!triggers[i].contains("when")) continue;
+        const std::string at = "/triggers/" + std::to_string(i) + "/when";
+        const std::string when = triggers[i]["when"];
+        try {
+            if (criteria::can_be_true(criteria::parse(when, criteria::Kind::condition, at), range))
+                continue;
+        } catch (const BadInput&) {
+            continue;  // check_triggers adds that fault
+        }
+        warnings.push_back({"late_criterion", fault::Severity::warning,
+                            "\"" + when + "\" is never true: the FEM ends at " +
+                                words::text_of(span, 9) +
+                                " s, so this trigger makes no transfer. Write an earlier time, or "
+                                "lengthen /scene/fem/stages",
+                            at});
+    }
 }
 
 /// Fields that a condition names; none where it cannot be read: check_triggers adds that fault.
@@ -136,6 +162,7 @@ void read_transfers(const json& document, const scene::Fem* fem, Study& study,
     const std::size_t before = faults.size();
     const double span = fem ? dynamic_duration(*fem) : unknown_span;
     CheckedTriggers checked = check_triggers(document["triggers"], span, "/triggers", faults);
+    if (fem) warn_about_late_criteria(document["triggers"], span, study.warnings);
     std::vector<double> times;
     const auto take = [&](const json& entry) {
         const std::vector<double> more = wanted_times(entry, faults);

@@ -27,6 +27,9 @@ inline constexpr const char* kept_variants =
 /// Those that the study names itself; what the service made of it is made anew.
 std::vector<VariantEntry> own_variants(const nlohmann::json& document);
 
+/// Warns of an entry that one list of overrides sets twice to different values, and of variants with equal overrides.
+void warn_about_overrides(const nlohmann::json& document, std::vector<fault::Flag>& warnings);
+
 /// On as many lattices as the study asks for.
 std::vector<VariantEntry> wanted_variants(const nlohmann::json& document, Reach reach,
                                           const nlohmann::json& scene,
