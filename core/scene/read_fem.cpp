@@ -5,6 +5,7 @@
 
 #include "core/scene/checks.hpp"
 #include "core/scene/file_paths.hpp"
+#include "core/words/milliseconds.hpp"
 
 namespace breach::scene {
 
@@ -235,8 +236,9 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
         }
     }
     if (!fem.snapshot_times.empty() && fem.snapshot_times.back() > span * (1 + 1e-12)) {
+        const std::string in_ms = words::seconds_remedy(fem.snapshot_times.back(), span);
         reader.add("/fem/snapshot_times", "reach beyond the end of the dynamic stages",
-                   "lengthen the last stage, or drop the later times");
+                   in_ms.empty() ? "lengthen the last stage, or drop the later times" : in_ms);
     }
     const double stable = 0.25 * (fem.newmark_gamma + 0.5) * (fem.newmark_gamma + 0.5);
     if (fem.newmark_beta < stable - 1e-12) {

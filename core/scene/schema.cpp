@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/scene/slips.hpp"
+#include "core/words/encoding.hpp"
 #include "core/words/nearest.hpp"
 
 namespace breach::scene {
@@ -283,18 +284,35 @@ class Walker {
     const json& root_;
 };
 
-/// By its mark, or by zero bytes, which no JSON has.
-bool is_utf_16(std::string_view text) {
-    return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF") ||
-           text.substr(0, 4).find('\0') != std::string_view::npos;
+/// JSON is UTF-8 text.
+void check_encoding(std::string_view text, const std::string& file) {
+    if (const std::string encoding = words::wide_encoding(text); !encoding.empty())
+        throw fault::BadInput(file, {{"", "is " + encoding + " text, and JSON is UTF-8",
+                                      words::as_utf8_remedy(encoding)}});
+    if (text.find('\0') != std::string_view::npos)
+        throw fault::BadInput(
+            file, {{"", "holds zero bytes: it is no text", "give the JSON text, uncompressed"}});
+    const std::size_t at = words::first_not_utf8(text);
+    if (at == std::string_view::npos) return;
+    const auto line = 1 + std::ranges::count(text.substr(0, at), '\n');
+    throw fault::BadInput(file, {{"",
+                                  "is not UTF-8 text (line " + std::to_string(line) +
+                                      "): it looks like Latin-1 (ISO-8859-1)",
+                                  words::as_utf8_remedy("ISO-8859-1")}});
+}
+
+/// What the parser says, without the piece of a character at which it stopped.
+std::string words_of(const json::exception& error) {
+    std::string text = error.what();
+    for (std::size_t at = 0; (at = words::first_not_utf8(text)) != std::string::npos;)
+        text.erase(at, 1);
+    return text;
 }
 
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& file) {
-    if (is_utf_16(text))
-        throw fault::BadInput(file, {{"", "is UTF-16 text, and JSON is UTF-8",
-                                      "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)"}});
+    check_encoding(text, file);
     std::vector<std::set<std::string>> keys;
     std::vector<Fault> faults;
     const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
@@ -320,11 +338,61 @@ json parse_json(std::string_view text, const std::string& file) {
     try {
         document = json::parse(text, watch);
     } catch (const json::exception& error) {
-        throw fault::BadInput(file, {{"", std::string("is not valid JSON: ") + error.what(),
-                                      "correct the text at this place"}});
+        throw fault::BadInput(
+            file, {{"", "is not valid JSON: " + words_of(error), "correct the text at this place"}});
     }
     if (!faults.empty()) throw fault::BadInput(file, faults);
     return document;
+}
+
+std::optional<Fault> missing_parent(const json& document, const std::string& pointer) {
+    const json* at = &document;
+    for (std::size_t start = 1; start < pointer.size();) {
+        const std::string path = pointer.substr(0, start - 1);
+        const std::size_t end = std::min(pointer.find('/', start), pointer.size());
+        const std::string token = pointer.substr(start, end - start);
+        const bool is_last = end == pointer.size();
+        if (at->is_array()) {
+            if (token.empty() || token.find_first_not_of("0123456789") != std::string::npos)
+                return std::nullopt;
+            const std::size_t place = token.size() > 9 ? 999'999'999 : std::stoul(token);
+            const std::size_t size = at->size();
+            if (place > size || (place == size && !is_last)) {
+                const std::string name = path.substr(path.rfind('/') + 1);
+                const std::string entries = name.ends_with('s') ? name : "entries";
+                return Fault{pointer,
+                             "there is no " + path + "/" + token + ": " + path + " has " +
+                                 (size == 0 ? "no " + entries
+                                            : std::to_string(size) + " " + entries + ", 0 to " +
+                                                  std::to_string(size - 1)),
+                             "name one that exists, or append one as a whole: " + path + "/-=..."};
+            }
+            if (place == size) return std::nullopt;
+            at = &(*at)[place];
+        } else if (at->is_object()) {
+            const auto found = at->find(token);
+            if (found == at->end()) {
+                if (path != "/materials" || is_last) return std::nullopt;
+                std::vector<std::string> names;
+                std::string all;
+                for (const auto& [name, material] : at->items()) {
+                    names.push_back(name);
+                    all += (all.empty() ? "" : ", ") + name;
+                }
+                const std::string nearest = words::nearest(token, names);
+                return Fault{pointer, "there is no material \"" + token + "\"",
+                             nearest.empty()
+                                 ? "the materials are " + all +
+                                       "; give a new one as a whole: /materials/" + token + "={...}"
+                                 : "did you mean \"" + nearest + "\"?"};
+            }
+            at = &*found;
+        } else {
+            return std::nullopt;
+        }
+        start = end + 1;
+    }
+    return std::nullopt;
 }
 
 std::vector<Fault> apply_override(json& document, const std::string& assignment) {
@@ -336,6 +404,7 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
     const std::string pointer = assignment.substr(0, equals);
     if (pointer.find('~') != std::string::npos)
         return {{pointer, "has a ~, which no entry's name has", "name an entry that exists"}};
+    if (auto missing = missing_parent(document, pointer)) return {std::move(*missing)};
     const std::string text = assignment.substr(equals + 1);
     json value = json::parse(text, nullptr, false);
     if (value.is_discarded()) value = text;

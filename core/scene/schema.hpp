@@ -4,6 +4,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +22,11 @@ const nlohmann::json& element_test_schema();
 /// escape), comments, numbers out of range, nesting deeper than 64. Throws
 /// BadInput.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
+
+/// The fault of a pointer into a material or into an entry of a list that the document does not have. What is new as a whole
+/// ("/materials/new", the place behind a list's end) has none; nor do unknown keys, which complete_and_check refuses.
+std::optional<fault::Fault> missing_parent(const nlohmann::json& document,
+                                           const std::string& pointer);
 
 /// Sets one "/json/pointer=value" (value: JSON, or a bare word taken as string). Returns the faults
 /// found.

@@ -524,7 +524,8 @@ class CommandLine {
             ->capture_default_str();
         sub->add_option("--breach-width", options.breach_width,
                         "72, or 60,72,90 for low, best, high [m] (default: the scene's)");
-        sub->add_option("--interval", options.interval, "between two flows of an export [s] (1)");
+        sub->add_option("--interval", options.interval,
+                        "between two flows, for hec-ras and flo-2d [s] (1)");
         sub->add_option("--transfer-time", options.transfer_time,
                         "which of the sweep's runouts [s]");
         sub->add_option("--variant", options.variant, "which of the study's variants");

@@ -1,6 +1,7 @@
 #include "services/import/csv.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
@@ -10,7 +11,7 @@ namespace breach::importing {
 namespace {
 
 constexpr const char* shape =
-    "write a header region,x,y (or x,y for one line), then one vertex a row";
+    "write a header region,x,y (or x,y for one line; x_ft,y_ft for feet), then one vertex a row";
 
 std::vector<std::string> fields_of(std::string_view row, char separator) {
     std::vector<std::string> fields;
@@ -39,12 +40,43 @@ struct Columns {
     std::size_t count = 0;  ///< that the header names
 };
 
+/// A column's name without its unit: "x" and "ft" of "x_ft", "X (ft)" and "x [feet]".
+struct Title {
+    std::string name, unit;
+};
+
+Title title_of(const std::string& column) {
+    std::string name = lower(column);
+    const std::size_t end = std::min(name.find_first_of("_ ([/"), name.size());
+    std::string unit = name.substr(end);
+    const bool in_brackets = unit.find_first_of("([") != std::string::npos;
+    std::erase_if(unit, [](char each) {
+        return std::string_view("_ ()[]/.").find(each) != std::string_view::npos;
+    });
+    if (unit.empty()) return {name.substr(0, end), ""};
+    constexpr std::array<std::array<std::string_view, 2>, 11> spelt{{{"metres", "m"},
+                                                                     {"meters", "m"},
+                                                                     {"metre", "m"},
+                                                                     {"meter", "m"},
+                                                                     {"millimetres", "mm"},
+                                                                     {"millimeters", "mm"},
+                                                                     {"feet", "ft"},
+                                                                     {"foot", "ft"},
+                                                                     {"inches", "in"},
+                                                                     {"inch", "in"},
+                                                                     {"usft", "us-ft"}}};
+    for (const auto& [word, symbol] : spelt)
+        if (unit == word) unit = symbol;
+    if (in_brackets || unit_named(unit)) return {name.substr(0, end), unit};
+    return {name, ""};  // "x_offset": another column
+}
+
 /// Positions of the columns that have one of these names.
 std::vector<std::size_t> columns_named(const std::vector<std::string>& header,
                                        std::initializer_list<std::string_view> names) {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < header.size(); ++i)
-        if (std::ranges::find(names, lower(header[i])) != names.end()) found.push_back(i);
+        if (std::ranges::find(names, title_of(header[i]).name) != names.end()) found.push_back(i);
     return found;
 }
 
@@ -58,8 +90,8 @@ std::string listed(const std::vector<std::string>& header,
 
 class CsvReader {
   public:
-    CsvReader(const LayerMap& layers, const Unit& unit, const std::string& alone)
-        : layers_(layers), unit_(unit), alone_(alone) {}
+    CsvReader(const LayerMap& layers, const std::optional<Unit>& asked, const std::string& alone)
+        : layers_(layers), asked_(asked), unit_(asked.value_or(Unit{"m", 1.0})), alone_(alone) {}
 
     Drawing read(std::string_view text) {
         if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -119,11 +151,36 @@ class CsvReader {
             .count = names.size()};
         columns_ = found;
         const bool whole = found.x && found.y && (found.region || !alone_.empty());
-        if (whole) return;
+        if (whole) return take_unit(title_of(names[*found.x]), title_of(names[*found.y]));
         refuse("\"" + as_utf8(row.substr(0, 40)) + "\" does not name the columns " +
                    (alone_.empty() ? "region, x and y" : "x and y"),
                shape);
         stopped_ = true;
+    }
+
+    void take_unit(const Title& x, const Title& y) {
+        if (x.unit.empty() && y.unit.empty()) return;
+        const auto stop = [&](std::string cause, std::string remedy) {
+            refuse(std::move(cause), std::move(remedy));
+            stopped_ = true;
+        };
+        const auto said = [](const Title& each) {
+            return each.name +
+                   (each.unit.empty() ? " without a unit" : " in " + as_utf8(each.unit));
+        };
+        const auto unit = unit_named(x.unit);
+        if (x.unit != y.unit)
+            return stop("the header gives " + said(x) + " and " + said(y),
+                        "give x and y in one unit, and name it for both: x_ft,y_ft");
+        if (!unit)
+            return stop("\"" + as_utf8(x.unit) + "\" in the header is no unit",
+                        "the units are " + unit_names());
+        if (asked_ && asked_->name != unit->name)
+            return stop("the header says that x and y are in " + unit->name +
+                            ", and the unit asked for is " + asked_->name,
+                        "leave --unit out, or correct the header");
+        unit_ = *unit;
+        drawing_.says_unit = true;
     }
 
     std::optional<double> number(const std::vector<std::string>& fields, std::size_t column) {
@@ -200,7 +257,8 @@ class CsvReader {
     }
 
     const LayerMap& layers_;
-    const Unit& unit_;
+    const std::optional<Unit>& asked_;
+    Unit unit_;
     const std::string& alone_;
     Drawing drawing_;
     std::optional<Columns> columns_;
@@ -212,9 +270,9 @@ class CsvReader {
 
 }  // namespace
 
-Drawing read_csv(std::string_view text, const LayerMap& layers, const Unit& unit,
+Drawing read_csv(std::string_view text, const LayerMap& layers, const std::optional<Unit>& asked,
                  const std::string& alone) {
-    return CsvReader(layers, unit, alone).read(text);
+    return CsvReader(layers, asked, alone).read(text);
 }
 
 }  // namespace breach::importing

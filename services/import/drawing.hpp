@@ -43,6 +43,7 @@ struct Drawing {
     std::vector<std::string> remarks;  ///< skipped objects and assumptions
     std::string unit = "m";            ///< unit of its coordinates
     bool knows_unit = true;
+    bool says_unit = false;  ///< in a table's header
 };
 
 /// Most outlines and points that are accepted: more are no section.

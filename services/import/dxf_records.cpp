@@ -3,6 +3,7 @@
 #include <charconv>
 #include <optional>
 
+#include "core/words/encoding.hpp"
 #include "services/import/numbers.hpp"
 
 namespace breach::importing {
@@ -31,6 +32,8 @@ std::vector<Fault> form_faults(std::string_view bytes) {
         return {{at_line(1), "is DXF in binary form", "save it as DXF in text (ASCII) form"}};
     if (bytes.starts_with("AC10"))
         return {{at_line(1), "is a DWG drawing", "save it as DXF in text (ASCII) form"}};
+    if (const std::string encoding = words::wide_encoding(bytes); !encoding.empty())
+        return {{at_line(1), "is " + encoding + " text", words::as_utf8_remedy(encoding)}};
     if (const std::size_t at = bytes.find('\0'); at != std::string_view::npos)
         return {{"byte " + std::to_string(at), "holds a NUL byte: it is no text", again}};
     if (trimmed(bytes.substr(0, 4096)).find_first_not_of('\n') == std::string_view::npos)

@@ -70,6 +70,12 @@ class Import {
                           {"guessed", json::array()}, {"remarks", json::array()}};
         if (check_request() && read_drawing()) {
             sort_out();
+            if (is_turned()) {  // lines would have odd faults
+                result_.faults.push_back(result_.to_confirm.front());
+                give_up();
+                return std::move(result_);
+            }
+            take_lines();
             for (auto& [role, sent] :
                  std::map<Role, const std::optional<Sent>*>{{Role::phreatic, &request_.phreatic},
                                                             {Role::terrain, &request_.terrain},
@@ -130,11 +136,12 @@ class Import {
         const auto unit = unit_named(request_.unit);
         drawing_ = is_dxf(request_.drawing)
                        ? read_dxf(request_.drawing.bytes, map_, {unit, request_.flatten})
-                       : read_csv(request_.drawing.bytes, map_, unit.value_or(Unit{"m", 1.0}));
+                       : read_csv(request_.drawing.bytes, map_, unit);
         take(drawing_);
         result_.report["unit"] = drawing_.unit;
         result_.report["unit_from"] = !request_.unit.empty()     ? "asked"
                                       : is_dxf(request_.drawing) ? "drawing"
+                                      : drawing_.says_unit       ? "header"
                                                                  : "default";
         for (const auto& [layer, found] : drawing_.unknown)
             refuse(at_line(found.origin.line),
@@ -163,23 +170,39 @@ class Import {
             if (!by_layer.contains(each.layer)) order.push_back(each.layer);
             by_layer[each.layer].push_back(std::move(each));
         }
-        std::map<Role, std::vector<Outline>> lines;
         for (const std::string& layer : order) {
             const Meaning meaning = map_.meaning_of(layer);
             std::vector<Outline> whole = joined(std::move(by_layer[layer]), request_.tolerance);
             if (meaning.role == Role::soil) {
                 take_soils(std::move(whole), layer, meaning.material);
             } else {
-                for (Outline& each : whole) lines[meaning.role].push_back(std::move(each));
+                for (Outline& each : whole) drawn_lines_[meaning.role].push_back(std::move(each));
             }
         }
-        for (auto& [role, pieces] : lines)
-            take_line(joined(std::move(pieces), request_.tolerance), role, "");
         if (soils_.empty())
             refuse("drawing",
                    "there is no closed polyline on a layer with a material; the layers are " +
                        listed(drawing_.layers),
                    "map a layer to a material, or name layers as the materials are named");
+    }
+
+    void take_lines() {
+        for (auto& [role, pieces] : drawn_lines_)
+            take_line(joined(std::move(pieces), request_.tolerance), role, "");
+    }
+
+    /// Whether the section is higher than long, and nobody confirmed it.
+    bool is_turned() {
+        if (soils_.empty()) return false;
+        const geometry::Box box = geometry::extent(outlines_of(soils_));
+        const Vec2 size = box.high - box.low;
+        if (size.y() <= size.x()) return false;
+        ask_to_confirm("drawing",
+                       "the section is " + extent(size.x()) + " long and " + extent(size.y()) +
+                           " high: x and y look swapped, or the levels exaggerated",
+                       "give the distance along the section as x and the level as y, both to one "
+                       "scale");
+        return !request_.confirmed;
     }
 
     void take_soils(std::vector<Outline> outlines, const std::string& layer,
@@ -255,12 +278,11 @@ class Import {
                                                           : "ground";
         std::vector<Fault> none;
         const LayerMap own({layer + "=" + layer}, {}, none);
-        Drawing read =
-            read_csv(sent.bytes, own, unit_named(request_.unit).value_or(Unit{"m", 1.0}), layer);
+        Drawing read = read_csv(sent.bytes, own, unit_named(request_.unit), layer);
         for (Fault& each : read.faults) each.pointer = as_utf8(sent.name) + " " + each.pointer;
         const bool sound = read.faults.empty();
         take(read);
-        if (request_.unit.empty() && drawing_.unit != read.unit)
+        if (request_.unit.empty() && !read.says_unit && drawing_.unit != read.unit)
             remark(as_utf8(sent.name) + " was read in " + read.unit +
                    ", as nothing says otherwise, the drawing in " + drawing_.unit +
                    "; a unit that is asked for holds for both");
@@ -391,11 +413,6 @@ class Import {
                     (height < least ? " high only, read in " : " high, read in ") + drawing_.unit +
                     "; the section would be " + result_.report.at("other_units").get<std::string>(),
                 "say its unit: --unit m, cm, mm or ft");
-        if (size.y() > size.x())
-            ask_to_confirm("drawing",
-                           "the section is " + extent(size.x()) + " long and " + extent(size.y()) +
-                               " high: x and y look swapped",
-                           "give the distance along the section as x and the level as y");
         if (looks_upside_down(soils))
             ask_to_confirm(
                 "drawing",
@@ -524,6 +541,7 @@ class Import {
     LayerMap map_;
     std::vector<LayerRequest> layers_;
     Drawing drawing_;
+    std::map<Role, std::vector<Outline>> drawn_lines_;
     std::vector<Soil> soils_, drawn_;
     std::set<std::string> names_;
     Lines lines_;

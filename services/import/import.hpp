@@ -27,8 +27,8 @@ struct Request {
     std::vector<std::string> layers =
         {};  ///< "REGION=5,10,15": by depth below the phreatic line [m]
     std::optional<Sent> phreatic = {}, terrain = {}, ground = {};  ///< CSV with x, y
-    std::string unit = "";               ///< empty: the drawing's, metres for CSV
-    double tolerance = 0.05;             ///< nearer is meant to touch [m]
+    std::string unit = "";    ///< empty: that of the drawing or of the CSV's header, else metres
+    double tolerance = 0.05;  ///< nearer is meant to touch [m]
     std::optional<double> flatten = {};  ///< arcs become chords with at most this error [m]
     std::string name = "";               ///< of the scene; empty: of the file
     bool confirmed = false;              ///< sizes that look like a wrong unit are meant
@@ -36,7 +36,7 @@ struct Request {
 
 struct Imported {
     nlohmann::json scene;  ///< null when there are faults
-    /// unit, unit_from ("asked", "drawing", "default"), size [length, height, m], tolerance, healed,
+    /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m], tolerance, healed,
     /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
     nlohmann::json report;
     /// Unconfirmed sizes that look like a wrong unit; they are faults as well.

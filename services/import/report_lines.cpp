@@ -23,6 +23,7 @@ std::string unit_line(const json& report) {
     const std::string unit = report.at("unit"), from = report.at("unit_from");
     const char* why = from == "asked"     ? "as asked"
                       : from == "drawing" ? "the drawing's $INSUNITS"
+                      : from == "header"  ? "the table's header"
                                           : "metres, as nothing says otherwise";
     const json& size = report.at("size");
     return "read in " + unit + " (" + why + "): the section is " + extent(size[0]) + " long and " +

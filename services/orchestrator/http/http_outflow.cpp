@@ -74,6 +74,12 @@ void hydrograph(Service& service, Call& call) {
     const std::string target = call.parameter("for").value_or("json");
     if (target != "json" && target != "csv" && target != "hec-ras" && target != "flo-2d")
         throw bad_request("for must be json, csv, hec-ras or flo-2d");
+    if (target == "json" || target == "csv")
+        for (const char* each : {"interval", "cell", "concentration"})
+            if (call.parameter(each))
+                throw bad_request(std::string(each) + " has no effect on " + target +
+                                  ", which has the run's own times: leave it out, or ask for "
+                                  "hec-ras or flo-2d");
     const Task task = meant_task(service, call.parts[0], phases::mpm.program,
                                  call.number("transfer_time"), call.parameter("variant"));
     if (!has_output(task.state))

@@ -398,6 +398,7 @@ class StudyReader {
         const std::vector<VariantEntry> entries =
             accuracy_ ? variants_of(*accuracy_, base_.scene)
                       : wanted_variants(document_, study_.reach, base_.scene, faults_);
+        if (sound("overrides")) warn_about_overrides(document_, study_.warnings);
         check_lines(*scene_, study_, faults_);
         const std::vector<double>& times = study_.transfer_times;
         const bool late = fem() && !times.empty() && is_late(times.back(), *fem());

@@ -6,6 +6,8 @@
 
 #include "core/check/measured.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/criteria/ranges.hpp"
+#include "core/words/milliseconds.hpp"
 #include "core/words/number.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
@@ -65,6 +67,31 @@ std::vector<double> wanted_times(const json& entry, std::vector<Fault>& faults) 
     return times;
 }
 
+/// Warns of criteria that wait for a time after the FEM's end.
+void warn_about_late_criteria(const json& triggers, double span,
+                              std::vector<fault::Flag>& warnings) {
+    const auto range = [&](const std::string& field) {
+        return field == "time" ? criteria::Range{0.0, span} : criteria::Range{};
+    };
+    for (std::size_t i = 0; i < triggers.size(); ++i) {
+        if (!triggers[i].contains("when")) continue;
+        const std::string at = "/triggers/" + std::to_string(i) + "/when";
+        const std::string when = triggers[i]["when"];
+        try {
+            if (criteria::can_be_true(criteria::parse(when, criteria::Kind::condition, at), range))
+                continue;
+        } catch (const BadInput&) {
+            continue;  // check_triggers adds that fault
+        }
+        warnings.push_back({"late_criterion", fault::Severity::warning,
+                            "\"" + when + "\" is never true: the FEM ends at " +
+                                words::text_of(span, 9) +
+                                " s, so this trigger makes no transfer. Write an earlier time, or "
+                                "lengthen /scene/fem/stages",
+                            at});
+    }
+}
+
 /// Fields that a condition names; none where it cannot be read: check_triggers adds that fault.
 std::vector<std::string> fields_of(const std::string& condition) {
     try {
@@ -90,11 +117,13 @@ void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<Fault>& faults) {
     if (times.empty()) return;
     if (is_late(times.back(), fem)) {
-        faults.push_back({"/transfer_times",
-                          "the transfer at " + words::text_of(times.back(), 9) +
-                              " s comes after the end of the dynamic stages at " +
-                              words::text_of(dynamic_duration(fem), 9) + " s",
-                          "transfer earlier or lengthen /scene/fem/stages"});
+        const std::string in_ms = words::seconds_remedy(times.back(), dynamic_duration(fem));
+        faults.push_back(
+            {"/transfer_times",
+             "the transfer at " + words::text_of(times.back(), 9) +
+                 " s comes after the end of the dynamic stages at " +
+                 words::text_of(dynamic_duration(fem), 9) + " s",
+             in_ms.empty() ? "transfer earlier or lengthen /scene/fem/stages" : in_ms});
     }
 }
 
@@ -133,6 +162,7 @@ void read_transfers(const json& document, const scene::Fem* fem, Study& study,
     const std::size_t before = faults.size();
     const double span = fem ? dynamic_duration(*fem) : unknown_span;
     CheckedTriggers checked = check_triggers(document["triggers"], span, "/triggers", faults);
+    if (fem) warn_about_late_criteria(document["triggers"], span, study.warnings);
     std::vector<double> times;
     const auto take = [&](const json& entry) {
         const std::vector<double> more = wanted_times(entry, faults);

@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "core/scene/schema.hpp"
 #include "core/statistics/points.hpp"
 #include "core/words/number.hpp"
 #include "core/words/words.hpp"
@@ -118,6 +119,8 @@ class ParameterReader {
             if (!is_pointer(pointer)) {
                 fault(below, in_quotes(pointer) + " is no JSON pointer",
                       "name an entry of the scene, like /materials/tailings/viscosity");
+            } else if (auto missing = scene::missing_parent(scene_, pointer)) {
+                fault(below, pointer + ": " + missing->cause, missing->remedy);
             } else if (key == "factor_on") {
                 check_factor(below, pointer);
             }
@@ -244,7 +247,9 @@ class ParameterReader {
         for (std::size_t i = 0; i < options.size(); ++i) {
             parameter_.choices.push_back(
                 {.name = "option " + std::to_string(i + 1), .overrides = options[i]});
-            for (std::size_t k = 0; k < options[i].size(); ++k) add_entry_of(options[i][k], i, k);
+            json changed = scene_;
+            for (std::size_t k = 0; k < options[i].size(); ++k)
+                add_entry_of(options[i][k], i, k, changed);
         }
         read_list("names", [](Choice& choice, const json& name) { choice.name = name; });
         read_list("weights", [](Choice& choice, const json& weight) { choice.weight = weight; });
@@ -259,13 +264,17 @@ class ParameterReader {
         }
     }
 
-    void add_entry_of(const std::string& override_, std::size_t option, std::size_t place) {
+    void add_entry_of(const std::string& override_, std::size_t option, std::size_t place,
+                      json& changed) {
         const std::string pointer = override_.substr(0, override_.find('='));
         if (!is_pointer(pointer) || pointer.size() == override_.size()) {
             fault("/one_of/" + std::to_string(option) + "/" + std::to_string(place),
                   in_quotes(override_) + " is no assignment", "write \"/json/pointer=value\"");
             return;
         }
+        for (const Fault& each : scene::apply_override(changed, override_))
+            fault("/one_of/" + std::to_string(option) + "/" + std::to_string(place),
+                  each.pointer + ": " + each.cause, each.remedy);
         if (std::ranges::find(parameter_.entries, pointer) == parameter_.entries.end())
             parameter_.entries.push_back(pointer);
     }

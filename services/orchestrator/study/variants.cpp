@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <future>
+#include <map>
 #include <set>
 #include <thread>
 
@@ -128,6 +129,36 @@ std::vector<VariantEntry> own_variants(const json& document) {
     if (!own.empty() || document["variants"].empty() || !document.contains(kept_variants))
         return own;
     return own_among(document[kept_variants], std::string("/") + kept_variants);
+}
+
+void warn_about_overrides(const json& document, std::vector<Flag>& warnings) {
+    const auto warn_about_one = [&](const std::vector<std::string>& overrides,
+                                    const std::string& pointer) {
+        std::map<std::string, std::string> values;
+        for (const std::string& each : overrides) {
+            const std::string entry = each.substr(0, each.find('='));
+            const std::string value = each.substr(std::min(entry.size() + 1, each.size()));
+            const auto [known, is_new] = values.try_emplace(entry, value);
+            if (is_new || known->second == value || entry.ends_with("/-")) continue;
+            warnings.push_back({"overridden_twice", fault::Severity::warning,
+                                "sets " + entry + " to " + known->second + " and to " + value +
+                                    ": the last value holds. Keep one of them",
+                                pointer});
+            known->second = value;
+        }
+    };
+    warn_about_one(document["overrides"], "/overrides");
+    std::map<std::vector<std::string>, std::string> names;
+    for (const VariantEntry& each : own_variants(document)) {
+        warn_about_one(each.overrides, each.pointer);
+        const auto [known, is_new] = names.try_emplace(each.overrides, each.name);
+        if (!is_new)
+            warnings.push_back({"equal_variants", fault::Severity::warning,
+                                "variants \"" + known->second + "\" and \"" + each.name +
+                                    "\" have the same overrides, hence the same results. Leave one "
+                                    "of them out",
+                                each.pointer});
+    }
 }
 
 std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, const json& scene,

@@ -27,6 +27,10 @@ inline constexpr const char* kept_variants =
 /// The variants that the study itself defines; generated ones are made anew.
 std::vector<VariantEntry> own_variants(const nlohmann::json& document);
 
+/// Warns of an entry that one list of overrides sets twice to different values, and of variants with
+/// equal overrides.
+void warn_about_overrides(const nlohmann::json& document, std::vector<fault::Flag>& warnings);
+
 /// With as many lattices as the study requests.
 std::vector<VariantEntry> wanted_variants(const nlohmann::json& document, Reach reach,
                                           const nlohmann::json& scene,

@@ -12,7 +12,7 @@ const properties = {
 };
 const pieces = (text) => (text ?? "").split(";").map((each) => each.trim()).filter(Boolean);
 
-const unit_sources = { asked: "as asked", drawing: "the drawing's $INSUNITS", default: "metres, as nothing says otherwise" };
+const unit_sources = { asked: "as asked", drawing: "the drawing's $INSUNITS", header: "the table's header", default: "metres, as nothing says otherwise" };
 
 /// What the service took, healed and took upon itself, as one line.
 function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [] }) {

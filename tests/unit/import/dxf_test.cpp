@@ -166,14 +166,14 @@ TEST(Csv, RegionsAreReadWithTheirUnitsAndSeparators) {
     const Drawing plain = read_csv(
         "# a dam\nregion,x,y\nclay,0,0\nclay,4,0\nclay,4,4\nclay,0,0\n\n"
         "clay,5,0\nclay,6,0\nclay,6,1\nPHREATIC,0,3\nPHREATIC,9,2\n",
-        layers, {"m", 1.0});
+        layers, Unit{"m", 1.0});
     EXPECT_EQ(test::told(plain.faults), "");
     ASSERT_EQ(plain.outlines.size(), 3u);
     EXPECT_EQ(plain.outlines[0].points, (Line{{0, 0}, {4, 0}, {4, 4}}));
     EXPECT_EQ(plain.outlines[0].origin.line, 3u);
     EXPECT_FALSE(plain.outlines[2].closed);
     const Drawing decimal =
-        read_csv("y;x;region\r\n0,5;1,5;clay\r\n1;2;clay\r\n", layers, {"ft", 0.3048});
+        read_csv("y;x;region\r\n0,5;1,5;clay\r\n1;2;clay\r\n", layers, Unit{"ft", 0.3048});
     ASSERT_EQ(decimal.outlines.size(), 1u);
     EXPECT_EQ(decimal.outlines[0].points[0], Vec2(1.5 * 0.3048, 0.5 * 0.3048));
 }
@@ -182,19 +182,19 @@ TEST(Csv, EveryBadRowIsReportedByItsLine) {
     std::vector<Fault> faults;
     const LayerMap layers({}, {"clay"}, faults);
     const Drawing drawing = read_csv(
-        "region,x,y\nclay,0,0\nclay,nan,1\nclay,1\nclay,1e99,2\n,3,4\n", layers, {"m", 1.0});
+        "region,x,y\nclay,0,0\nclay,nan,1\nclay,1\nclay,1e99,2\n,3,4\n", layers, Unit{"m", 1.0});
     ASSERT_EQ(drawing.faults.size(), 4u) << test::told(drawing.faults);
     EXPECT_EQ(drawing.faults[0].pointer, "line 3");
     EXPECT_EQ(drawing.faults[3].pointer, "line 6");
-    EXPECT_EQ(read_csv("a,b\n1,2\n", layers, {"m", 1.0}).faults.size(), 1u);
-    EXPECT_EQ(read_csv("", layers, {"m", 1.0}).faults.size(), 1u);
+    EXPECT_EQ(read_csv("a,b\n1,2\n", layers, Unit{"m", 1.0}).faults.size(), 1u);
+    EXPECT_EQ(read_csv("", layers, Unit{"m", 1.0}).faults.size(), 1u);
 }
 
 TEST(Csv, AHeaderWithTwoColumnsOfOneMeaningIsRefused) {
     std::vector<Fault> faults;
     const LayerMap layers({"phreatic=phreatic"}, {"clay"}, faults);
     const auto of = [&](const std::string& text, const std::string& alone = "") {
-        return read_csv(text, layers, {"m", 1.0}, alone);
+        return read_csv(text, layers, Unit{"m", 1.0}, alone);
     };
     const Drawing levels = of("x,y,z\n0,9,0\n5,8,0\n", "phreatic");
     ASSERT_EQ(levels.faults.size(), 1u) << test::told(levels.faults);
@@ -218,7 +218,7 @@ TEST(Csv, DecimalCommasBetweenCommasAreRefused) {
     std::vector<Fault> faults;
     const LayerMap layers({}, {"clay"}, faults);
     const Drawing drawing = read_csv(
-        "region,x,y\nclay,20,5,20,0\nclay,4,0,\nclay,4,4\nclay,0,4,,\n", layers, {"m", 1.0});
+        "region,x,y\nclay,20,5,20,0\nclay,4,0,\nclay,4,4\nclay,0,4,,\n", layers, Unit{"m", 1.0});
     ASSERT_EQ(drawing.faults.size(), 1u) << test::told(drawing.faults);
     EXPECT_EQ(drawing.faults[0].pointer, "line 2");
     EXPECT_NE(drawing.faults[0].cause.find("has 5 fields, and the header names 3"),

@@ -233,6 +233,47 @@ TEST(Import, TheReportBeginsWithTheUnitItsSourceAndTheSizeThatCameOfIt) {
     EXPECT_EQ(imported.report.at("size"), json::parse("[1500.0, 260.0]"));
 }
 
+TEST(Import, AHeaderSaysTheUnitOfItsTable) {
+    const auto table = [](const std::string& header) {
+        return test::request(header + "\nclay,0,0\nclay,150,0\nclay,70,26\nclay,0,26\n", "dam.csv");
+    };
+    for (const char* header : {"region,x_ft,y_ft", "region,x (ft),y (ft)",
+                               "region,X [feet],Y [feet]", "region,x ft,z ft"}) {
+        const Imported imported = import_section(table(header));
+        EXPECT_EQ(test::told(imported.faults), "") << header;
+        EXPECT_EQ(lines_of(imported.report, 5).at(0),
+                  "read in ft (the table's header): the section is 45.7 m long and 7.92 m high");
+    }
+    Request asked = table("region,x_m,y_m");
+    asked.unit = "m";
+    EXPECT_EQ(import_section(asked).report.at("size"), json::parse("[150.0, 26.0]"));
+    asked.unit = "ft";
+    const auto told = [](const Request& request) {
+        return test::told(import_section(request).faults);
+    };
+    EXPECT_NE(
+        told(asked).find("the header says that x and y are in m, and the unit asked for is ft"),
+        std::string::npos)
+        << told(asked);
+    EXPECT_NE(told(table("region,x_ft,y_m")).find("x in ft and y in m"), std::string::npos);
+    EXPECT_NE(told(table("region,x_ft,y")).find("x in ft and y without a unit"), std::string::npos);
+    EXPECT_NE(told(table("region,x (rod),y (rod)")).find("\"rod\" in the header is no unit"),
+              std::string::npos);
+    EXPECT_EQ(told(table("region,x,y,x_offset")), "");
+    Request both = table("region,x_ft,y_ft");
+    both.phreatic = {"water.csv", "x_m,y_m\n0,5\n45,0\n"};
+    const Imported imported = import_section(both);
+    EXPECT_EQ(imported.scene.at("lem").at("water").at("line"),
+              json::parse("[[0.0,5.0],[45.0,0.0]]"));
+    EXPECT_EQ(imported.report.at("remarks").dump().find("water.csv was read"), std::string::npos);
+}
+
+TEST(Import, AFaultNamesTheEncodingOfAWideText) {
+    const std::string utf16("\xFF\xFEr\0e\0", 6);
+    EXPECT_EQ(test::told(import_section(test::request(utf16, "dam.csv")).faults),
+              "line 1: is UTF-16 text | save it as UTF-8 (iconv -f UTF-16 -t UTF-8 FILE)\n");
+}
+
 TEST(Import, ALineInAnotherUnitThanTheDrawingIsReported) {
     Request request = test::request(dxf(light("CLAY", {{0, 0}, {150, 0}, {70, 26}, {0, 26}}), 2));
     request.phreatic = {"water.csv", "x,y\n0,5\n45,0\n"};
@@ -400,13 +441,15 @@ TEST(Import, SwappedAxesAndDepthsForLevelsAreAskedFor) {
         };
         const Imported imported = import_section(test::request(
             dxf(light("ROCK", changed(test::rock)) + light("CLAY", changed(test::clay)) +
-                light("TAILINGS", changed(test::tailings)))));
+                light("TAILINGS", changed(test::tailings)) +
+                light("PHREATIC", changed({{0, 9}, {40, 8}, {80, 0}, {120, 0}}), false))));
+        EXPECT_EQ(test::told(imported.faults), test::told(imported.to_confirm));
         return test::told(imported.to_confirm);
     };
     EXPECT_EQ(cause([](const Vec2& v) { return v; }), "");
-    EXPECT_NE(cause([](const Vec2& v) {
-                  return Vec2(v.y(), v.x());
-              }).find("the section is 22 m long and 120 m high: x and y look swapped"),
+    EXPECT_NE(cause([](const Vec2& v) { return Vec2(v.y(), v.x()); })
+                  .find("the section is 22 m long and 120 m high: x and y look swapped, or the "
+                        "levels exaggerated"),
               std::string::npos);
     EXPECT_NE(cause([](const Vec2& v) {
                   return Vec2(v.x(), 12.0 - v.y());

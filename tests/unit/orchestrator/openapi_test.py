@@ -256,6 +256,7 @@ class Described(Api):
         get("/v1/runs/{id}/telemetry", f"/v1/runs/{run}/telemetry")
         get("/v1/runs/{id}/envelopes", f"/v1/runs/{run}/envelopes")
         get("/v1/runs/{id}/hydrograph", f"/v1/runs/{run}/hydrograph?for=paper", 400)
+        get("/v1/runs/{id}/hydrograph", f"/v1/runs/{run}/hydrograph?for=csv&interval=60", 400)
         get("/v1/runs/{id}/triggers", f"/v1/runs/{run}/triggers")
         get("/v1/sweeps/{id}", f"/v1/sweeps/{run}")
         get("/v1/tasks/{id}", f"/v1/tasks/{task}")

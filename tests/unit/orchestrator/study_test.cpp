@@ -81,6 +81,19 @@ TEST(Study, TransferAfterTheEndOfTheFemIsRefused) {
     json study = slope_study();
     study["transfer_times"] = {1.0, 3.5};  // the scene's dynamic stage lasts 3 s
     EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/transfer_times"});
+    const auto remedy = [](const json& asked) {
+        try {
+            read_study(asked.dump());
+        } catch (const fault::BadInput& error) {
+            return error.faults().at(0).remedy;
+        }
+        return std::string();
+    };
+    study["transfer_times"] = {2000};
+    EXPECT_EQ(remedy(study), "times are in seconds: for 2000 ms, write 2");
+    study["transfer_times"] = {1.0};
+    study["scene"]["fem"]["snapshot_times"] = {2000};
+    EXPECT_EQ(remedy(study), "times are in seconds: for 2000 ms, write 2");
 }
 
 TEST(Study, AllFaultsOfStudyAndSceneAreReportedAtOnceWithPointersIntoTheStudy) {
@@ -151,6 +164,34 @@ TEST(Study, AVariantThatEndsBeforeItsTransfersIsRefused) {
         json::array({{{"name", "long"}, {"overrides", json::array()}},
                      {{"name", "short"}, {"overrides", {"/fem/stages/1/duration=0.75"}}}});
     EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/variants/1/overrides"});
+}
+
+TEST(Study, OverridesThatContradictOrRepeatEachOtherAndLateCriteriaAreWarnedOf) {
+    json study = slope_study();
+    study["overrides"] = {"/mpm/cfl=0.5", "/mpm/cfl=0.3"};
+    study["variants"] = json::array({{{"name", "a"}, {"overrides", {"/mpm/duration=30"}}},
+                                     {{"name", "b"}, {"overrides", {"/mpm/duration=30"}}}});
+    study["triggers"] =
+        json::array({{{"kind", "criterion"}, {"name", "never"}, {"when", "time > 100"}},
+                     {{"kind", "criterion"}, {"name", "ever"}, {"when", "time > 0.5"}}});
+    std::string told;
+    for (const auto& each : read_study(study.dump()).warnings)
+        told += each.code + " " + each.pointer + ": " + each.message + "\n";
+    for (const char* each :
+         {"overridden_twice /overrides: sets /mpm/cfl to 0.5 and to 0.3: the last value holds",
+          "equal_variants /variants/1/overrides: variants \"a\" and \"b\" have the same overrides",
+          "late_criterion /triggers/0/when: \"time > 100\" is never true: the FEM ends at "})
+        EXPECT_NE(told.find(each), std::string::npos) << each << "\n" << told;
+    EXPECT_EQ(told.find("/triggers/1"), std::string::npos) << told;
+}
+
+TEST(Study, OverridesOfAMaterialOrStageThatIsNotThereAreRefusedInOneFault) {
+    json study = slope_study();
+    study["overrides"] = {"/materials/slope_soli/law/c_kPa=5"};
+    EXPECT_EQ(pointers_of_faults(study),
+              std::vector<std::string>{"/scene/materials/slope_soli/law/c_kPa"});
+    study["overrides"] = {"/fem/stages/7/duration=2"};
+    EXPECT_EQ(pointers_of_faults(study), std::vector<std::string>{"/scene/fem/stages/7/duration"});
 }
 
 TEST(Study, ARelativeFileIsRefusedInOverridesAsWell) {

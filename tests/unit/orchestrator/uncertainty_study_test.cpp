@@ -211,7 +211,10 @@ TEST(UncertaintyStudy, RefusesEntriesThatTheSceneDoesNotHave) {
     refusal(with(factor), second + "/factor_on/0");
     factor.erase("factor_on");
     factor["sets"] = {"/materials/clay/viscosity"};
-    EXPECT_NE(refusal(with(factor), second).cause.find("clay"), std::string::npos);
+    factor["sets"] = {"/materials/sans/viscosity"};
+    const fault::Fault misspelt = refusal(with(factor), second + "/sets/0");
+    EXPECT_NE(misspelt.cause.find("there is no material \"sans\""), std::string::npos);
+    EXPECT_EQ(misspelt.remedy, "did you mean \"sand\"?");
 }
 
 TEST(UncertaintyStudy, ReportsAValueThatTheSceneRefusesOnceAtItsParameter) {

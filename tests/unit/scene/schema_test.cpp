@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/words/encoding.hpp"
+
 namespace {
 
 using breach::fault::BadInput;
@@ -95,9 +97,28 @@ TEST(StrictJson, NamesUtf16) {
             parse_json(text, "x");
             ADD_FAILURE();
         } catch (const BadInput& bad) {
-            EXPECT_EQ(bad.faults().at(0).cause, "is UTF-16 text, and JSON is UTF-8");
+            EXPECT_TRUE(bad.faults().at(0).cause.starts_with("is UTF-16"));
         }
     EXPECT_NO_THROW(parse_json("\xEF\xBB\xBF{}", "x"));  // the mark of UTF-8
+}
+
+TEST(StrictJson, NamesOtherEncodingsWithARemedyAndEchoesNoRawByte) {
+    const auto told = [](const std::string& text) {
+        try {
+            parse_json(text, "x");
+        } catch (const BadInput& bad) {
+            return bad.faults().at(0).cause + " | " + bad.faults().at(0).remedy;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(told("{\n\"B\xF6schung\": 1}"),
+              "is not UTF-8 text (line 2): it looks like Latin-1 (ISO-8859-1) | save it as UTF-8 "
+              "(iconv -f ISO-8859-1 -t UTF-8 FILE)");
+    EXPECT_NE(told(std::string("\xFF\xFE\0\0{\0\0\0", 8)).find("iconv -f UTF-32 "),
+              std::string::npos);
+    EXPECT_NE(told(std::string("{\0\0\0}\0\0\0", 8)).find("iconv -f UTF-32LE "), std::string::npos);
+    EXPECT_NE(told(std::string("\x1F\x8B\x08\0", 4)).find("it is no text"), std::string::npos);
+    EXPECT_EQ(breach::words::first_not_utf8(told("{\xC3\xB6}")), std::string::npos);
 }
 
 TEST(Override, SetsNumbersWordsAndNewKeys) {
@@ -106,6 +127,35 @@ TEST(Override, SetsNumbersWordsAndNewKeys) {
     EXPECT_TRUE(apply_override(document, "/a/word=fast").empty());
     EXPECT_TRUE(apply_override(document, "/list=[3]").empty());
     EXPECT_EQ(document, json::parse(R"({"a": {"b": 2.5, "word": "fast"}, "list": [3]})"));
+}
+
+TEST(Override, NamesTheNearMaterialOrTheLengthOfTheListThatItMisses) {
+    json document = json::parse(
+        R"({"materials": {"slope_soil": {"density": 1}}, "fem": {"stages": [{}, {}, {}]}})");
+    const json before = document;
+    const auto told = [&](const std::string& assignment) {
+        std::string all;
+        for (const auto& each : apply_override(document, assignment))
+            all += each.pointer + ": " + each.cause + " | " + each.remedy;
+        return all;
+    };
+    EXPECT_EQ(told("/materials/slope_soli/law/c_kPa=5"),
+              "/materials/slope_soli/law/c_kPa: there is no material \"slope_soli\" | did you mean "
+              "\"slope_soil\"?");
+    EXPECT_EQ(told("/materials/clay/density=5"),
+              "/materials/clay/density: there is no material \"clay\" | the materials are "
+              "slope_soil; give a new one as a whole: /materials/clay={...}");
+    for (const char* place : {"7", "3", "99999999999999999999"})
+        EXPECT_NE(told("/fem/stages/" + std::string(place) + "/duration=1")
+                      .find("/fem/stages has 3 stages, 0 to 2"),
+                  std::string::npos);
+    EXPECT_EQ(document, before);
+    EXPECT_EQ(told("/materials/clay={\"density\": 2}"), "");
+    EXPECT_EQ(told("/materials/clay/density=3"), "");
+    EXPECT_EQ(told("/fem/stages/-={}"), "");
+    EXPECT_EQ(told("/fem/stages/4={}"), "");
+    EXPECT_EQ(told("/fem/stages/4/duration=2"), "");
+    EXPECT_EQ(told("/lem/non_circular/vertices=13"), "");
 }
 
 TEST(Override, SaysWhatIsWrongWithAnAssignment) {
