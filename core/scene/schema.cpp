@@ -338,8 +338,8 @@ json parse_json(std::string_view text, const std::string& file) {
     try {
         document = json::parse(text, watch);
     } catch (const json::exception& error) {
-        throw fault::BadInput(
-            file, {{"", "is not valid JSON: " + words_of(error), "correct the text at this place"}});
+        throw fault::BadInput(file, {{"", "is not valid JSON: " + words_of(error),
+                                      "correct the text at this place"}});
     }
     if (!faults.empty()) throw fault::BadInput(file, faults);
     return document;

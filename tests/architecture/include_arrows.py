@@ -45,7 +45,7 @@ arrows = {
     "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
-    "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene"},
+    "services/import": {"core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene", "core/words"},
     "services/verify": {"services/report", "core/check", "core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
     "services/report": {"services/findings", "services/outflow", "core/check", "core/command", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry", "core/version"},
 }
