@@ -763,6 +763,7 @@ test("telemetry of a finished variant is its own; a running one among several sa
     await page.selectOption("#telemetry-source", { label: "MPM from t_T = 2 s, not-softened" });
     await until("curves", async () => (await page.locator("#telemetry-plots .curve").count()) > 8);
     await open_run(api.add_run(two_variants, { pace: 600, began: Date.now() - 400000 }).id);
+    await until("its sources", async () => (await page.locator("#telemetry-source option").count()) > 0);
     const running = await page.locator("#telemetry-source option").evaluateAll((all) => all.at(-1).value);
     await page.selectOption("#telemetry-source", running);
     await until("the reason", async () => /variants apart only when/.test(await text_of("#telemetry-message")));

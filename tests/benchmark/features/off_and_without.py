@@ -86,7 +86,7 @@ EDITS = {
          "            internal_force_.add_viscous_force(1.0, trial.v, viscous_);\n            R_u_ -= viscous_;\n        }\n", ""),
         ("laws with memory", NEWTON, "    const bool of_ends = !problem.old.memory.empty();\n", "    constexpr bool of_ends = false;\n"),
         ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n"
-         "        // The first one, whatever threads there are: nothing behind a known one counts.\n"
+         "        // The first one, for any number of threads: nothing behind a known one counts.\n"
          "        std::atomic<std::size_t> first = elements;\n"
          "        for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {\n"
          "            for (std::size_t e = begin; e < end && e < first; ++e) {\n"
