@@ -357,7 +357,7 @@ std::optional<Fault> missing_parent(const json& document, const std::string& poi
                 return std::nullopt;
             const std::size_t place = token.size() > 9 ? 999'999'999 : std::stoul(token);
             const std::size_t size = at->size();
-            if (place > size || (place == size && !is_last)) {
+            if (place > size) {
                 const std::string name = path.substr(path.rfind('/') + 1);
                 const std::string entries = name.ends_with('s') ? name : "entries";
                 return Fault{pointer,
@@ -367,7 +367,7 @@ std::optional<Fault> missing_parent(const json& document, const std::string& poi
                                                   std::to_string(size - 1)),
                              "name one that exists, or append one as a whole: " + path + "/-=..."};
             }
-            if (place == size) return std::nullopt;
+            if (place == size) return std::nullopt;  // one more, perhaps entry by entry
             at = &(*at)[place];
         } else if (at->is_object()) {
             const auto found = at->find(token);

@@ -145,13 +145,14 @@ TEST(Override, NamesTheNearMaterialOrTheLengthOfTheListThatItMisses) {
     EXPECT_EQ(told("/materials/clay/density=5"),
               "/materials/clay/density: there is no material \"clay\" | the materials are "
               "slope_soil; give a new one as a whole: /materials/clay={...}");
-    for (const char* place : {"7", "3", "99999999999999999999"})
+    for (const char* place : {"7", "4", "99999999999999999999"})
         EXPECT_NE(told("/fem/stages/" + std::string(place) + "/duration=1")
                       .find("/fem/stages has 3 stages, 0 to 2"),
                   std::string::npos);
     EXPECT_EQ(document, before);
     EXPECT_EQ(told("/materials/clay={\"density\": 2}"), "");
     EXPECT_EQ(told("/materials/clay/density=3"), "");
+    EXPECT_EQ(told("/fem/stages/3/duration=1"), "") << "one more, entry by entry";
     EXPECT_EQ(told("/fem/stages/-={}"), "");
     EXPECT_EQ(told("/fem/stages/4={}"), "");
     EXPECT_EQ(told("/fem/stages/4/duration=2"), "");
