@@ -471,15 +471,18 @@ Recording read_two_columns(std::istream& in, const std::string& name) {
     Samples samples;
     Values values;
     std::optional<Unit> unit;
-    bool headed = false;
+    bool may_be_header = true;
     for (std::string line; lines.next(line);) {
         if (line.empty()) continue;
-        if (line.front() == '#')
+        if (line.front() == '#') {
             take_unit(unit, line.substr(1), name, lines.number);
-        else if (samples.time.empty() && !headed && (headed = is_header(line)))
+            continue;
+        }
+        if (may_be_header && is_header(line))
             take_unit_of_header(unit, line, name, lines.number);
         else
             add_sample(samples, values.of(line), name, lines.number);
+        may_be_header = false;
     }
     const Unit of_values = unit.value_or(Unit{Quantity::acceleration, standard_gravity});
     return {of_values.quantity, series_from(samples, of_values.factor, name, lines.number), name};

@@ -374,9 +374,7 @@ class Comment {
             look_at_column(text);
         else if (const auto unit = unit_of(text))
             look_at_unit(i, *unit);
-        else if (before(i) == "IN" && looks_like_unit(text))
-            refuse(text);
-        else if (names_any(before(i)) && looks_like_unit(text))
+        else if ((before(i) == "IN" || names_any(before(i))) && looks_like_unit(text))
             refuse(text);
     }
 
