@@ -145,7 +145,7 @@ def fem_off(folder):
 
 
 SCENES = {"mpm_solver": mpm_off, "fem_solver": fem_off}
-KEPT = ("CMakeLists.txt", "CMakePresets.json", "core", "fem_solver", "lem_tool", "mpm_solver", "transfer_tool", "services", "tests", "workflows", "deploy")
+NOT_COPIED = ("build", ".git")
 
 
 def build(folder, program):
@@ -157,7 +157,7 @@ def build(folder, program):
 
 
 def copy_sources(folder):
-    for name in KEPT:
+    for name in (each.name for each in root.iterdir() if each.name not in NOT_COPIED):
         if (root / name).is_dir():
             shutil.copytree(root / name, folder / name, dirs_exist_ok=True)
         else:
