@@ -4,8 +4,8 @@
 
 #include "core/check/findings.hpp"
 #include "core/check/recordings.hpp"
-#include "core/geometry/polygon.hpp"
 #include "core/scene/reading.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/scene/schema.hpp"
 
 namespace breach::check {
@@ -36,12 +36,9 @@ Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
 /// A model of 10 cm has cells of millimetres: cells that fit the section are no slip of the unit.
 static void drop_warnings_of_fitting_cells(scene::Scene& scene) {
     if (!scene.mpm || !has_soil(scene)) return;
-    double area = 0.0;
-    for (const scene::Region& region : scene.section.regions)
-        area += geometry::area(region.polygon);
-    const double cells = area / (scene.mpm->cell_size * scene.mpm->cell_size);
-    constexpr double fewest = 50.0, most = 2.5e5;
-    if (cells < fewest || cells > most) return;
+    const double h = scene.mpm->cell_size, cells = scene::area_of_section(scene) / (h * h);
+    constexpr double fewest = 50.0;
+    if (cells < fewest || cells > scene::most_cells) return;
     std::erase_if(scene.warnings, [](const fault::Flag& each) {
         return each.code == "implausible" && each.pointer == "/mpm/cell_size";
     });

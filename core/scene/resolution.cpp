@@ -85,17 +85,15 @@ std::optional<Across> coarsest_place(const Scene& scene) {
 
 /// Finer than anybody waits for: a slip of the unit, as a rule.
 void judge_fine_cells(const Scene& scene, Resolved& resolved) {
-    constexpr double most = 2.5e5;
-    double area = 0.0;
-    for (const Region& region : scene.section.regions) area += geometry::area(region.polygon);
+    const double area = area_of_section(scene);
     const double h = scene.mpm->cell_size, cells = area / (h * h);
-    if (cells <= most) return;
+    if (cells <= most_cells) return;
     resolved.flags.push_back(
         {"implausible", fault::Severity::warning,
          text_of(h) + " m fills the section with " + std::to_string(std::lround(cells)) +
              " cells, and the time to compute grows with the third power of their number across: "
              "cells of " +
-             rounded_down(std::sqrt(area / (0.1 * most))) + " m have a tenth of that",
+             rounded_down(std::sqrt(area / (0.1 * most_cells))) + " m have a tenth of that",
          "/mpm/cell_size"});
 }
 
@@ -370,6 +368,18 @@ geometry::Box mobile_extent(const Scene& scene, const Mpm& mpm) {
     for (const Region& region : scene.section.regions)
         if (is_mobile(region, mpm)) mobile.push_back(&region.polygon);
     return geometry::extent(mobile);
+}
+
+std::string why_enough_upstream() {
+    return "from " + text_of(enough_heights_upstream) +
+           " heights upstream of the crest on, a longer section changed Mochikoshi's runout by "
+           "less than 5 %";
+}
+
+double area_of_section(const Scene& scene) {
+    double area = 0.0;
+    for (const Region& region : scene.section.regions) area += geometry::area(region.polygon);
+    return area;
 }
 
 double mobile_height(const Scene& scene, const Mpm& mpm) {

@@ -46,6 +46,13 @@ double mobile_height(const Scene& scene, const Mpm& mpm);
 /// Heights of the dam that the soil goes on upstream of the crest, from where a longer section changed
 /// Mochikoshi's runout by less than 5 % (docs/verification/mochikoshi_authors.md; its 317 m are 10.8).
 inline constexpr double enough_heights_upstream = 10.5;
+/// The same in words: "from 10.5 heights upstream of the crest on, ...".
+std::string why_enough_upstream();
+
+/// Of all regions together [m2].
+double area_of_section(const Scene& scene);
+/// Of the MPM over that area; more take longer than anybody waits.
+inline constexpr double most_cells = 2.5e5;
 
 struct Resolved {
     std::vector<fault::Fault> faults;

@@ -123,9 +123,7 @@ std::optional<fault::Flag> upstream_wall(const scene::Fem& fem, const Model& mod
     if (heights >= scene::enough_heights_upstream)
         return fault::Flag{"upstream_wall", fault::Severity::warning,
                            fact + ". The soil goes on " + words::text_of(heights, 2) +
-                               " heights upstream of the crest; from " +
-                               words::text_of(scene::enough_heights_upstream, 3) +
-                               " on, a longer section changed Mochikoshi's runout by less than 5 %",
+                               " heights upstream of the crest; " + scene::why_enough_upstream(),
                            "/section/regions"};
     return fault::Flag{
         "upstream_wall", fault::Severity::questionable,

@@ -142,19 +142,15 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
     if (pond >= scene::enough_heights_upstream * H)
         return Flag{"upstream_wall", Severity::warning,
                     fact + "; the soil goes on " + text_of(pond / H, 2) +
-                        " heights upstream of the crest, and from " +
-                        text_of(scene::enough_heights_upstream, 3) +
-                        " on Mochikoshi's runout changed by less than 5 %",
+                        " heights upstream of the crest; " + scene::why_enough_upstream(),
                     "/section/regions"};
-    return Flag{
-        "upstream_wall", Severity::questionable,
-        fact +
-            ": the section is too short, soil that would have followed is missing, and "
-            "the runout is too short (unsafe); draw the section and begin domain_x " +
-            text_of(std::ceil(scene::enough_heights_upstream * H - pond)) +
-            " m farther upstream: from " + text_of(scene::enough_heights_upstream, 3) +
-            " heights upstream of the crest on Mochikoshi's runout changed by less than 5 %",
-        "/section/regions"};
+    return Flag{"upstream_wall", Severity::questionable,
+                fact +
+                    ": the section is too short, soil that would have followed is missing, and "
+                    "the runout is too short (unsafe); draw the section and begin domain_x " +
+                    text_of(std::ceil(scene::enough_heights_upstream * H - pond)) +
+                    " m farther upstream: " + scene::why_enough_upstream(),
+                "/section/regions"};
 }
 
 }  // namespace
