@@ -131,16 +131,19 @@ static double depth_of_water(const scene::GroundWater& water, const Vec2& x) {
     return level_at(water.line, x.x()) - x.y();
 }
 
+static double pressure_at(const scene::GroundWater& water, double gravity, double depth) {
+    return water.density * gravity * std::max(0.0, depth);
+}
+
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x) {
-    return water.density * gravity * std::max(0.0, depth_of_water(water, x));
+    return pressure_at(water, gravity, depth_of_water(water, x));
 }
 
 /// What the two nodes of an edge carry of the water on it, per area [Pa].
 static std::array<double, 2> carried(const scene::GroundWater& water, double gravity,
                                      const Vec2& x_a, const Vec2& x_b) {
-    const double p_a = pond_pressure(water, gravity, x_a);
-    const double p_b = pond_pressure(water, gravity, x_b);
     const double a = depth_of_water(water, x_a), b = depth_of_water(water, x_b);
+    const double p_a = pressure_at(water, gravity, a), p_b = pressure_at(water, gravity, b);
     if (a * b >= 0.0) return {(2.0 * p_a + p_b) / 6.0, (p_a + 2.0 * p_b) / 6.0};
     const double wet = std::max(a, b) / std::abs(a - b);  // of the edge's length
     const double on_dry = std::max(p_a, p_b) * wet * wet / 6.0;
