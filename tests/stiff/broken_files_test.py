@@ -11,7 +11,7 @@ import time
 
 import h5py
 import numpy
-from programs import done_well, last_snapshot, longest, programs, run, run_tests, scene_of
+from programs import done_well, last_snapshot, longest, programs, refused, run, run_tests, scene_of
 
 
 @functools.lru_cache
@@ -44,10 +44,6 @@ def poison(file, copy, dataset):
         data = opened[dataset][()]
         data.flat[data.size // 2] = numpy.nan
         opened[dataset][...] = data
-
-
-def refused(done, *words):
-    assert done.returncode == 65 and all(word in done.stderr for word in words), f"exit {done.returncode}, {words}: {done.stderr[-400:]}"
 
 
 def each_refused(folder, file, program):

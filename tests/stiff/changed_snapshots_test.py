@@ -50,7 +50,7 @@ def an_almost_entangled_mesh_keeps_mass_and_volume(folder):
 
 def an_entangled_mesh_is_refused_with_its_element(folder):
     scene, file = folded(folder, -0.5)
-    refused(run("transfer_tool", scene, folder / "points", "--input", file), "element")
+    refused(run("transfer_tool", scene, folder / "points", "--input", file), "element", exit=70)
 
 
 def an_entangled_mesh_can_be_rebuilt(folder):

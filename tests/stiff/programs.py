@@ -28,8 +28,8 @@ def done_well(program, scene, output, *arguments):
     return json.loads((output / "result.json").read_text())
 
 
-def refused(done, *words):
-    assert done.returncode in (65, 70) and all(word in done.stderr for word in words), \
+def refused(done, *words, exit=65):
+    assert done.returncode == exit and all(word in done.stderr for word in words), \
         f"exit {done.returncode}, {words} wanted: {done.stderr[-600:]}"
 
 
