@@ -159,7 +159,7 @@ bool is_one_of(std::string_view word, const std::string_view (&list)[Count]) {
     return std::ranges::find(list, word) != std::end(list);
 }
 
-/// Words that may stand beside a unit in a header: none of them scales it.
+/// Words that a header may have beside a unit. None of them changes its size.
 bool may_stand_beside(const std::string& token) {
     constexpr std::string_view words[] = {
         "TIME",     "SERIES",    "HISTORY",   "HISTORIES",   "RECORD",   "RECORDED",  "DATA",

@@ -144,7 +144,8 @@ std::string moving_caution(const json& samples, bool one_value) {
 std::string questionable_caution(const json& samples) {
     if (samples.at("doubtful") == 0) return "";
     return counted(samples.at("doubtful"), "sample") +
-           " are questionable for other reasons than motion (see their flags); they are counted.";
+           " are questionable, although their soil came to rest (see their flags). The results "
+           "include them.";
 }
 
 std::string few_caution(const json& answer) {

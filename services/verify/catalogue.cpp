@@ -139,7 +139,8 @@ Case case_from(Entry entry, const json& file, const fs::path& folder,
         made.refusal =
             refusal_from({of.at("refused"), entry.at("refused"), faults}, made.quantities);
         if (of.contains("quantities") || of.contains("levels"))
-            entry.blame("refused", "stands beside quantities or levels", "give one of them");
+            entry.blame("refused", "is given together with quantities or levels",
+                        "keep one of the two");
         return made;
     }
     for (const auto& [item, pointer] : entry.list("quantities")) {
