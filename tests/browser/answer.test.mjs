@@ -1,7 +1,7 @@
 // The top of a run against a stand-in server: verdict, section before and after, numbers, reasons; running it again; two runs by numbers.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { open_browser, screenshot, until } from "./browser.mjs";
+import { open_browser, open_run as open_run_of, screenshot, until } from "./browser.mjs";
 import { drawn, FakeApi, implausible, some_flagged, still_moving, study, twelve_variants, two_variants } from "./fake_api.mjs";
 import { uncertain_study } from "./samples.mjs";
 
@@ -22,12 +22,7 @@ after(async () => {
     await api.close();
 });
 
-async function open_run(id) {
-    await page.goto("about:blank");
-    await page.goto(`${url}/#/runs/${id}`);
-    await until("all parts", () => page.evaluate(() => document.querySelectorAll("#run > .coming").length === 0 && document.getElementById("run").checkVisibility()));
-}
-
+const open_run = (id) => open_run_of(page, url, id);
 const text_of = (selector) => page.textContent(selector);
 /// {name: [value, note]} of the numbers at the top.
 const figures = async () => Object.fromEntries(await page.locator("#answer-figures > div").evaluateAll((all) =>

@@ -71,3 +71,10 @@ export async function until(what, probe, limit = 20000) {
         await new Promise((resume) => setTimeout(resume, 100));
     }
 }
+
+/// Opens the run and waits until every part of the page is its own.
+export async function open_run(page, url, id) {
+    await page.goto("about:blank");
+    await page.goto(`${url}/#/runs/${id}`);
+    await until("all parts", () => page.evaluate(() => document.querySelectorAll("#run > .coming").length === 0 && document.getElementById("run").checkVisibility()));
+}

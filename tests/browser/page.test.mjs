@@ -4,7 +4,7 @@ import { readdirSync, readFileSync, statSync } from "node:fs";
 import path from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { build_folder, canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { build_folder, canvas_facts, open_browser, open_run as open_run_of, screenshot, until } from "./browser.mjs";
 import { write_json } from "./form_page.mjs";
 import { drawn, FakeApi, some_flagged, study, twelve_curves, twelve_variants, two_variants } from "./fake_api.mjs";
 
@@ -32,12 +32,7 @@ function variants_run() {
     return of_variants;
 }
 
-async function open_run(id) {
-    await page.goto("about:blank");
-    await page.goto(`${url}/#/runs/${id}`);
-    await page.waitForSelector("#run:not([hidden])");
-}
-
+const open_run = (id) => open_run_of(page, url, id);
 const text_of = (selector) => page.textContent(selector);
 const markers = () => page.locator("#runout-plot svg.plot > .marker.series-0").count();
 
