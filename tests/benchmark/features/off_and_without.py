@@ -5,8 +5,8 @@ the code that asks for them.
     off_and_without.py [FOLDER] [--program fem_solver|mpm_solver] [--most PER_CENT]
     off_and_without.py --check      builds nothing: are all the texts that are taken out there?
 
-Copies the sources to FOLDER, builds them, takes out what EDITS says, builds again, and counts both by valgrind as what_is_left_out.py
-does; fails where off costs more than --most. Both programs must give the same result, to the last digit: what was taken out did nothing. An edit whose text is not in the
+Copies the sources to FOLDER, takes out what EDITS says, builds as the release is built, and counts this program and that of BREACH_BIN by
+valgrind as what_is_left_out.py does; fails where off costs more than --most. Both programs must give the same result, to the last digit: what was taken out did nothing. An edit whose text is not in the
 source stops the script: the source has changed, and so must the edit."""
 import argparse
 import copy
@@ -149,9 +149,8 @@ NOT_COPIED = ("build", ".git")
 
 
 def build(folder, program):
-    """The program of these sources, each file on its own, as the release is built."""
     launcher = [f"-DCMAKE_{language}_COMPILER_LAUNCHER=ccache" for language in ("C", "CXX")] if shutil.which("ccache") else []
-    subprocess.run(["cmake", "--preset", "release", "-DBREACH_UNITY=OFF", "-DBREACH_TESTS=OFF", *launcher], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--preset", "release", "-DBREACH_TESTS=OFF", *launcher], cwd=folder, check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", folder / "build/release", "--target", program], check=True, stdout=subprocess.DEVNULL)
     return folder / "build/release/bin"
 
@@ -184,16 +183,16 @@ def answer(program, programs, scene, folder):
 
 
 def row_of(program, folder):
-    whole, stripped = folder / "whole", folder / f"without_{program}"
-    for each in (whole, stripped):
-        copy_sources(each)
-    for name, text in stripped_texts(stripped, program).items():
-        (stripped / name).write_text(text)
-    programs = {each: build(each, program) for each in (whole, stripped)}
+    whole, folder = features.programs, folder / program
+    copy_sources(folder)
+    for name, text in stripped_texts(folder, program).items():
+        (folder / name).write_text(text)
+    stripped = build(folder, program)
     with tempfile.TemporaryDirectory() as name:
         scene = SCENES[program](pathlib.Path(name))
-        off, result = answer(program, programs[whole], scene, pathlib.Path(name))
-        without, same = answer(program, programs[stripped], scene, pathlib.Path(name))
+        off, result = answer(program, whole, scene, pathlib.Path(name))
+        without, same = answer(program, stripped, scene, pathlib.Path(name))
+    features.programs = whole
     if result != same:
         different = [key for key in result if result[key] != same.get(key)]
         raise SystemExit(f"{program}: the results differ ({', '.join(different)}), so what was taken out was at work")
