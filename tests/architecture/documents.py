@@ -1,4 +1,4 @@
-"""Every page that a comment, a page or a message names exists, every link between pages and its anchor exist, and every tutorial is run."""
+"""Every page that a comment, a page or a message names exists, every link between pages and its anchor exist, every tutorial is run, and no merge was left unsolved."""
 import os
 import pathlib
 import re
@@ -38,6 +38,7 @@ def main():
             continue
         text = file.read_text(errors="replace")
         here = file.relative_to(root)
+        faults += [f"{here}: has the mark of an unsolved merge, {mark}" for mark in re.findall(r"^(?:<{7}|>{7}) .*", text, re.M)]
         if file.suffix == ".md":
             folder = root / "docs/verification" if file.parent == templates else file.parent
             for target, anchor in link.findall(text):
