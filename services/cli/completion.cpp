@@ -90,7 +90,7 @@ std::string bash_completion(const CLI::App& program) {
     return R"bash(# Completes the words of breach in bash; made by: breach completion bash
 _breach() {
     local current=${COMP_WORDS[COMP_CWORD]} word="" options="" each
-    for each in "${COMP_WORDS[@]:1:COMP_CWORD-1}"; do
+    for each in "${COMP_WORDS[@]:1:$((COMP_CWORD - 1))}"; do
         case $each in -*) ;; *) word=$each; break ;; esac
     done
     case $word in
@@ -122,9 +122,10 @@ complete -o filenames -F _breach breach
 std::string completion(const CLI::App& program, const std::string& shell) {
     if (shell == "fish") return fish_completion(program);
     const std::string bash = bash_completion(program);
-    return shell == "bash"
-               ? bash
-               : "#compdef breach\nautoload -U +X bashcompinit && bashcompinit\n" + bash;
+    if (shell == "bash") return bash;
+    // zsh reads the file at the first completion, which its last line answers.
+    return "#compdef breach\nautoload -U +X bashcompinit && bashcompinit\n" + bash +
+           "_bash_complete -o filenames -F _breach\n";
 }
 
 }  // namespace breach::cli

@@ -226,6 +226,26 @@ class RealService(unittest.TestCase):
         run = self.breach("submit", self.study(small, [0.1])).stdout.strip()
         self.assertIn(run, completed("breach", "watch", run[:4]))
 
+    def test_zsh_and_fish_complete_words_and_options(self):
+        environment = {**os.environ, "PATH": f"{programs}:{os.environ['PATH']}", "BREACH_SERVER": self.url, "HOME": str(self.here)}
+        for shell, file in (("zsh", "_breach"), ("fish", ".config/fish/completions/breach.fish")):
+            if not shutil.which(shell):
+                self.skipTest(f"{shell} is not installed")
+            (self.here / file).parent.mkdir(parents=True, exist_ok=True)
+            (self.here / file).write_text(self.breach("completion", shell).stdout)
+        def in_fish(line):
+            return subprocess.run(["fish", "-c", f"complete -C '{line}'"], text=True, capture_output=True, env=environment).stdout
+        self.assertTrue(in_fish("breach prio").startswith("priority\t"))
+        self.assertTrue(in_fish("breach telemetry --tr").startswith("--transfer-time\t"))
+        # zsh completes at a terminal only: Tab is sent to one, and the line that it completes is run.
+        (self.here / "typing").write_text(f"""zmodload zsh/zpty; zpty z zsh -f -i
+zpty -w z 'PS1=; fpath=({self.here} $fpath); autoload -Uz compinit; compinit -u -d {self.here}/dump; breach() {{ echo "[$*]"; }}; echo is ready'
+zpty -r -m z x '*is ready*is ready*'
+for line in 'breach prio' 'breach telemetry --tr'; do zpty -w z "$line"$'\\t'; zpty -r -m z x '*\\[*\\]*'; print -r -- "$x"; done""")
+        typed = subprocess.run(["zsh", "-f", self.here / "typing"], text=True, capture_output=True, env=environment, timeout=60).stdout
+        self.assertIn("[priority]", typed)
+        self.assertIn("[telemetry --transfer-time]", typed)
+
     def test_faults_come_back_with_their_pointers(self):
         refused = self.breach("submit", self.study(small + ["/mpm/cell_size=-1"], [0.1]), code=65)
         self.assertIn("/scene/mpm/cell_size", refused.stderr)
