@@ -61,6 +61,7 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
              {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
              {"floor", {{"level", floor}, {"friction", friction}}},
              {"terrain", line_as_json(terrain)},
+             {"fill_points", 4},
              {"fill_stress", "overburden"},
              {"overlap_correction", {{"rate", 5}}},
              {"duration", "until_rest"},
@@ -132,6 +133,7 @@ Document document_of(const std::string& name, const json& given, const std::vect
             guess(std::string("/mpm/") + entry, document.scene["mpm"][entry],
                   "section and terrain, with two cells below and above");
         guess("/mpm/floor/friction", 0.5, "what is usual between soil and terrain");
+        guess("/mpm/fill_points", 4, "what \"breach new\" sets");
         guess("/mpm/overlap_correction/rate", 5, "what \"breach new\" sets");
         const json& runout = document.scene["mpm"]["runout"];
         guess("/mpm/runout/toe", runout["toe"], slope ? from : "the right end of the ground");

@@ -95,8 +95,10 @@ Options soil(double residual_ratio) {
 Options computation() {
     return {
         sized("runout_extent", 10, 10, 20000, "how far beyond the toe the soil can be followed"),
-        sized("cell_size", 1.0 / 15, 0.05, 20,
-              "cells of the runout; halve it for a result to rely on"),
+        sized(
+            "cell_size", 1.0 / 15, 0.05, 20,
+            "cells of the runout, at most half of clay_thickness by default; halve it for a result "
+            "to rely on"),
     };
 }
 

@@ -31,6 +31,18 @@ void round_sizes(Values& values) {
     }
 }
 
+/// By default two cells across the weak layer, the least that see a slide along it, unless that multiplies the
+/// cost by more than 27; and a cell of firm ground below it.
+void fit_weak_layer(Values& values, const json& given) {
+    const double clay = values["clay_thickness"], cell = values["cell_size"];
+    if (clay == 0.0) return;
+    if (!given.contains("cell_size"))
+        values.set("cell_size", std::clamp(0.5 * clay, cell / 3, cell));
+    if (!given.contains("foundation_depth"))
+        values.set("foundation_depth",
+                   std::max(values["foundation_depth"], clay + values["cell_size"]));
+}
+
 void check_sizes(const Values& values) {
     const double H = values["height"];
     Refusal refusal(values);
@@ -150,6 +162,7 @@ Made make(const std::string& name, const json& options) {
     const Template& of = named(name);
     const std::string scene_name = name_in(of, options);
     Values values = completed(of, options);
+    fit_weak_layer(values, options);
     round_sizes(values);
     check_sizes(values);
     Made made;

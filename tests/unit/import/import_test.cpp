@@ -408,6 +408,7 @@ TEST(Import, TheToeIsWhereTheFaceEndsThoughTheGroundFallsOn) {
     const json& mpm = imported.scene.at("mpm");
     EXPECT_EQ(mpm.at("runout").at("toe"), json({200.0, 100.0}));
     EXPECT_EQ(mpm.at("runout").at("regions"), json({"TAILINGS"}));
+    EXPECT_EQ(mpm.at("fill_points"), 4);
     EXPECT_EQ(mpm.at("overlap_correction").at("rate"), 5);
     EXPECT_EQ(mpm.at("floor").at("friction").at(0).at("from"), mpm.at("domain_x").at(0));
     EXPECT_EQ(mpm.at("floor").at("friction").at(0).at("to"), mpm.at("domain_x").at(1));

@@ -222,6 +222,19 @@ TEST(Templates, FollowTheGroundTheWaterAndTheSlimesOfASite) {
     }
 }
 
+TEST(Templates, CellsSeeTheWeakLayerAndGroundLiesBelowIt) {
+    const auto cell = [](const json& options) {
+        return make("upstream_dam", options).scene.at("/mpm/cell_size"_json_pointer).get<double>();
+    };
+    EXPECT_NEAR(cell({{"height", 20}}), 20.0 / 15, 1e-3);
+    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 2}}), 1.0);
+    EXPECT_NEAR(cell({{"height", 20}, {"clay_thickness", 3}}), 20.0 / 15, 1e-3);
+    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 2}, {"cell_size", 1.25}}), 1.25);
+    EXPECT_EQ(make("upstream_dam", {{"height", 20}, {"clay_thickness", 8}, {"cell_size", 1}})
+                  .options.at("foundation_depth"),
+              9);
+}
+
 TEST(Templates, PeakStrengthIsOfWhatLiquefiesAlone) {
     const Made made = make("upstream_dam", {{"clay_thickness", 2.5}, {"clay_strength", 25}});
     const json overrides = made.study.at("variants")[1].at("overrides");
@@ -317,7 +330,7 @@ TEST(Templates, CombinationsThatCloseNothingNameTheOptionToChange) {
         {"upstream_dam", {{"with_fem", true}, {"foundation_depth", 0}}, "/foundation_depth"},
         {"slope", {{"residual_ratio", 0.4}}, "/residual_ratio"},
         {"upstream_dam", {{"cell_size", 4}}, "/cell_size"},
-        {"upstream_dam", {{"clay_thickness", 8}}, "/clay_thickness"},
+        {"upstream_dam", {{"clay_thickness", 8}, {"foundation_depth", 5}}, "/clay_thickness"},
         {"upstream_dam", {{"valley_slope", 0.15}}, "/valley_slope"},
         {"downstream_dam", {{"valley_slope", 0.2}, {"pond_length", 200}}, "/valley_slope"},
         {"upstream_dam", {{"piezometer_depth", 0.5}}, "/piezometer_depth"},
