@@ -56,7 +56,7 @@ exchange::Archive history_of(const std::filesystem::path& output) {
 BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
                               const std::string& pointer) {
     const auto sound = [](const nlohmann::json& each) {
-        return each.is_number() && each.get<double>() > 0.0 && each.get<double>() <= 1e5;
+        return each.is_number() && each.get<double>() > 0.0 && each.get<double>() <= 5e3;
     };
     if (sound(entry)) return {entry, entry, entry};
     const bool three = entry.is_array() && entry.size() == 3 && sound(entry[0]) &&

@@ -35,6 +35,12 @@ def studies(bases):
         ("a trigger of a field that is not there", study(triggers=[{"kind": "criterion", "name": "t", "when": "pore_joy > 1"}]), r"pore_joy"),
         ("a trigger that is never true", study(triggers=[{"kind": "criterion", "name": "t", "when": "strained_share > 5"}]),
          r"strained_share > 5[\s\S]*from 0 to 1"),
+        ("a displacement in mm in a trigger", study(triggers=[{"kind": "criterion", "name": "t", "when": "crest_displacement > 1000"}]),
+         r"crest_displacement > 1000[\s\S]*from 0 to 500"),
+        ("a strength in the place of a factor", study(uncertainty={"samples": 4, "parameters": [
+            {"name": "c", "factor_on": ["/materials/slope_soil/law/c_kPa"], "distribution": {"type": "lognormal", "median": 12, "cov": 0.2}}]}),
+         r"19 of 20 samples[\s\S]*sets"),
+        ("a breach width in mm", study(overrides=["/mpm/breach_width=72000"]), r"breach_width[\s\S]*5000"),
         ("a coefficient of variation of 30 for 0.30", study(uncertainty={"samples": 4, "parameters": [
             {"name": "c", "factor_on": ["/materials/slope_soil/law/c_kPa"], "distribution": {"type": "lognormal", "median": 1, "cov": 30}}]}),
          r"cov[\s\S]*%[\s\S]*0\.3"),

@@ -180,7 +180,21 @@ class ParameterReader {
                       "has no meaning in a " + std::string(words::name_of(distribution.kind)) +
                           " distribution",
                       "remove it: " + meaning);
-        if (complete && check_numbers(distribution)) read_between();
+        if (!complete || !check_numbers(distribution)) return;
+        read_between();
+        check_factors();
+    }
+
+    /// Values in the place of factors: 12 kPa would be twelve times the scene's strength.
+    void check_factors() {
+        if (parameter_.kind != ParameterKind::factor) return;
+        constexpr double most = 5.0, share = 0.05;
+        const double low = statistics::quantile(parameter_.distribution, share);
+        if (low > most)
+            fault("/distribution",
+                  "multiplies the scene's number by more than " + words::text_of(low) +
+                      " in 19 of 20 samples",
+                  "give factors around 1, or use \"sets\" with values instead of \"factor_on\"");
     }
 
     bool check_numbers(const statistics::Distribution& distribution) {
