@@ -150,6 +150,32 @@ void check_base(const scene::Scene& scene, double tolerance, Findings& findings)
              cause + ": the rest moves without rock below; " + remedy);
 }
 
+/// A section that was made longer, and its support was not: the soil beyond hangs on its neighbour.
+void warn_if_base_hangs(const scene::Scene& scene, double tolerance, Findings& findings) {
+    const double level = extent(scene.section).low.y();
+    double length = 0.0, held = 0.0;
+    for (const scene::Region& region : scene.section.regions)
+        for (const Side& side : sides_of(region.polygon)) {
+            if (std::max(side.a.y(), side.b.y()) > level + tolerance) continue;
+            length += (side.b - side.a).norm();
+            for (const scene::Support& support : scene.fem->supports) {
+                const bool along = std::abs(support.from.y() - level) <= tolerance &&
+                                   std::abs(support.to.y() - level) <= tolerance;
+                const auto [low, high] = std::minmax({support.from.x(), support.to.x()});
+                const auto [left, right] = std::minmax({side.a.x(), side.b.x()});
+                if (along && support.fixes_y)
+                    held += std::max(0.0, std::min(high, right) - std::max(low, left));
+            }
+        }
+    if (held <= tolerance || held >= (1.0 - 1e-6) * length) return;
+    warn(
+        findings, "hardly_held", "/fem/supports",
+        "only " + metres(held) + " of the section's lowest side, " + metres(length) +
+            " at y = " + metres(level) +
+            ", are held: the soil over the rest hangs on its neighbour; let the support reach from "
+            "end to end");
+}
+
 void check_crest(const scene::Scene& scene, Findings& findings) {
     const Vec2& crest = scene.fem->crest;
     const double away = geometry::distance_to_soil(scene.section, crest);
@@ -206,6 +232,7 @@ void check_supports(const scene::Scene& scene, Findings& findings) {
     if (!missed) check_held(scene, tolerance, findings);
     check_free_field(scene, tolerance, findings);
     check_base(scene, tolerance, findings);
+    warn_if_base_hangs(scene, tolerance, findings);
 }
 
 }  // namespace breach::check

@@ -76,6 +76,12 @@ TEST(Drawn, ASupportThatMeetsTheSectionInOnePointIsWarnedAbout) {
     EXPECT_TRUE(has_warning(checked, "hardly_held", "/fem/supports/0")) << told(checked.faults);
 }
 
+TEST(Drawn, ASupportOfAPartOfTheLowestSideIsWarnedAbout) {
+    const Checked checked = changed("mochikoshi", {"/fem/supports/0/from=[-40,-5]"});
+    EXPECT_TRUE(has_warning(checked, "hardly_held", "/fem/supports")) << told(checked.faults);
+    EXPECT_FALSE(has_warning(changed("mochikoshi", {}), "hardly_held", "/fem/supports"));
+}
+
 TEST(Drawn, ABodyThatIsHeldInOneDirectionOnlyIsRefused) {
     expect_only(changed("mochikoshi", {"/fem/supports/0/fixes=x"}), "/fem/supports",
                 "nothing holds the body in y");
