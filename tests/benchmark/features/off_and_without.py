@@ -27,7 +27,7 @@ NEWTON, FORCE, STEP = "fem_solver/solve/newton.cpp", "fem_solver/solve/internal_
 MATRIX = "fem_solver/solve/linear_system.cpp"
 EDITS = {
     "mpm_solver": [
-        ("viscosity", MPM_STEP, "    body.tally.viscous += for_all_points(body, &Loops::dissipate, Writes::own_points, dt).viscous;\n", ""),
+        ("viscosity and damping", MPM_STEP, "    body.tally.viscous += for_all_points(body, &Loops::dissipate, Writes::own_points, dt).viscous;\n", ""),
         ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.follow(body.points, body.zones, body.grid);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::trD);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::sigma_m);\n", ""),
@@ -194,8 +194,8 @@ def row_of(program, folder):
         without, same = answer(program, stripped, scene, pathlib.Path(name))
     features.programs = whole
     if result != same:
-        different = [key for key in result if result[key] != same.get(key)]
-        raise SystemExit(f"{program}: the results differ ({', '.join(different)}), so what was taken out was at work")
+        different = "\n".join(f"{key}: {value} and {same.get(key)}" for key, value in result.items() if value != same.get(key))
+        raise SystemExit(f"{program}: the results differ, so what was taken out was at work\n{different}")
     named = ", ".join(dict.fromkeys(edit[0] for edit in EDITS[program]))
     cost = 100 * (off / without - 1)
     return f"| {program} | {off:,.0f} | {without:,.0f} | {cost:.2f} % | {named} |", cost

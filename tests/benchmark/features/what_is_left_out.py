@@ -92,7 +92,7 @@ COMPILED, PER_STEP, PER_NODE = "nothing: another loop is compiled without it", "
 MPM = {
     "nonlocal softening": (without("materials", "sand", "nonlocal_length"), PER_STEP),
     "softening": (all_of(without("materials", "sand", "law", "softening"), without("materials", "sand", "nonlocal_length")), COMPILED),
-    "viscosity": (without("materials", "sand", "viscosity"), COMPILED),
+    "viscosity and damping": (all_of(without("materials", "sand", "viscosity"), having(0, "mpm", "damping_ratio")), COMPILED),
     "anti-locking": (having("off", "mpm", "anti_locking"), COMPILED),
     "tension (gap closure)": (having(False, "mpm", "gap_closure"), COMPILED),
     "gaps held to their room": (having(False, "mpm", "gap_room"), PER_STEP),
