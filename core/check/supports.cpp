@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/check/findings.hpp"
@@ -65,37 +64,9 @@ void check_held(const scene::Scene& scene, double tolerance, Findings& findings)
     }
 }
 
-/// Levels between which a vertical line of edges runs along x; none when it is broken.
-struct Reach {
-    double low, high;
-    bool unbroken;
-};
-
-Reach vertical_side(const scene::Scene& scene, double x, double tolerance) {
-    std::vector<std::array<double, 2>> parts;
-    Reach reach{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                true};
-    for (const scene::Region& region : scene.section.regions) {
-        for (const Side& side : sides_of(region.polygon)) {
-            if (std::abs(side.a.x() - x) > tolerance) continue;
-            reach = {std::min(reach.low, side.a.y()), std::max(reach.high, side.a.y()), true};
-            if (std::abs(side.b.x() - x) > tolerance) continue;
-            parts.push_back({std::min(side.a.y(), side.b.y()), std::max(side.a.y(), side.b.y())});
-        }
-    }
-    std::ranges::sort(parts);
-    double reached = reach.low;
-    for (const auto& part : parts) {
-        if (part[0] > reached + tolerance) break;
-        reached = std::max(reached, part[1]);
-    }
-    reach.unbroken = !parts.empty() && reached >= reach.high - tolerance;
-    return reach;
-}
-
 void check_column(const scene::Scene& scene, double x, const std::string& side, double tolerance,
                   Findings& findings) {
-    const Reach reach = vertical_side(scene, x, tolerance);
+    const geometry::Upright reach = geometry::upright_at(scene.section, x, tolerance);
     if (!reach.unbroken) {
         refuse(findings, "/fem/free_field",
                "the " + side + " side of the section, at x = " + metres(x) +

@@ -1,6 +1,8 @@
 #include "core/geometry/section.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -70,6 +72,28 @@ std::vector<Stratum> strata_at(const Outlines& outlines, double x) {
     }
     std::ranges::sort(strata, std::greater<>(), &Stratum::top);
     return strata;
+}
+
+Upright upright_at(const Outlines& outlines, double x, double tolerance) {
+    std::vector<std::array<double, 2>> parts;
+    Upright reach{infinity, -infinity, false};
+    for (const Polygon* each : outlines) {
+        for (const Side& side : sides_of(*each)) {
+            if (std::abs(side.a.x() - x) > tolerance) continue;
+            reach.low = std::min(reach.low, side.a.y());
+            reach.high = std::max(reach.high, side.a.y());
+            if (std::abs(side.b.x() - x) > tolerance) continue;
+            parts.push_back({std::min(side.a.y(), side.b.y()), std::max(side.a.y(), side.b.y())});
+        }
+    }
+    std::ranges::sort(parts);
+    double reached = reach.low;
+    for (const auto& part : parts) {
+        if (part[0] > reached + tolerance) break;
+        reached = std::max(reached, part[1]);
+    }
+    reach.unbroken = !parts.empty() && reached >= reach.high - tolerance;
+    return reach;
 }
 
 double ground_at(const Outlines& outlines, double x) {

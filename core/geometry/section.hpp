@@ -35,6 +35,13 @@ struct Stratum {
 };
 std::vector<Stratum> strata_at(const Outlines& outlines, double x);
 
+/// Levels between which the border has vertices at x, and whether it runs there as one vertical line.
+struct Upright {
+    double low, high;  ///< inverted (low > high) without vertices
+    bool unbroken;
+};
+Upright upright_at(const Outlines& outlines, double x, double tolerance);
+
 /// Highest soil at x; -infinity: there is none [m].
 double ground_at(const Outlines& outlines, double x);
 

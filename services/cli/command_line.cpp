@@ -647,6 +647,11 @@ class CommandLine {
         import_->add_option("--flatten", options.flatten,
                             "arcs become chords that are off by at most this [m]");
         import_->add_option("--name", options.name, "of the scene; else the drawing's");
+        import_->add_flag("--with-fem", options.with_fem, help_of_dam("with_fem"));
+        import_->add_option("--pga", options.pga, help_of_dam("pga"));
+        import_->add_option("--shaking", options.shaking, help_of_dam("shaking"));
+        import_->add_flag("--force", options.force,
+                          "with --with-fem: write over study.json and motion.csv beside the scene");
         import_->add_flag("--yes", options.confirmed,
                           "sizes that look like a slip of the unit are meant");
     }

@@ -8,6 +8,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/scene/schema.hpp"
+#include "services/cli/new_scene.hpp"
 #include "services/import/import.hpp"
 #include "services/report/section/section_drawing.hpp"
 
@@ -51,6 +52,19 @@ bool is_confirmed(const importing::Imported& imported, const Console& console) {
     return answer == "y" || answer == "Y" || answer == "yes";
 }
 
+/// Study and motion beside the scene, named as `breach new` names them.
+Files beside(const std::filesystem::path& scene, importing::Imported& imported) {
+    if (imported.motion.empty()) return {};
+    imported.study["scene"] = scene.filename().string();
+    Files files{{scene.parent_path() / "study.json", imported.study.dump(1) + "\n"},
+                {scene.parent_path() / "motion.csv", imported.motion}};
+    if (files.contains(scene))
+        throw fault::BadInput("breach import",
+                              {{"--output", "is the name of the " + scene.stem().string(),
+                                "give another one, such as scene.json"}});
+    return files;
+}
+
 }  // namespace
 
 ExitCode import_drawing(const ImportOptions& options, const Console& console) {
@@ -67,6 +81,11 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
         .flatten = options.flatten,
         .name = options.name,
         .confirmed = options.confirmed};
+    if (options.with_fem) {
+        auto& motion = asked.motion.emplace();
+        motion.pga = options.pga.value_or(motion.pga);
+        motion.shaking = options.shaking.value_or(motion.shaking);
+    }
     importing::Imported imported = importing::import_section(asked);
     if (is_confirmed(imported, console)) {
         asked.confirmed = true;
@@ -81,14 +100,17 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
         exchange::publish_text(options.picture, report::as_svg(draft, {}));
     if (!imported.faults.empty())
         throw fault::BadInput(options.drawing.string(), std::move(imported.faults));
-    exchange::publish_text(options.output, imported.scene.dump(1) + "\n");
+    Files files = beside(options.output, imported);
+    if (!options.force) refuse_to_overwrite(files, "breach import");
+    files[options.output] = imported.scene.dump(1) + "\n";
+    for (const auto& [path, text] : files) exchange::publish_text(path, text);
     if (console.style == Style::json) {
         console.out << imported.report.dump(2) << "\n";
         return ExitCode::done;
     }
     for (const std::string& each : importing::lines_of(imported.report, most_lines))
         console.notes << each << "\n";
-    console.out << options.output.string() << "\n";
+    for (const auto& [path, text] : files) console.out << path.string() << "\n";
     return ExitCode::done;
 }
 

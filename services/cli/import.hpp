@@ -21,6 +21,9 @@ struct ImportOptions {
     double tolerance = 0.05;
     std::optional<double> flatten = {};
     bool confirmed = false;  ///< --yes
+    bool with_fem = false;   ///< study.json and motion.csv are written beside the scene
+    std::optional<double> pga = {}, shaking = {};  ///< of the synthetic motion [g, s]
+    bool force = false;                            ///< over files that are there
 };
 
 /// At a terminal, asks whether sizes that look like a wrong unit are meant. Writes the scene and prints what was healed, guessed and skipped. With faults only the

@@ -27,6 +27,8 @@ std::string with_unit(double value, const Option& option) {
 }
 
 std::string help_of(const Option& option) {
+    if (option.kind == Kind::yes_or_no)
+        return option.help + " (default " + (option.value > 0.5 ? "yes" : "no") + ")";
     const std::string rule = templates::rule_of(option);
     return option.help + " (" + words::text_of(option.least) + " to " +
            with_unit(option.most, option) + "; default " + (rule.empty() ? "" : rule + " = ") +
@@ -45,7 +47,7 @@ void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
         const auto add = [&](const std::string& name, bool value) {
             CLI::Option* made = word.add_flag_callback(
                 name, [&chosen, entry = option.name, value] { chosen.options[entry] = value; },
-                option.help + " (default " + (option.value > 0.5 ? "yes" : "no") + ")");
+                help_of(option));
             if (value == (option.value > 0.5))
                 made->group("");  // it changes nothing: not in the help
         };
@@ -97,16 +99,21 @@ templates::Made made_of(const NewOptions& chosen, const json& options) {
     }
 }
 
-void refuse_to_overwrite(const std::map<std::filesystem::path, std::string>& files) {
+}  // namespace
+
+void refuse_to_overwrite(const Files& files, const std::string& command) {
     std::vector<fault::Fault> faults;
     for (const auto& [path, text] : files)
         if (std::filesystem::exists(path))
             faults.push_back(
                 {path, "is there already", "give --force to write over it, or another --output"});
-    if (!faults.empty()) throw fault::BadInput("breach new", std::move(faults));
+    if (!faults.empty()) throw fault::BadInput(command, std::move(faults));
 }
 
-}  // namespace
+std::string help_of_dam(const std::string& option) {
+    const auto& options = templates::named("upstream_dam").options;
+    return help_of(*std::ranges::find(options, option, &Option::name));
+}
 
 void take_templates(CLI::App& word, NewOptions& chosen) {
     word.add_flag("--list", chosen.list, "the templates");
@@ -138,11 +145,10 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
     if (const std::string name = name_for(folder); !options.contains("name") && !name.empty())
         options["name"] = name;
     const templates::Made made = made_of(chosen, options);
-    std::map<std::filesystem::path, std::string> files{
-        {folder / "scene.json", templates::as_text(made.scene)},
-        {folder / "study.json", templates::as_text(made.study)}};
+    Files files{{folder / "scene.json", templates::as_text(made.scene)},
+                {folder / "study.json", templates::as_text(made.study)}};
     if (!made.motion.empty()) files[folder / "motion.csv"] = made.motion;
-    if (!chosen.force) refuse_to_overwrite(files);
+    if (!chosen.force) refuse_to_overwrite(files, "breach new");
     std::error_code error;
     std::filesystem::create_directories(folder, error);
     if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());

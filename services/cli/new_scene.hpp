@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -18,6 +19,14 @@ struct NewOptions {
     nlohmann::json options = nlohmann::json::object();  ///< the given ones
     std::filesystem::path folder;
 };
+
+using Files = std::map<std::filesystem::path, std::string>;  ///< texts to write
+
+/// Throws BadInput with every file that exists.
+void refuse_to_overwrite(const Files& files, const std::string& command);
+
+/// Help of an option of the dams' templates, for commands that have the same.
+std::string help_of_dam(const std::string& option);
 
 /// Adds every template as a subcommand of `new`, its options with unit, range and default; given
 /// values go into `chosen`, which must live as long as the subcommand.

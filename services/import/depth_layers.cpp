@@ -130,6 +130,7 @@ void cut_region(Healed& healed, std::size_t target, const LayerRequest& request,
     for (std::size_t part = 0; part <= request.depths.size() + 1; ++part) {
         soils.push_back(whole);
         soils.back().name += part_name(request, part);
+        soils.back().depth_layer = static_cast<int>(part);
     }
     std::vector<Polygon> rings;
     for (std::size_t s = 0; s < first; ++s)

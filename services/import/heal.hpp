@@ -16,11 +16,13 @@ struct Soil {
     std::string material;
     Polygon ring;
     Origin origin;
+    int depth_layer = 0;  ///< below the phreatic line, from 1; 0: none
 };
 
 /// One change by healing.
 struct Change {
-    std::string kind;  ///< gap, overlap, junction, sliver, short_side, spike, orientation, end
+    std::string kind;  ///< gap, overlap, junction, sliver, short_side, spike, orientation, end,
+                       ///< edge
     std::vector<std::string> regions;
     Vec2 at;
     double size;  ///< how wide the gap or overlap was, how far something moved [m]

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "core/check/check.hpp"
+#include "core/words/number.hpp"
 #include "services/import/csv.hpp"
 #include "services/import/depth_layers.hpp"
 #include "services/import/document.hpp"
@@ -12,6 +14,7 @@
 #include "services/import/dxf_records.hpp"
 #include "services/import/guess.hpp"
 #include "services/import/join_lines.hpp"
+#include "services/import/shake.hpp"
 
 namespace breach::importing {
 
@@ -122,10 +125,24 @@ class Import {
                    "the units are " + unit_names());
             sound = false;
         }
+        if (const auto& motion = request_.motion) {
+            sound &=
+                is_between("pga", motion->pga, earthquake::least_pga, earthquake::most_pga, "g");
+            sound &= is_between("shaking", motion->shaking, earthquake::least_shaking,
+                                earthquake::most_shaking, "s");
+        }
         for (const std::string& each : request_.layers)
             if (auto wanted = layer_request_from(each, result_.faults))
                 layers_.push_back(std::move(*wanted));
         return sound;
+    }
+
+    bool is_between(const char* option, double value, double least, double most,
+                    const std::string& unit) {
+        if (value >= least && value <= most) return true;
+        refuse(option, "is " + words::text_of(value) + " " + unit,
+               "give " + words::text_of(least) + " to " + words::text_of(most) + " " + unit);
+        return false;
     }
 
     bool read_drawing() {
@@ -313,6 +330,7 @@ class Import {
 
     void fit() {
         drawn_ = soils_;
+        if (request_.motion) tell_changes(straightened(soils_, request_.tolerance));
         Healed healed = importing::healed(soils_, request_.tolerance, lines_.terrain);
         std::erase_if(healed.faults, [&](const Fault& each) {  // open ones are reported already
             return each.cause.ends_with("encloses no area") && is_told(each.pointer);
@@ -332,7 +350,10 @@ class Import {
             tell(healed);
         }
         if (!result_.faults.empty()) return;
-        choose_materials(healed.soils);
+        if (!request_.motion)
+            choose_materials(healed.soils);
+        else if (!can_be_shaken(healed.soils))
+            return;
         tell_size(healed.soils);
         tell_areas(healed.soils);
         finish(healed.soils);
@@ -354,9 +375,26 @@ class Import {
                                    [&](const Fault& each) { return each.pointer == pointer; });
     }
 
+    /// Materials first: what follows relies on their entries.
+    bool can_be_shaken(const std::vector<Soil>& soils) {
+        Document bare = document_of(scene_name(request_), request_.materials, soils, {});
+        bare.scene.erase("lem");
+        result_.faults = seen_from_drawing(checked(bare.scene).faults, soils);
+        if (!result_.faults.empty()) return false;
+        result_.faults = faults_of_shaking(soils, lines_, materials_);
+        if (!result_.faults.empty()) return false;
+        guesses_terrain_ = lines_.terrain.empty();
+        if (guesses_terrain_) lines_.terrain = guessed_terrain(soils);
+        return true;
+    }
+
     void tell(const Healed& healed) {
         for (const Fault& each : healed.faults) result_.faults.push_back(each);
-        for (const Change& each : healed.changes)
+        tell_changes(healed.changes);
+    }
+
+    void tell_changes(const std::vector<Change>& changes) {
+        for (const Change& each : changes)
             result_.report["healed"].push_back({{"kind", each.kind},
                                                 {"regions", each.regions},
                                                 {"at", as_json(each.at)},
@@ -435,8 +473,32 @@ class Import {
 
     // ------------------------------------------------------------ the scene
 
-    check::Checked checked(const json& document) const {
-        return check::checked_document(document, request_.drawing.name, ".", {});
+    /// The motion's file is not written yet.
+    check::Checked checked(json document) const {
+        if (document.contains("fem")) document["fem"].erase("motion");
+        return check::checked_document(std::move(document), request_.drawing.name, ".", {});
+    }
+
+    Document made(const std::vector<Soil>& soils, double share) const {
+        Document document =
+            document_of(scene_name(request_), request_.materials, soils, lines_, share);
+        if (guesses_terrain_)
+            document.guessed.push_back({{"pointer", "/mpm/terrain"},
+                                        {"value", document.scene["mpm"]["terrain"]},
+                                        {"from",
+                                         "the section's base, then the ground's level at "
+                                         "its right end"}});
+        if (request_.motion)
+            add_earthquake({*request_.motion, thinnest_layer()}, soils, lines_, document);
+        return document;
+    }
+
+    double thinnest_layer() const {
+        double thinnest = std::numeric_limits<double>::infinity();
+        for (const LayerRequest& each : layers_)
+            for (std::size_t i = 0; i < each.depths.size(); ++i)
+                thinnest = std::min(thinnest, each.depths[i] - (i ? each.depths[i - 1] : 0.0));
+        return thinnest;
     }
 
     /// The reader's faults, with the drawing's lines instead of the regions' pointers.
@@ -461,13 +523,12 @@ class Import {
         const auto is_coarse = [](const Fault& each) { return each.pointer == "/mpm/cell_size"; };
         constexpr double finest = 0.125;
         for (double share = 1.0;; share *= 0.5) {
-            Document document =
-                document_of(scene_name(request_), request_.materials, soils, lines_, share);
+            Document document = made(soils, share);
             check::Checked read = checked(document.scene);
             const auto coarse = std::ranges::find_if(read.faults, is_coarse);
             if (coarse == read.faults.end()) return {std::move(document), std::move(read)};
             if (share > finest) continue;
-            document = document_of(scene_name(request_), request_.materials, soils, lines_);
+            document = made(soils, 1.0);
             document.scene["mpm"]["allow_coarse_cells"] = true;
             document.remarks.push_back("/mpm/cell_size " + coarse->cause +
                                        ": runouts will be questionable; merge thin layers, or give "
@@ -504,6 +565,11 @@ class Import {
         check_shape(soils, document.slope);
         for (const Fault& each : result_.to_confirm) result_.faults.push_back(each);
         result_.scene = std::move(document.scene);
+        if (request_.motion) {
+            result_.study = {{"format", "breachline-study/1"}, {"name", scene_name(request_)}};
+            result_.study.update(json(earthquake::transfers_of(*request_.motion)));
+            result_.motion = earthquake::text_of(*request_.motion);
+        }
         result_.sketch = std::move(read.scene);
     }
 
@@ -545,6 +611,7 @@ class Import {
     std::vector<Soil> soils_, drawn_;
     std::set<std::string> names_;
     Lines lines_;
+    bool guesses_terrain_ = false;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/scene/scene.hpp"
+#include "services/earthquake/earthquake.hpp"
 
 namespace breach::importing {
 
@@ -32,10 +33,13 @@ struct Request {
     std::optional<double> flatten = {};  ///< arcs become chords with at most this error [m]
     std::string name = "";               ///< of the scene; empty: of the file
     bool confirmed = false;              ///< sizes that look like a wrong unit are meant
+    std::optional<earthquake::Motion> motion = {};  ///< shakes the section; none: no FEM
 };
 
 struct Imported {
-    nlohmann::json scene;  ///< null when there are faults
+    nlohmann::json scene;  ///< null when there are faults; a motion is its "motion.csv"
+    nlohmann::json study;  ///< of a scene with a motion, without that scene; else null
+    std::string motion;    ///< text of motion.csv; empty: none
     /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m], tolerance, healed,
     /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
     nlohmann::json report;

@@ -8,116 +8,29 @@
 
 #include "core/geometry/polyline.hpp"
 #include "core/words/number.hpp"
+#include "services/earthquake/earthquake.hpp"
 #include "services/templates/layers.hpp"
 
 namespace breach::templates {
 
-using Json = nlohmann::ordered_json;
+using earthquake::atmosphere, earthquake::g;
+using earthquake::clay, earthquake::embankment, earthquake::foundation, earthquake::tailings;
+using earthquake::corner, earthquake::millimetres, earthquake::nanometres, earthquake::points,
+    earthquake::rounded;
+using earthquake::frictional, earthquake::sand, earthquake::undrained;
+using earthquake::Json, earthquake::Overburden, earthquake::Region, earthquake::Soil;
 
 namespace {
 
-constexpr double g = 9.81;              // m/s2
-constexpr double atmosphere = 101.325;  // kPa, to which strengths by stress refer
-constexpr double water_density = 1000;  // kg/m3
 /// Of soil that is to stand: a few per cent of critical damping, or it would swing for minutes.
 constexpr double damping = 3e4;  // Pa s
 
-/// What is assumed of a soil.
-struct Soil {
-    std::string name;
-    double density, void_ratio, permeability;
-    double D_R, G_0, h_po;  ///< PM4Sand
-    double c_kPa, phi_deg;
-    double c_residual_kPa, phi_residual_deg;  ///< where it breaks
-    double E_MPa, nu;                         ///< in the runout
-};
-
-const Soil tailings{"tailings", 1850, 0.95, 1e-7, 0.35, 476, 2.7, 1, 31, 1, 31, 20, 0.3};
 const Soil loose_soil{"soil", 1850, 0.85, 1e-6, 0.35, 476, 2.7, 2, 34, 2, 34, 20, 0.3};
-const Soil embankment{"embankment", 1900, 0.7, 1e-6, 0.55, 677, 0.4, 10, 35, 1, 28, 40, 0.3};
-const Soil foundation{"foundation", 2000, 0.6, 1e-6, 0.75, 890, 0.63, 20, 36, 20, 36, 200, 0.3};
-
-/// Of the weak layer; its strength is an option.
-const Soil clay{"clay", 1800, 1.0, 1e-9, 0, 0, 0, 0, 0, 0, 0, 20, 0.49};
 /// Their strength comes from slimes_ratio and residual_ratio.
 const Soil slimes{"slimes", 1700, 1.4, 1e-9, 0, 0, 0, 0, 28, 0, 0, 10, 0.49};
 const Soil rockfill{"rockfill", 2100, 0.4, 1e-3, 0.75, 890, 0.63, 0, 42, 0, 42, 80, 0.3};
 
-double millimetres(double value) { return std::round(value * 1e3) / 1e3; }
-double nanometres(double value) { return std::round(value * 1e9) / 1e9; }
-/// Three significant digits.
-double rounded(double value) {
-    if (value == 0.0) return 0.0;
-    const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2.0);
-    return std::stod(words::text_of(std::round(value / unit) * unit));
-}
-
-Json point(const Vec2& place) { return {millimetres(place.x()), millimetres(place.y())}; }
-/// A vertex within a neighbour's side must lie on it.
-Json corner(const Vec2& place) { return {nanometres(place.x()), nanometres(place.y())}; }
-Json points(const Line& line) {
-    Json all = Json::array();
-    for (const Vec2& each : line) all.push_back(point(each));
-    return all;
-}
-
 // ---------------------------------------------------------------- the section
-
-/// One region of the scene.
-struct Region {
-    Part part;
-    int layer;                  ///< below the phreatic line, from 1; 0: none
-    double sigma_v0_kPa = 0.0;  ///< mean vertical effective stress of the layer
-};
-
-/// Vertical effective stress below ground and phreatic line [kPa].
-double sigma_v0_at(const Vec2& place, const Outline& outline, double density) {
-    const double ground = geometry::level_at(outline.ground, place.x());
-    const double water = std::min(geometry::level_at(outline.phreatic, place.x()), ground);
-    const double pressure = std::max(0.0, water - place.y()) * water_density;
-    return (density * (ground - place.y()) - pressure) * g / 1e3;
-}
-
-struct Sum {
-    double stress_area = 0.0;  ///< [kPa m2]
-    double area = 0.0;         ///< [m2]
-};
-
-/// Adds what lies right of `from`, on a lattice.
-void add(Sum& sum, const Polygon& polygon, const Outline& outline, double density, double from) {
-    constexpr int lines = 40;
-    const geometry::Box box = geometry::bounding_box(polygon);
-    const Vec2 size = box.high - box.low;
-    const double cell = size.x() * size.y() / (lines * lines);
-    for (int i = 0; i < lines; ++i) {
-        for (int j = 0; j < lines; ++j) {
-            const Vec2 share{(i + 0.5) / lines, (j + 0.5) / lines};
-            const Vec2 place = box.low + size.cwiseProduct(share);
-            if (place.x() < from || !geometry::contains(polygon, place)) continue;
-            sum.stress_area += cell * sigma_v0_at(place, outline, density);
-            sum.area += cell;
-        }
-    }
-}
-
-/// Of each layer where it can slide, a height behind the crest and downstream; where it has nothing
-/// there, of all of it.
-void find_stresses(std::vector<Region>& regions, const Outline& outline, double density) {
-    std::map<int, std::array<Sum, 2>> sums;
-    for (const Region& each : regions) {
-        if (each.layer == 0) continue;
-        auto& [sliding, whole] = sums[each.layer];
-        const Polygon& polygon = each.part.polygon;
-        add(sliding, polygon, outline, density, outline.crest_from - outline.crest.y());
-        add(whole, polygon, outline, density, outline.left);
-    }
-    for (Region& each : regions) {
-        if (each.layer == 0) continue;
-        const auto& [sliding, whole] = sums[each.layer];
-        const Sum& sum = sliding.area > 0.0 ? sliding : whole;
-        each.sigma_v0_kPa = sum.stress_area / sum.area;
-    }
-}
 
 /// "tailings_2", "tailings_2_2" for its second piece, "tailings" above the line.
 std::string name_of(const std::string& whole, int layer, int piece) {
@@ -178,34 +91,14 @@ std::vector<Region> regions_of(const Values& values, const Outline& outline, con
     }
     share_vertices(parts);
     std::vector<Region> regions;
-    for (std::size_t i = 0; i < parts.size(); ++i) regions.push_back({parts[i], layers[i]});
-    find_stresses(regions, outline, wet.density);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        regions.push_back({parts[i].name, parts[i].material, parts[i].polygon, layers[i]});
+    find_stresses(regions, {outline.ground, outline.phreatic, wet.density},
+                  outline.crest_from - outline.crest.y());
     return regions;
 }
 
 // ---------------------------------------------------------------- materials
-
-Json law_of(const Soil& soil, double c_kPa, double phi_deg, double nu) {
-    Json law{{"type", "mohr_coulomb"},
-             {"E_MPa", soil.E_MPa},
-             {"nu", nu},
-             {"c_kPa", c_kPa},
-             {"phi_deg", phi_deg}};
-    if (soil.c_residual_kPa != soil.c_kPa && phi_deg > 0.0)
-        law["softening"] = {{"epsilon_q_start", 0.01},
-                            {"epsilon_q_end", 0.05},
-                            {"c_residual_kPa", soil.c_residual_kPa},
-                            {"phi_residual_deg", soil.phi_residual_deg}};
-    return law;
-}
-
-Json frictional(const Soil& soil, const std::string& note) {
-    return {{"notes", {note}},
-            {"density", soil.density},
-            {"viscosity", 1000},
-            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
-            {"law", law_of(soil, soil.c_kPa, soil.phi_deg, soil.nu)}};
-}
 
 Json elastic_ground() {
     return {
@@ -215,31 +108,6 @@ Json elastic_ground() {
         {"density", foundation.density},
         {"limit_strength", {{"c_kPa", foundation.c_kPa}, {"phi_deg", foundation.phi_deg}}},
         {"law", {{"type", "linear_elastic"}, {"E_MPa", foundation.E_MPa}, {"nu", foundation.nu}}}};
-}
-
-Json undrained(const Soil& soil, double c_kPa, const std::string& note) {
-    return {{"notes", {note}},
-            {"density", soil.density},
-            {"viscosity", 1000},
-            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
-            {"law", law_of(soil, c_kPa, 0.0, 0.49)}};
-}
-
-Json sand(const Soil& soil, const std::string& note) {
-    Json law{{"type", "pm4sand"}, {"D_R", soil.D_R}, {"G_0", soil.G_0}, {"h_po", soil.h_po}};
-    if (soil.D_R < 0.5) {
-        law["Q"] = 11.998;
-        law["R"] = 3.75;
-    }
-    return {{"notes",
-             {note,
-              "assumed: PM4Sand, void ratio and permeability; calibrate them ("
-              "docs/how-to/calibrate_a_sand.md)"}},
-            {"density", soil.density},
-            {"void_ratio", soil.void_ratio},
-            {"permeability", {soil.permeability, soil.permeability}},
-            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
-            {"law", law}};
 }
 
 std::string strength_note(const Soil& soil) {
@@ -265,7 +133,7 @@ struct Context {
 
 bool has(const Context& all, const std::string& material) {
     return std::ranges::any_of(all.regions,
-                               [&](const Region& each) { return each.part.material == material; });
+                               [&](const Region& each) { return each.material == material; });
 }
 
 std::vector<Region> layers_of(const Context& all) {
@@ -282,7 +150,7 @@ double residual_kPa(const Context& all, const Region& layer) {
 /// Without a FEM every layer below the phreatic line is its own material, of constant strength.
 std::string material_of(const Context& all, const Region& region) {
     const bool liquefied = region.layer > 0 && !all.with_fem;
-    return region.part.material + (liquefied ? "_" + std::to_string(region.layer) : "");
+    return region.material + (liquefied ? "_" + std::to_string(region.layer) : "");
 }
 
 Json weak_layer(const Context& all) {
@@ -312,10 +180,10 @@ Json slimes_of(const Context& all, bool in_elements) {
     };
     material["law"] = {{"type", "mohr_coulomb"}, {"E_MPa", slimes.E_MPa}, {"nu", slimes.nu}};
     if (in_elements) {
-        Sum sum;
+        earthquake::Sum sum;
+        const Overburden above{all.outline.ground, all.outline.phreatic, slimes.density};
         for (const Region& each : all.regions)
-            if (each.part.name == "slimes")
-                add(sum, each.part.polygon, all.outline, slimes.density, all.outline.left);
+            if (each.name == "slimes") add(sum, each.polygon, above, all.outline.left);
         material["law"]["c_kPa"] = rounded(all.values["slimes_ratio"] * sum.stress_area / sum.area);
         material["law"]["phi_deg"] = 0;
         return material;
@@ -365,10 +233,7 @@ Json materials_shaken(const Context& all) {
     if (has(all, "embankment")) both(embankment);
     both(all.wet);
     if (!layers_of(all).empty())
-        materials["liquefied"] =
-            undrained(all.wet, rounded(all.values["residual_ratio"] * atmosphere),
-                      "what liquefied layers are made like: their s_r comes from "
-                      "/transfer/liquefied/residual_strength");
+        materials["liquefied"] = earthquake::liquefied(all.wet, all.values["residual_ratio"]);
     if (has(all, "foundation")) {
         materials["foundation"] = sand(foundation, strength_note(foundation));
         materials["foundation_runout"] = elastic_ground();
@@ -382,16 +247,41 @@ Json section_of(const Context& all) {
     Json regions = Json::array();
     for (const Region& each : all.regions) {
         Json ring = Json::array();
-        for (const Vec2& vertex : each.part.polygon) ring.push_back(corner(vertex));
+        for (const Vec2& vertex : each.polygon) ring.push_back(corner(vertex));
         ring.push_back(ring.front());
         regions.push_back(
-            {{"name", each.part.name}, {"material", material_of(all, each)}, {"polygon", ring}});
+            {{"name", each.name}, {"material", material_of(all, each)}, {"polygon", ring}});
         if (all.with_fem) regions.back()["mesh"] = {{"type", "unstructured"}};
     }
     Json section;
     if (all.with_fem) section["element_size"] = all.values["element_size"];
     section["regions"] = regions;
     return section;
+}
+
+earthquake::Section shaken_of(const Context& all) {
+    const Values& values = all.values;
+    std::map<std::string, std::string> runouts;
+    double largest = 0.0;
+    for (const Region& each : all.regions) {
+        runouts[each.material] = each.material + "_runout";
+        largest = std::max(largest, each.sigma_v0_kPa);
+    }
+    return {.regions = all.regions,
+            .runouts = runouts,
+            .phreatic = all.outline.phreatic,
+            .crest = all.outline.crest,
+            .crest_from = all.outline.crest_from,
+            .height = values["height"],
+            .left = all.outline.left,
+            .right = values["foundation_extent"],
+            .base = base_of(values),
+            .element_size = values["element_size"],
+            .cell_size = values["cell_size"],
+            .layer_thickness = values["layer_thickness"],
+            .largest_sigma_v0_kPa = largest,
+            .density = all.wet.density,
+            .residual_ratio = values["residual_ratio"]};
 }
 
 Json stability_of(const Context& all) {
@@ -416,90 +306,14 @@ Json stability_of(const Context& all) {
                        millimetres(has(all, "foundation") ? beyond : 0.0)}},
                      {"minimum_depth", millimetres(0.25 * H)}};
     lem["water"] = {{"line", points(outline.phreatic)}};
-    Json liquefaction = Json::array();
-    for (const Region& each : layers_of(all)) {
-        liquefaction.push_back({{"region", each.part.name}});
-        if (all.with_fem)
-            liquefaction.back()["residual_coefficient_kPa"] =
-                rounded(all.values["residual_ratio"] * atmosphere);
-        else
-            liquefaction.back()["residual_strength_kPa"] = residual_kPa(all, each);
+    if (all.with_fem) {
+        if (const auto layers = liquefaction_of(shaken_of(all))) lem["liquefaction"] = *layers;
+        return lem;
     }
-    if (!liquefaction.empty()) lem["liquefaction"] = liquefaction;
+    for (const Region& each : layers_of(all))
+        lem["liquefaction"].push_back(
+            {{"region", each.name}, {"residual_strength_kPa", residual_kPa(all, each)}});
     return lem;
-}
-
-Json fem_of(const Context& all) {
-    const Values& values = all.values;
-    const double bottom = base_of(values);
-    const Outline& outline = all.outline;
-    Json fem{
-        {"notes",
-         {"assumed: rock below the model with V_s = 760 m/s; motion.csv is synthetic, no record; "
-          "0.5 % of damping at 3 Hz beside that of the soil's law",
-          "elements are for a first look: halve element_size before relying on the failure",
-          "gravity acts on elastic soil: PM4Sand, which has no cohesion, starts with the "
-          "shaking"}}};
-    fem["element"] = "ssp";
-    fem["supports"] = {{{"name", "base"},
-                        {"from", {nanometres(outline.left), nanometres(bottom)}},
-                        {"to", {nanometres(values["foundation_extent"]), nanometres(bottom)}},
-                        {"fixes", "xy"}}};
-    fem["water"] = {{"line", points(outline.phreatic)}};
-    fem["base"] = {{"density", 2243}, {"V_s", 760}, {"motion_at", "outcrop"}};
-    fem["motion"] = {{"file", "motion.csv"}};
-    fem["free_field"] = {{"width", values["element_size"]}, {"thickness_factor", 1000}};
-    fem["newmark_beta"] = 4.0 / 9;
-    fem["newmark_gamma"] = 5.0 / 6;
-    fem["damping"] = {{"ratio", 0.005}, {"frequency_Hz", 3}};
-    fem["stages"] = {{{"type", "static"}, {"name", "elastic gravity"}, {"laws", "elastic"}},
-                     {{"type", "dynamic"},
-                      {"name", "shaking"},
-                      {"duration", values["shaking"]},
-                      {"time_step", 0.005}}};
-    fem["force_tolerance"] = 1e-5;
-    fem["crest"] = corner(outline.crest);
-    Json names = Json::array();
-    double right = outline.left;  // of what can liquefy
-    for (const Region& each : layers_of(all)) {
-        names.push_back(each.part.name);
-        right = std::max(right, geometry::bounding_box(each.part.polygon).high.x());
-    }
-    const double from = std::min(outline.crest_from, right) - values["height"];
-    if (!names.empty())
-        fem["liquefaction"] = {{"regions", names},
-                               {"x", {nanometres(from), nanometres(outline.crest.x())}},
-                               {"level", nanometres(outline.phreatic.front().y())}};
-    fem["telemetry_interval"] = 0.05;
-    return fem;
-}
-
-Json transfer_of(const Context& all) {
-    Json mapping = Json::array(), names = Json::array();
-    double largest = 0.0;
-    for (const Region& each : all.regions) {
-        mapping.push_back({{"region", each.part.name}, {"to", each.part.material + "_runout"}});
-        if (each.layer == 0) continue;
-        names.push_back(each.part.name);
-        largest = std::max(largest, each.sigma_v0_kPa);
-    }
-    Json transfer{{"points_per_cell", 16}, {"mapping", mapping}};
-    transfer["phreatic_line"] = points(all.outline.phreatic);
-    if (names.empty()) return transfer;
-    const double step =
-        rounded(all.values["layer_thickness"] * (all.wet.density - water_density) * g / 1e3);
-    Json layers = Json::array();
-    for (double from = 0.0; from < largest || layers.empty(); from += step)
-        layers.push_back({{"sigma_v0_kPa", {rounded(from), rounded(from + step)}}});
-    transfer["liquefied"] = {
-        {"regions", names},
-        {"layers", layers},
-        {"narrowest_wall", 2.0 * all.values["cell_size"]},
-        {"residual_strength",
-         {{"like", "liquefied"},
-          {"coefficient_kPa", rounded(all.values["residual_ratio"] * atmosphere)},
-          {"exponent", 1}}}};
-    return transfer;
 }
 
 /// Grid lines go through the model's left end and through its floor.
@@ -507,8 +321,8 @@ Json runout_of(const Context& all) {
     const Values& values = all.values;
     const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
     const Terrain terrain(values);
-    // The FEM's sides sway: room for them.
-    const double left = nanometres(all.outline.left) - (all.with_fem ? 0.25 * h : 0.0);
+    const double from = nanometres(all.outline.left);
+    const double left = all.with_fem ? earthquake::wall_beside(from, h) : from;
     const double columns = std::ceil((values["runout_extent"] - left) / h);
     const double lowest =
         std::min(depth > 0.0 ? base_of(values) : 0.0, terrain.at(left + columns * h));
@@ -527,10 +341,9 @@ Json runout_of(const Context& all) {
     mpm["floor"] = {{"level", floor},
                     {"friction", {{{"from", left}, {"to", right}, {"coefficient", 0.5}}}}};
     if (depth > 0.0)
-        mpm["terrain"] = {{left - h, nanometres(base_of(values))},
-                          {end + 0.2 * h, nanometres(base_of(values))},
-                          {end + 0.4 * h, nanometres(terrain.at(end + 0.4 * h))},
-                          {right, nanometres(terrain.at(right))}};
+        for (const Vec2& each : earthquake::terrain_of(left, base_of(values), end, right, h,
+                                                       [&](double x) { return terrain.at(x); }))
+            mpm["terrain"].push_back(corner(each));
     else if (!terrain.is_level())
         mpm["terrain"] = {{left - h, nanometres(terrain.at(left - h))},
                           {0.0, 0.0},
@@ -545,8 +358,7 @@ Json runout_of(const Context& all) {
     mpm["telemetry_interval"] = rounded(0.15 * all.unit);
     Json mobile = Json::array();
     for (const Region& each : all.regions)
-        if (each.part.material != "foundation" && each.part.material != "clay")
-            mobile.push_back(each.part.name);
+        if (each.material != "foundation" && each.material != "clay") mobile.push_back(each.name);
     mpm["runout"] = {{"toe", {0, 0}}, {"regions", mobile}};
     mpm["gauges"] = {{{"name", "toe"}, {"x", 0}}};
     for (const auto& [name, heights] :
@@ -556,6 +368,8 @@ Json runout_of(const Context& all) {
 }
 
 }  // namespace
+
+earthquake::Motion motion_in(const Values& values) { return {values["pga"], values["shaking"]}; }
 
 Json scene_of(const Values& values, const Outline& outline, const std::string& name) {
     const Soil& wet = outline.wet == "tailings" ? tailings : loose_soil;
@@ -578,8 +392,9 @@ Json scene_of(const Values& values, const Outline& outline, const std::string& n
     scene["section"] = section_of(all);
     scene["lem"] = stability_of(all);
     if (all.with_fem) {
-        scene["fem"] = fem_of(all);
-        scene["transfer"] = transfer_of(all);
+        const earthquake::Section shaken = shaken_of(all);
+        scene["fem"] = fem_of(shaken, motion_in(values));
+        scene["transfer"] = transfer_of(shaken);
     }
     scene["mpm"] = runout_of(all);
     return scene;
@@ -591,15 +406,7 @@ Json study_of(const Values& values, const Json& scene) {
                {"title", scene.at("title")},
                {"scene", "scene.json"}};
     if (values.is_on("with_fem")) {
-        study["triggers"] = {{{"kind", "window"},
-                              {"name", "last_sound_mesh"},
-                              {"lower", "time > " + words::text_of(values["shaking"] / 8)},
-                              {"upper", "jacobian_least_avg < 0.97 or epsilon_q_avg > 0.2"},
-                              {"pick", "last_before"},
-                              {"snapshot_interval_s", rounded(values["shaking"] / 32)}}};
-        // One transfer may come before the dam has liquefied; those that a distorted mesh never reaches cost nothing.
-        for (const double share : {0.4, 0.6, 0.8, 1.0})
-            study["transfer_times"].push_back(rounded(share * values["shaking"]));
+        study.update(transfers_of(motion_in(values)));
         return study;
     }
     Json overrides = Json::array(), undrained_regions = Json::array();

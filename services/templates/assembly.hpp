@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "services/earthquake/earthquake.hpp"
 #include "services/templates/outline.hpp"
 
 namespace breach::templates {
@@ -11,6 +12,8 @@ namespace breach::templates {
 /// The scene, with `name` and its title.
 nlohmann::ordered_json scene_of(const Values& values, const Outline& outline,
                                 const std::string& name);
+
+earthquake::Motion motion_in(const Values& values);
 
 /// The study that runs it, with the same name and title; its scene is "scene.json" beside it.
 nlohmann::ordered_json study_of(const Values& values, const nlohmann::ordered_json& scene);

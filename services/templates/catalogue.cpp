@@ -7,6 +7,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/words/number.hpp"
+#include "services/earthquake/earthquake.hpp"
 
 namespace breach::templates {
 
@@ -110,10 +111,12 @@ Options earthquake() {
         yes_or_no("with_fem", false,
                   "yes: shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout); no: "
                   "liquefied at rest (LEM and runout)"),
-        of_type(
-            ratio("pga", 0.01, 1.5, 0.3, "peak acceleration of the outcrop motion, with with_fem"),
-            "g"),
-        of_type(length("shaking", 4, 60, 8, "length of the motion, with with_fem"), "s"),
+        of_type(ratio("pga", earthquake::least_pga, earthquake::most_pga, earthquake::Motion{}.pga,
+                      "peak acceleration of the outcrop motion, with with_fem"),
+                "g"),
+        of_type(length("shaking", earthquake::least_shaking, earthquake::most_shaking,
+                       earthquake::Motion{}.shaking, "length of the motion, with with_fem"),
+                "s"),
     };
 }
 
@@ -159,7 +162,7 @@ Template upstream() {
              pond(3, 7.5),  // the end lies 10.5 heights behind the crest (upstream_wall)
              {yes_or_no("drain", false,
                         "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
-             soil(0.08),
+             soil(earthquake::usual_residual_ratio),
              foundation_options(),
              site(),
              computation(),
@@ -186,7 +189,7 @@ Template downstream() {
              {yes_or_no("drain", true,
                         "yes: the phreatic line ends in a drain below the middle of the crest; no: "
                         "at the toe")},
-             soil(0.08),
+             soil(earthquake::usual_residual_ratio),
              foundation_options(),
              site(),
              computation(),

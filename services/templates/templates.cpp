@@ -4,8 +4,6 @@
 #include <regex>
 #include <sstream>
 
-#include "core/motion/read_motion.hpp"
-#include "core/motion/synthetic.hpp"
 #include "core/scene/reading.hpp"
 #include "services/templates/assembly.hpp"
 
@@ -89,26 +87,6 @@ std::string name_in(const Template& of, const json& options) {
           "give lower-case letters, digits, _ and -, at most 64, a letter or digit first"}});
 }
 
-/// PGV and Arias intensity as those of a record of San Fernando 1971 for the same PGA and length.
-std::string motion_of(const Values& values) {
-    const double pga = values["pga"], strong = 0.4 * values["shaking"];
-    const motion::Target target{
-        .peak_acceleration = pga * motion::standard_gravity,
-        .peak_velocity = 0.85 * pga,
-        .strong_duration = strong,
-        .arias_intensity = 1.33 * (pga / 0.3) * (pga / 0.3) * strong / 11.16,
-        .length = values["shaking"],
-        .dt = 0.01,
-        .seed = 1978};
-    const motion::Recording recording{.quantity = motion::Quantity::acceleration,
-                                      .series = motion::synthetic_motion(target),
-                                      .title = "synthetic"};
-    std::ostringstream text;
-    motion::write_csv(text, recording,
-                      "Synthetic: no recorded earthquake. Made by breach new, seed 1978.");
-    return text.str();
-}
-
 /// What the reader of scenes refuses all the same: too coarse for the thinnest part.
 void check_made(const Values& values, const Json& scene) {
     std::vector<fault::Fault> faults = scene::read_text(scene.dump(), "scene", ".", {}).faults;
@@ -170,7 +148,7 @@ Made make(const std::string& name, const json& options) {
     made.scene = scene_of(values, outline_of(values), scene_name);
     check_made(values, made.scene);
     made.study = study_of(values, made.scene);
-    if (values.is_on("with_fem")) made.motion = motion_of(values);
+    if (values.is_on("with_fem")) made.motion = earthquake::text_of(motion_in(values));
     return made;
 }
 

@@ -126,7 +126,21 @@ test("a drawing dropped into an empty dialog leads to its soils; a drawing read 
     assert.equal((await scene()).lem.search.entry[0], first);
     await go_to_step(page, "Question");
     assert.ok(await page.locator('#question label:has-text("Does it stand?") input').isChecked());
-    assert.ok(await page.locator('#question label:has-text("earthquake") input').isDisabled());
+    await page.click('#question label:has-text("earthquake") input');
+    await until("what can liquefy is asked for", async () => /no region is cut in layers/.test(await page.textContent("#drawing-faults")));
+    await go_to_step(page, "Section");
+    await page.getByLabel("layers", { exact: true }).fill("TAILINGS=5,10");
+    await until("the FEM", async () => (await scene()).fem?.damping.ratio === 0.005);
+    assert.deepEqual((await value()).transfer_times, [3.2, 4.8, 6.4, 8]);
+    assert.match((await scene()).fem.motion.file, /^file:sha256/);
+    assert.deepEqual([(await scene()).materials.TAILINGS.law.type, (await scene()).materials.TAILINGS_runout.density], ["pm4sand", 1880]);
+    await sound("the shaken section");
+    await go_to_step(page, "Question");
+    assert.ok(await page.locator('#question label:has-text("earthquake") input').isChecked());
+    await page.click('#question label:has-text("liquefied at rest") input');
+    await until("no FEM", async () => (await scene()).fem === undefined);
+    assert.deepEqual(Object.keys((await scene()).materials).sort(), ["FOUNDATION", "RAISES", "STARTER", "TAILINGS"]);
+    assert.equal((await scene()).materials.TAILINGS.law.type, "mohr_coulomb");
 });
 
 test("a study file whose scene is a name asks for that file", async () => {

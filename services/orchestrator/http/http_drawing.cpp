@@ -1,5 +1,4 @@
-#include "services/orchestrator/http/http_drawing.hpp"
-
+#include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/imports.hpp"
 #include "services/orchestrator/http/preview.hpp"
 
@@ -11,12 +10,14 @@ void add_drawing_routes(Router& router, Service& service) {
         const auto mesh = call.whole_number("mesh", 0, 0, 1) == 1 ? MeshDrawn::yes : MeshDrawn::no;
         call.response.set_content(picture_of(service, call.json_body(), mesh), "image/svg+xml");
     });
-    router.post("/v1/import", [](Call& call) {
+    router.post("/v1/import", [&](Call& call) {
         call.allow_parameters({"picture"});
         if (call.whole_number("picture", 0, 0, 1) == 1) {
             call.response.set_content(picture_of_import(call.json_body()), "image/svg+xml");
         } else {
-            reply(call.response, imported(call.json_body()));
+            reply(call.response, imported(call.json_body(), [&](const std::string& text) {
+                      return keep_motion(service, "motion.csv", text);
+                  }));
         }
     });
     router.post("/v1/cost", [&](Call& call) {

@@ -2,8 +2,6 @@
 
 #include <fstream>
 
-#include "services/orchestrator/http/http_drawing.hpp"
-
 namespace breach::orchestrator {
 
 std::string whole_text(const std::filesystem::path& file) {

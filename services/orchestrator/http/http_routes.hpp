@@ -34,6 +34,8 @@ void add_event_routes(Router& router, Service& service, const std::atomic<bool>&
 void add_example_routes(Router& router, Service& service);
 /// Scenes from templates.
 void add_template_routes(Router& router, Service& service);
+/// Documents before they are submitted: a picture of the section, an imported drawing, the cost.
+void add_drawing_routes(Router& router, Service& service);
 /// /metrics as Prometheus text. `router` counts the requests.
 void add_metric_routes(Router& router, Service& service);
 /// Schemas, plans, health, the dashboard.

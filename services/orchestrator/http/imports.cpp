@@ -92,17 +92,29 @@ importing::Request request_from(const std::string& text) {
                                .flatten = entries.number("flatten"),
                                .name = entries.text("name"),
                                .confirmed = entries.flag("confirmed")};
+    const auto pga = entries.number("pga"), shaking = entries.number("shaking");
+    if (entries.flag("with_fem")) {
+        auto& motion = request.motion.emplace();
+        motion.pga = pga.value_or(motion.pga);
+        motion.shaking = shaking.value_or(motion.shaking);
+    }
     entries.finish();
     return request;
 }
 
 }  // namespace
 
-json imported(const std::string& body) {
+json imported(const std::string& body, const KeepMotion& keep_motion) {
     const importing::Request request = request_from(body);
     importing::Imported made = importing::import_section(request);
     if (!made.faults.empty()) throw fault::BadInput("drawing", std::move(made.faults));
-    return {{"scene", std::move(made.scene)}, {"report", std::move(made.report)}};
+    json answer{{"report", std::move(made.report)}};
+    if (!made.motion.empty()) {
+        made.scene["fem"]["motion"]["file"] = keep_motion(made.motion);
+        answer["study"] = std::move(made.study);
+    }
+    answer["scene"] = std::move(made.scene);
+    return answer;
 }
 
 std::string picture_of_import(const std::string& body) {

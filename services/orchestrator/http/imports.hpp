@@ -2,13 +2,17 @@
 // Eigen and httplib cannot be included together.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace breach::orchestrator {
 
-/// {scene, report}. Throws BadInput with every fault of the drawing, or of the request itself.
-nlohmann::json imported(const std::string& body);
+/// Stores the text of a motion; returns its name in scenes.
+using KeepMotion = std::function<std::string(const std::string& text)>;
+
+/// {scene, report, study}; a study only with an earthquake. Throws BadInput with every fault of the drawing, or of the request itself.
+nlohmann::json imported(const std::string& body, const KeepMotion& keep_motion);
 /// The same as a picture, SVG: the scene, or the outlines with their faults in red. Throws BadInput
 /// where there is nothing to draw.
 std::string picture_of_import(const std::string& body);

@@ -6,7 +6,7 @@ const kinds = [
     { name: "static", title: "How far does it run, liquefied at rest?", help: "static liquefaction: factor of safety, then runout with residual strengths (LEM, MPM)", needs: ["mpm"],
       without: "needs a runout part: draw the ground that it runs over on a layer named terrain, add the part below, or begin with a template" },
     { name: "seismic", title: "Does an earthquake bring it down?", help: "seismic: pore pressure and failure under a motion, then runout (FEM, transfer, MPM)", needs: ["fem", "transfer", "mpm"],
-      without: "needs FEM, transfer and runout: begin with a template, or add them below" },
+      without: "needs FEM, transfer and runout: begin with a template or a drawing, or add them below" },
 ];
 const kind_of = ({ fem, mpm }) => (fem ? "seismic" : mpm ? "static" : "stability");
 const defined = (entries) => Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined));
@@ -37,7 +37,7 @@ export class Question {
         by_id("question").hidden = !scene.section;
         for (const { name, needs, help, without, radio, note } of this.rows) {
             const missing = needs.filter((part) => !scene[part] && !this.parked?.scene?.[part]);
-            const is_by_template = name !== "stability" && this.template.is_shaken() !== null;
+            const is_by_template = this.template.is_shaken() !== null && (name === "seismic" || missing.length === 0);
             radio.checked = name === kind_of(scene);
             radio.disabled = !radio.checked && !is_by_template && (missing.length > 0 || (name === "static" && Boolean(scene.fem)));
             set_text(note, !radio.disabled ? help : missing.length ? without : "this scene's soils are those of its FEM");

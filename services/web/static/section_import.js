@@ -8,6 +8,9 @@ const properties = {
     layers: { type: "string", description: "regions cut by depth below the phreatic line [m], with ; between: tailings=5,10,15" },
     unit: { type: "string", enum: units, description: "of the drawing; not set: what the drawing says, metres for CSV" },
     tolerance: { type: "number", unit: "m", exclusiveMinimum: 0, maximum: 10, default: 0.05, description: "what is nearer is meant to touch" },
+    with_fem: { topic: "water", type: "boolean", default: false, description: "yes: shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout); the layers can liquefy" },
+    pga: { topic: "water", type: "number", unit: "g", minimum: 0.01, maximum: 1.5, default: 0.3, description: "peak acceleration of the outcrop motion, with with_fem" },
+    shaking: { topic: "water", type: "number", unit: "s", minimum: 4, maximum: 60, default: 8, description: "length of the motion, with with_fem" },
     flatten: { type: "number", unit: "m", exclusiveMinimum: 0, maximum: 10, description: "arcs become chords that are off by at most this; not set: arcs are faults" },
 };
 const pieces = (text) => (text ?? "").split(";").map((each) => each.trim()).filter(Boolean);
@@ -25,6 +28,21 @@ function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [
 const stand_in = { density: 1900, law: { type: "mohr_coulomb", E_MPa: 20, nu: 0.3, c_kPa: 1, phi_deg: 30 } };
 const is_whole = ({ density, law, strength }) => density > 0 && (law?.type !== "mohr_coulomb" || (law.E_MPa > 0 && law.nu >= 0 && (strength || (law.c_kPa >= 0 && law.phi_deg >= 0))));
 
+/// Soils as they were before an earthquake completed them: NAME_runout is NAME again.
+function at_rest(soils) {
+    const shaken = Object.keys(soils).filter((name) => soils[`${name}_runout`]);
+    if (shaken.length === 0) return soils;
+    const added = ["liquefied", ...shaken.map((name) => `${name}_runout`)];
+    return Object.fromEntries(Object.entries(soils).filter(([name]) => !added.includes(name)).map(([name, soil]) => [name, soils[`${name}_runout`] ?? soil]));
+}
+
+/// Soil that stands in for values would become sand of other values.
+function need_values(soils) {
+    const missing = Object.keys(soils).filter((name) => !is_whole(soils[name]));
+    if (missing.length)
+        throw Object.assign(new Error("soils without values"), { faults: [{ pointer: "/with_fem", cause: `needs whole soils; values are missing of ${missing.join(", ")}`, remedy: "fill them in at the step Soils" }] });
+}
+
 export class SectionImport {
     /// panel: an OptionsPanel; drawing: the LiveDrawing, which shows what is wrong with the file; wants_soils(): layers became soils without values.
     constructor(panel, drawing, wants_soils) {
@@ -34,14 +52,18 @@ export class SectionImport {
     begin(file, drawing) {
         const study = this.panel.study();
         const is_again = this.panel.source?.is_import;
-        const soils = () => this.panel.study()?.scene?.materials ?? {};
+        const soils = ({ with_fem }) => {
+            const own = this.panel.study()?.scene?.materials ?? {};
+            return with_fem ? own : at_rest(own);
+        };
         // The search of the stability analysis is placed with the service's help, which needs whole soils: those without values stand in with others.
         const asked = ({ map, layers, ...others }, own) => ({ drawing, file, map: pieces(map), layers: pieces(layers), ...others,
             materials: Object.fromEntries(Object.entries(own).map(([name, soil]) => [name, is_whole(soil) ? soil : stand_in])) });
         this.panel.open({
             title: `Section of ${file}.`, properties, is_import: true, base: is_again ? this.panel.made : { scene: { section: study?.scene?.section } },
             make: async (values, signal) => {
-                let own = soils();
+                let own = soils(values);
+                if (values.with_fem) need_values(own);
                 const is_empty = Object.keys(own).length === 0;
                 const found = await api.import_section(asked(values, is_empty ? { "no soil yet": stand_in } : own), signal).catch((fault) => {
                     const layers = (fault.faults ?? []).map(({ cause }) => cause.match(/^layer (.+) has no material/)?.[1]).filter(Boolean);
@@ -51,9 +73,10 @@ export class SectionImport {
                 });
                 if (is_empty) this.wants_soils();
                 const note = `${note_of(found.report)}${study?.scene?.section && !is_again ? "; it takes the place of the section that stood there" : ""}`;
-                return { study: { format: "breachline-study/1", name: found.scene.name, scene: { ...found.scene, materials: own } }, note };
+                const scene = values.with_fem ? found.scene : { ...found.scene, materials: own };
+                return { study: { format: "breachline-study/1", name: scene.name, ...found.study, scene }, note };
             },
-            failed: (fault) => this.show_faults(asked(this.panel.options.values, soils()), fault),
+            failed: (fault) => this.show_faults(asked(this.panel.options.values, soils(this.panel.options.values)), fault),
         });
     }
 

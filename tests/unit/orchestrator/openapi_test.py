@@ -235,6 +235,11 @@ class Described(Api):
         made = json.loads(post("/v1/import", "/v1/import", 200, section))
         self.assertEqual(made["scene"]["section"]["regions"][0]["name"], "clay")
         post("/v1/draw", "/v1/draw", 200, made["scene"])
+        shaken = {**section, "phreatic": "x,y\n0,6\n40,0\n", "layers": ["clay=3"], "with_fem": True, "pga": 0.2}
+        made = json.loads(post("/v1/import", "/v1/import", 200, shaken))
+        self.assertIn("file:sha256/", made["scene"]["fem"]["motion"]["file"])
+        post("/v1/cost", "/v1/cost", 200, {**made["study"], "scene": made["scene"]})
+        self.assertIn("REGION=5,10", post("/v1/import", "/v1/import", 422, {**shaken, "layers": []}).decode())
         wrong = {**section, "drawing": section["drawing"] + "\nsand,0,8\nsand,9,8\nsand,9,9\n"}
         self.assertIn("(0, 8)", post("/v1/import", "/v1/import", 422, wrong).decode())
         self.assertIn(b'class="fault"', post("/v1/import", "/v1/import?picture=1", 200, wrong))

@@ -1,0 +1,68 @@
+// What a scene needs so that an earthquake can shake it: the FEM phase, its transfer, the stages of
+// liquefaction in the stability analysis, the study's transfer times and a synthetic motion.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "services/earthquake/soils.hpp"
+#include "services/earthquake/stress.hpp"
+
+namespace breach::earthquake {
+
+constexpr double least_pga = 0.01, most_pga = 1.5;      // g
+constexpr double least_shaking = 4, most_shaking = 60;  // s
+constexpr const char* motion_file = "motion.csv";
+
+/// A synthetic motion of outcropping rock.
+struct Motion {
+    double pga = 0.3;      ///< [g]
+    double shaking = 8.0;  ///< length [s]
+};
+
+/// A section that falls to the right, on a level base.
+struct Section {
+    std::vector<Region> regions;
+    std::map<std::string, std::string>
+        runouts;  ///< materials that another one replaces in the runout
+    Line phreatic;
+    Vec2 crest;                                      ///< its downstream edge
+    double crest_from;                               ///< x of its upstream edge
+    double height;                                   ///< of the slope [m]
+    double left, right, base;                        ///< ends and level of the lower edge
+    bool upright_left = true, upright_right = true;  ///< sides that are one vertical line
+    double element_size, cell_size;
+    double layer_thickness;       ///< [m]
+    double largest_sigma_v0_kPa;  ///< of the soil that liquefies, where its layers by stress end
+    double density;               ///< of the soil that liquefies [kg/m3]
+    double residual_ratio = usual_residual_ratio;
+};
+
+Json fem_of(const Section& section, const Motion& motion);
+Json transfer_of(const Section& section);
+/// /lem/liquefaction; none without layers.
+std::optional<Json> liquefaction_of(const Section& section);
+
+/// Rigid ground of the runout: below the base, and beyond its right end the ground's level there.
+/// `level` is that of the ground; `h` the cell size.
+template <class Level>
+Line terrain_of(double left, double base, double end, double right, double h, const Level& level) {
+    return {{left - h, base},
+            {end + 0.2 * h, base},
+            {end + 0.4 * h, level(end + 0.4 * h)},
+            {right, level(right)}};
+}
+
+/// A grid of cells h that begins at the base's end: the sides of the FEM sway, so there is room.
+inline double wall_beside(double left, double h) { return left - 0.25 * h; }
+
+/// Triggers and transfer times of the study.
+Json transfers_of(const Motion& motion);
+
+/// Text of the motion's file. PGV and Arias intensity are as those of a record of San Fernando 1971
+/// for the same PGA and length.
+std::string text_of(const Motion& motion);
+
+}  // namespace breach::earthquake
