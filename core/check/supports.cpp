@@ -121,7 +121,7 @@ void check_base(const scene::Scene& scene, double tolerance, Findings& findings)
              cause + ": the rest moves without rock below; " + remedy);
 }
 
-/// A section that was made longer, and its support was not: the soil beyond hangs on its neighbour.
+/// A section that was made longer, and its support was not.
 void warn_if_base_hangs(const scene::Scene& scene, double tolerance, Findings& findings) {
     const double level = extent(scene.section).low.y();
     double length = 0.0, held = 0.0;
@@ -139,12 +139,11 @@ void warn_if_base_hangs(const scene::Scene& scene, double tolerance, Findings& f
             }
         }
     if (held <= tolerance || held >= (1.0 - 1e-6) * length) return;
-    warn(
-        findings, "hardly_held", "/fem/supports",
-        "only " + metres(held) + " of the section's lowest side, " + metres(length) +
-            " at y = " + metres(level) +
-            ", are held: the soil over the rest hangs on its neighbour; let the support reach from "
-            "end to end");
+    warn(findings, "hardly_held", "/fem/supports",
+         "only " + metres(held) + " of the section's lowest side, " + metres(length) +
+             " at y = " + metres(level) +
+             ", are held: nothing holds the soil over the rest; let the support reach from end to "
+             "end");
 }
 
 void check_crest(const scene::Scene& scene, Findings& findings) {

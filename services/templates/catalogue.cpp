@@ -97,7 +97,7 @@ Options computation() {
     return {
         sized("runout_extent", 10, 10, 20000, "how far beyond the toe the soil can be followed"),
         sized(
-            "cell_size", 1.0 / 15, 0.05, 20,
+            "cell_size", 1.0 / 20, 0.05, 20,
             "cells of the runout, at most half of clay_thickness by default; halve it for a result "
             "to rely on"),
     };

@@ -226,10 +226,10 @@ TEST(Templates, CellsSeeTheWeakLayerAndGroundLiesBelowIt) {
     const auto cell = [](const json& options) {
         return make("upstream_dam", options).scene.at("/mpm/cell_size"_json_pointer).get<double>();
     };
-    EXPECT_NEAR(cell({{"height", 20}}), 20.0 / 15, 1e-3);
-    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 2}}), 1.0);
-    EXPECT_NEAR(cell({{"height", 20}, {"clay_thickness", 3}}), 20.0 / 15, 1e-3);
-    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 2}, {"cell_size", 1.25}}), 1.25);
+    EXPECT_EQ(cell({{"height", 20}}), 1.0);
+    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 1.5}}), 0.75);
+    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 3}}), 1.0);
+    EXPECT_EQ(cell({{"height", 20}, {"clay_thickness", 1.5}, {"cell_size", 1.25}}), 1.25);
     EXPECT_EQ(make("upstream_dam", {{"height", 20}, {"clay_thickness", 8}, {"cell_size", 1}})
                   .options.at("foundation_depth"),
               9);
