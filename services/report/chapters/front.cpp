@@ -438,14 +438,22 @@ std::string named(const PhaseFolder& phase) {
     return one ? "" : " (" + of_transfer(phase) + ")";
 }
 
-/// "Runout ≥ 37.3 m (t_T = 13 s, soft). Factor of safety 0.912."
+/// "Runout ≥ 37.3 m (t_T = 13 s, soft); 1 of 2 runouts without a result. Factor of safety 0.912."
 std::string headline_of(const Run& run) {
     std::string text;
-    if (const PhaseFolder* farthest = farthest_runout(run))
+    if (const PhaseFolder* farthest = farthest_runout(run)) {
+        const auto asked = phases_named(run, phases::mpm.program);
+        const auto missing = std::ranges::count_if(
+            asked, [](const PhaseFolder* each) { return !each->result.is_object(); });
         text += "Runout " + bounded(*farthest, rounded(runout_of(farthest), digits)) + " m" +
                 (farthest->runout_error ? " \u00b1 " + rounded(*farthest->runout_error, 2) + " m"
                                         : "") +
-                named(*farthest) + ". ";
+                named(*farthest);
+        if (missing > 0)
+            text += "; " + std::to_string(missing) + " of " + std::to_string(asked.size()) +
+                    " runouts without a result";
+        text += ". ";
+    }
     if (const PhaseFolder* least = least_factor(run))
         text += "Factor of safety " + brief_fact(*least, "/factor_of_safety") + named(*least) + ".";
     return text;
