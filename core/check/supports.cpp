@@ -100,15 +100,16 @@ void check_free_field(const scene::Scene& scene, double tolerance, Findings& fin
         check_column(scene, box.high.x(), "right", tolerance, findings);
 }
 
+double length_of_lowest_sides(const scene::Scene& scene, double tolerance) {
+    const Vec2 low = extent(scene.section).low, high = extent(scene.section).high;
+    return length_on_sides(scene, {low, {high.x(), low.y()}}, tolerance);
+}
+
 /// The dashpots stand on the edges of the lowest level.
 void check_base(const scene::Scene& scene, double tolerance, Findings& findings) {
     if (!scene.fem->base) return;
     const geometry::Box box = extent(scene.section);
-    double level = 0.0;
-    for (const scene::Region& region : scene.section.regions)
-        for (const Side& side : sides_of(region.polygon))
-            if (std::max(side.a.y(), side.b.y()) <= box.low.y() + tolerance)
-                level += (side.b - side.a).norm();
+    const double level = length_of_lowest_sides(scene, tolerance);
     const double width = box.high.x() - box.low.x();
     if (level >= (1.0 - 1e-6) * width) return;
     const std::string cause = "only " + metres(level) + " of the section's " + metres(width) +
@@ -122,22 +123,14 @@ void check_base(const scene::Scene& scene, double tolerance, Findings& findings)
 }
 
 /// A section that was made longer, and its support was not.
-void warn_if_base_hangs(const scene::Scene& scene, double tolerance, Findings& findings) {
+void warn_of_unheld_base(const scene::Scene& scene, double tolerance, Findings& findings) {
     const double level = extent(scene.section).low.y();
-    double length = 0.0, held = 0.0;
-    for (const scene::Region& region : scene.section.regions)
-        for (const Side& side : sides_of(region.polygon)) {
-            if (std::max(side.a.y(), side.b.y()) > level + tolerance) continue;
-            length += (side.b - side.a).norm();
-            for (const scene::Support& support : scene.fem->supports) {
-                const bool along = std::abs(support.from.y() - level) <= tolerance &&
-                                   std::abs(support.to.y() - level) <= tolerance;
-                const auto [low, high] = std::minmax({support.from.x(), support.to.x()});
-                const auto [left, right] = std::minmax({side.a.x(), side.b.x()});
-                if (along && support.fixes_y)
-                    held += std::max(0.0, std::min(high, right) - std::max(low, left));
-            }
-        }
+    const double length = length_of_lowest_sides(scene, tolerance);
+    const auto lies_there = [&](const Vec2& end) { return std::abs(end.y() - level) <= tolerance; };
+    double held = 0.0;
+    for (const scene::Support& each : scene.fem->supports)
+        if (each.fixes_y && lies_there(each.from) && lies_there(each.to))
+            held += length_on_sides(scene, {each.from, each.to}, tolerance);
     if (held <= tolerance || held >= (1.0 - 1e-6) * length) return;
     warn(findings, "hardly_held", "/fem/supports",
          "only " + metres(held) + " of the section's lowest side, " + metres(length) +
@@ -202,7 +195,7 @@ void check_supports(const scene::Scene& scene, Findings& findings) {
     if (!missed) check_held(scene, tolerance, findings);
     check_free_field(scene, tolerance, findings);
     check_base(scene, tolerance, findings);
-    warn_if_base_hangs(scene, tolerance, findings);
+    warn_of_unheld_base(scene, tolerance, findings);
 }
 
 }  // namespace breach::check

@@ -57,7 +57,7 @@ Files beside(const std::filesystem::path& scene, importing::Imported& imported) 
     if (imported.motion.empty()) return {};
     imported.study["scene"] = scene.filename().string();
     Files files{{scene.parent_path() / "study.json", imported.study.dump(1) + "\n"},
-                {scene.parent_path() / "motion.csv", imported.motion}};
+                {scene.parent_path() / earthquake::motion_file, imported.motion}};
     if (files.contains(scene))
         throw fault::BadInput("breach import",
                               {{"--output", "is the name of the " + scene.stem().string(),
