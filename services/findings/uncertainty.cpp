@@ -74,8 +74,9 @@ std::string importance_in_words(const json& statistics) {
             first = &each;
     if (first == nullptr) return "Too few results, or too alike, to tell which parameter matters.";
     const double least = first->at("first_order_low");
-    std::string words = "Most of the spread goes by " + first->at("parameter").get<std::string>() +
-                        ": by itself " + shown(100.0 * first->at("first_order").get<double>()) +
+    std::string words = "Most of the spread comes from " +
+                        first->at("parameter").get<std::string>() + ": alone it explains " +
+                        shown(100.0 * first->at("first_order").get<double>()) +
                         " % of the variance (" + shown(100.0 * least) + " to " +
                         shown(100.0 * first->at("first_order_high").get<double>()) + " %)";
     if (least == 0.0) words = "No parameter stands out from the noise of so few samples";
