@@ -69,7 +69,18 @@ async function printed_whole(paper, name) {
             assert.ok(first.includes(bare(part)), `${name}, ${format}: the first page has "${part}"`);
         }
     }
+    numbers_pages(paper.url().replace("file://", ""));
     return [...kinds];
+}
+
+/// In a PDF by WeasyPrint each chapter begins on the page that the contents name.
+function numbers_pages(report) {
+    const pdf = report.replace(".html", "-numbered.pdf");
+    execFileSync("weasyprint", ["--quiet", report, pdf]);
+    const pages = execFileSync("pdftotext", ["-raw", pdf, "-"], { encoding: "utf8" }).split("\f");
+    const begins = pages.flatMap((text, at) => [...text.matchAll(/^\d+ (.+)$/gm)].map(([, title]) => `${title}, page ${at + 1}`));
+    const named = [...pages.join("\n").matchAll(/^.+, page \d+$/gm)].map(([line]) => line);
+    assert.ok(named.filter((each) => begins.includes(each)).length >= 4, `${report}: ${named} for ${begins}`);
 }
 
 test("a study with faults is refused with the places at fault", async () => {
