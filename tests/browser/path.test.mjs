@@ -183,12 +183,18 @@ test("a question puts in the parts that it needs and takes out the others", asyn
     await until("the variants", async () => (await value()).variants.length === 2);
 });
 
-test("every preset is a soil of a shipped scene", async () => {
+test("every preset is a soil of a shipped scene, or one that the service accepts", async () => {
     const { $defs: { material } } = await answer("/v1/schema/scene");
+    const { scene: slope } = await answer("/v1/examples/flow-slope");
     assert.ok(material["x-presets"].length > 5);
-    for (const { title, example, material: name, source } of material["x-presets"]) {
-        const study = await answer(`/v1/examples/${example}`);
-        assert.ok(study.scene?.materials[name]?.density > 0, title);
+    for (const { title, example, material: name, source, soil } of material["x-presets"]) {
+        if (soil) {
+            const study = { format: "breachline-study/1", name: "preset", scene: { ...slope, materials: { ...slope.materials, tailings: soil } } };
+            const cost = await answer("/v1/cost", { method: "POST", body: JSON.stringify(study) });
+            assert.ok(cost.lines, `${title}: ${JSON.stringify(cost)}`);
+        } else {
+            assert.ok((await answer(`/v1/examples/${example}`)).scene?.materials[name]?.density > 0, title);
+        }
         assert.match(source, /\(\d{4}\)/, title);
     }
 });

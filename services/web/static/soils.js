@@ -77,10 +77,9 @@ export class Soils extends NamedRows {
         return line;
     }
 
-    /// A soil of a shipped scene, with its source as the first note.
-    async take_preset(name, { title, example, material, source }) {
-        const { scene } = await read_example(example);
-        const { notes = [], ...soil } = scene.materials[material];
+    /// The preset's soil or that of a shipped scene, with its source as the first note.
+    async take_preset(name, { title, example, material, source, soil: own }) {
+        const { notes = [], ...soil } = own ?? (await read_example(example)).scene.materials[material];
         this.form.set([...this.parts, name], { notes: [`${title}: ${source}`, ...notes], ...soil });
     }
 }
