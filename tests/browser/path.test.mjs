@@ -190,7 +190,8 @@ test("every preset is a soil of a shipped scene, or one that the service accepts
     for (const { title, example, material: name, source, soil } of material["x-presets"]) {
         if (soil) {
             const study = { format: "breachline-study/1", name: "preset", scene: { ...slope, materials: { ...slope.materials, tailings: soil } } };
-            const cost = await answer("/v1/cost", { method: "POST", body: JSON.stringify(study) });
+            const json = { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(study) };
+            const cost = await answer("/v1/cost", json);
             assert.ok(cost.lines, `${title}: ${JSON.stringify(cost)}`);
         } else {
             assert.ok((await answer(`/v1/examples/${example}`)).scene?.materials[name]?.density > 0, title);
