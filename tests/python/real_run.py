@@ -71,7 +71,7 @@ def executed(file):
         return None
     content = nbformat.read(file, as_version=4)
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(package), os.environ.get("PYTHONPATH")]))
-    NotebookClient(content, timeout=120, kernel_name="python3").execute()
+    NotebookClient(content, timeout=600, kernel_name="python3").execute()
     for cell in content.cells:
         cell.metadata.pop("execution", None)  # when it ran
     content.metadata = {"kernelspec": content.metadata["kernelspec"]}
