@@ -95,7 +95,9 @@ Document document_of(const std::string& name, const json& given, const std::vect
         const geometry::Box box = geometry::bounding_box(each.ring);
         height = std::max(height, box.high.y() - box.low.y());
     }
-    const double size = element_size_for(slope ? slope->fall() : height);
+    if (slope) height = slope->fall();
+    const double size = element_size_for(height);
+    const double cell = rounded(share * std::min(size, cell_size_for(height)));
     guess("/section/element_size", size,
           slope ? "a fifteenth of the slope's height" : "a fifteenth of the thickest region");
     document.scene = {{"format", "breachline-scene/1"},
@@ -119,13 +121,14 @@ Document document_of(const std::string& name, const json& given, const std::vect
     }
     if (!lines.terrain.empty()) {
         const Vec2 toe = slope ? slope->toe : ground.back();
-        document.scene["mpm"] = mpm_of(soils, lines.terrain, toe, share * size);
-        guess("/mpm/cell_size", share * size,
-              share == 1.0 ? "the element size" : "the thinnest layer, which needs two cells");
+        document.scene["mpm"] = mpm_of(soils, lines.terrain, toe, cell);
+        guess("/mpm/cell_size", cell,
+              share < 1.0 ? "the thinnest layer, which needs two cells"
+                          : "a twentieth of the height, as in \"breach new\"");
         const auto is_nonlocal = [](const json& each) { return each.contains("nonlocal_length"); };
         if (std::ranges::any_of(materials, is_nonlocal)) {
             json& length = document.scene["mpm"]["softening_length"];
-            length = given.value("/mpm/softening_length"_json_pointer, json(share * size));
+            length = given.value("/mpm/softening_length"_json_pointer, json(cell));
             guess("/mpm/softening_length", length,
                   "the scene of the materials, else the cell size");
         }

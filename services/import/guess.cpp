@@ -135,4 +135,10 @@ double element_size_for(double height) {
     return power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
 }
 
+double cell_size_for(double height) {
+    const double most = std::max(height, 0.01) / 20.0;
+    const double digit = std::pow(10.0, std::floor(std::log10(most)) - 1.0);
+    return std::floor(most / digit * (1.0 + 1e-9)) * digit;
+}
+
 }  // namespace breach::importing

@@ -46,5 +46,7 @@ Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground);
 
 /// About a fifteenth of the fall, as 1, 2 or 5 times a power of ten [m].
 double element_size_for(double height);
+/// A twentieth of the fall, rounded down to two digits [m]: the cells of "breach new".
+double cell_size_for(double height);
 
 }  // namespace breach::importing

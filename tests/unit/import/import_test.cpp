@@ -305,9 +305,9 @@ TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
     for (const scene::Region& each : scene.section.regions)
         for (const Vec2& vertex : each.polygon)
             EXPECT_GE(vertex.y(), geometry::level_at(scene.mpm->terrain, vertex.x()) - 1e-9);
-    request.terrain->bytes = "x,y\n-0.7,0\n80,0\n300.6,-6\n";
+    request.terrain->bytes = "x,y\n-0.7,0\n80,0\n300.5,-6\n";
     const json grid = import_section(request).scene.at("mpm").at("domain_x");
-    EXPECT_EQ(grid, json::parse("[0.0,301.0]")) << "its wall touches the section";
+    EXPECT_EQ(grid, json::parse("[0.0,300.6]")) << "its wall touches the section";
     request.terrain->bytes = "x,y\n0,3\n300,-6\n";
     const Imported cut = import_section(request);
     EXPECT_NE(test::told(cut.faults).find("/mpm/terrain: passes through region"), std::string::npos)
@@ -465,7 +465,7 @@ TEST(Import, CellsFitTheLayersThatItCutsItself) {
                               light("PHREATIC", {{0, 127}, {110, 120}, {200, 100}}, false)));
         request.terrain = {"terrain.csv", "x,y\n0,90\n400,86\n400.5,96\n800,88\n"};
         request.layers = {layers};
-        for (const char* part : {"TAILINGS_0_3", "TAILINGS_3_6", "TAILINGS_0_0p4"}) {
+        for (const char* part : {"TAILINGS_0_3", "TAILINGS_3_6", "TAILINGS_0_0p3"}) {
             request.materials[part] = request.materials["tailings"];
             request.materials[part]["law"]["c_kPa"] = part[9] == '3' ? 5 : 8;
         }
@@ -473,9 +473,9 @@ TEST(Import, CellsFitTheLayersThatItCutsItself) {
         EXPECT_EQ(test::told(imported.faults), "");
         return imported.scene.at("mpm");
     };
-    EXPECT_EQ(cell("TAILINGS=20").at("cell_size"), 2.0);
-    EXPECT_EQ(cell("TAILINGS=3,6").at("cell_size"), 1.0);
-    EXPECT_EQ(cell("TAILINGS=0.4").at("allow_coarse_cells"), true);
+    EXPECT_EQ(cell("TAILINGS=20").at("cell_size"), 1.5);
+    EXPECT_EQ(cell("TAILINGS=3,6").at("cell_size"), 0.75);
+    EXPECT_EQ(cell("TAILINGS=0.3").at("allow_coarse_cells"), true);
 }
 
 TEST(Import, NamesOfMaterialsAndRegionsMatchInAnyCase) {
