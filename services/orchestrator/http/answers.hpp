@@ -22,7 +22,7 @@ nlohmann::json warnings_json(const std::vector<fault::Flag>& flags);
 
 using Columns = std::span<const ResultColumn>;
 
-/// [{"runout": ...}, ...]: by the names of the columns. Text directly, as tables may be long.
+/// [{"runout": ...}, ...], keyed by column name. Written as text directly, as tables may be long.
 std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns);
 /// Description of the columns of a table of results: [{name, kind, unit, title, meaning}].
 nlohmann::json described(Columns columns);
