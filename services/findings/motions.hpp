@@ -19,7 +19,7 @@ struct Shaken {
     bool lower_bound = false;  ///< of the runout
 };
 
-/// With fewer motions there are no findings.
+/// Fewer motions give no findings.
 inline constexpr std::size_t fewest_motions = 5;
 
 /// {"rows", "measures": [{"name", "title", "unit", "with_depth", "with_runout", "fragility"}], "best",
