@@ -414,7 +414,6 @@ class DxfReader {
     std::size_t points_ = 0;
     std::size_t bad_numbers_ = 0;
     bool too_many_ = false;
-    // The current outline.
     Outline current_{};
     std::vector<Corner> corners_;
     bool in_polyline_ = false, solid_ = false, mirrored_ = false, tilted_ = false;

@@ -135,7 +135,6 @@ std::pair<earthquake::Soil, std::string> like(const std::string& material,
     return {earthquake::foundation, "foundation of \"breach new\": it lies below the toe"};
 }
 
-/// The soil with the given values.
 earthquake::Soil with_given(earthquake::Soil soil, const json& own) {
     const json& law = own.at("law");
     const json strength = own.value("limit_strength", law);

@@ -30,7 +30,6 @@ void for_each_column(AnyHydrograph& hydrograph, Visit&& visit) {
     visit("mass", "kg/m", hydrograph.mass);
 }
 
-/// Names of the sections in a history.
 std::vector<std::string> sections_in(const exchange::Archive& history);
 
 /// Throws BadInput, naming `file` and its sections, if the section does not exist.

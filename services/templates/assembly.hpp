@@ -9,7 +9,6 @@
 
 namespace breach::templates {
 
-/// The scene, with `name` and its title.
 nlohmann::ordered_json scene_of(const Values& values, const Outline& outline,
                                 const std::string& name);
 

@@ -32,7 +32,6 @@ std::string allowed_of(const Quantity& quantity) {
                              : digits(quantity.allowed, 2);
 }
 
-/// Outcomes of one topic.
 std::vector<const Outcome*> of_topic(const Topic& topic, const std::vector<Outcome>& outcomes) {
     std::vector<const Outcome*> own;
     for (const Outcome& each : outcomes)

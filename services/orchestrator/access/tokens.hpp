@@ -24,7 +24,6 @@ struct Token {
     bool operator==(const Token&) const = default;
 };
 
-/// Name of the token of --token-file in events.
 inline constexpr const char* single_token_name = "admin";
 
 /// Throws IoError (missing, or others on this machine may read or change it) and BadInput.

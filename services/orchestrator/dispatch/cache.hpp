@@ -17,7 +17,6 @@ namespace breach::orchestrator {
 /// between: a task must not write into them, as they may be links to another run's.
 void drop_placed_outputs(const DataFolder& data, const Task& task);
 
-/// Result of one look-up.
 struct LookedUp {
     std::string task;
     std::string input_sha256;

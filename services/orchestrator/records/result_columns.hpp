@@ -43,7 +43,6 @@ struct ResultTable {
     std::vector<ResultRow> rows;
 };
 
-/// The value of the column with this name.
 const nlohmann::json& value_of(const ResultRow& row, std::string_view name,
                                std::span<const ResultColumn> columns = result_columns());
 nlohmann::json& value_of(ResultRow& row, std::string_view name,

@@ -32,7 +32,6 @@ struct MissingTasks {
     double mean = 0.0;  ///< of the phase's ended tasks [CPU s]; 0: none has ended
 };
 
-/// Missing tasks of one run, by phase.
 std::map<std::string, MissingTasks> missing_in(Connection& database, const std::string& run) {
     std::map<std::string, MissingTasks> missing;
     database.query(

@@ -10,7 +10,6 @@
 
 namespace breach::orchestrator {
 
-/// How an attempt ended, from its exit record.
 struct AttemptEnd {
     std::optional<std::int64_t> exit_code;
     std::optional<std::int64_t> signal;

@@ -26,7 +26,6 @@ std::vector<WithoutTransfer> variants_without_transfer(Connection& database,
 std::string factor_liquefied(const std::string& result);
 /// "state, runout, ...": the columns of sweep_results for one ResultRow.
 std::string selected_result_columns();
-/// The columns of sweep_means for one row of mean_columns().
 std::string selected_mean_columns();
 /// Statement of the view sweep_means, for the rows of sweep_results that meet the condition ("AND
 /// run=?"; empty: all). A condition on the view itself would first average all runs of the

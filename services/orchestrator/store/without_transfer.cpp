@@ -69,7 +69,6 @@ bool may_get_transfers(const EndedFem& fem) {
     return fem.came_through && (fem.triggers == 0 || fem.open_triggers > 0);
 }
 
-/// Label of the FEM that one task of the plan comes from.
 const std::string& label_of_fem(const std::vector<TaskPlan>& plan, const TaskPlan& task) {
     const TaskPlan* at = &task;
     while (at->parent) at = &plan[*at->parent];

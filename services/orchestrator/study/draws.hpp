@@ -53,7 +53,6 @@ struct VariantEntry {
     std::string draws_pointer = {};  ///< of the entry that repeats it; empty: no repeat
     nlohmann::json sample = nullptr;  ///< its sampled values (sampled_variants.hpp)
 };
-/// The scene with these changes.
 nlohmann::json changed(nlohmann::json scene, const std::vector<std::string>& overrides);
 /// "soft" -> "soft_d2" for the repeat with the number 1.
 std::string name_of_draw(const std::string& variant, std::size_t draw);

@@ -51,7 +51,6 @@ bool is_sound(const std::vector<Fault>& faults, const std::string& entry) {
     });
 }
 
-/// Faults of entries that need a FEM.
 void check_without_fem(const json& document, Reach reach, std::vector<Fault>& faults) {
     const auto refuse = [&](const std::string& entry, const std::string& cause) {
         faults.push_back(
@@ -83,7 +82,6 @@ void check_one_state(const json& document, const std::string& judge, const Study
                           "leave \"transfer_times\" out"});
 }
 
-/// Faults of entries that do not fit a blind check.
 void check_blind(const json& document, const Study& study, std::vector<Fault>& faults) {
     if (!own_variants(document).empty())
         faults.push_back(
@@ -161,7 +159,6 @@ std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<st
     return recipes;
 }
 
-/// Faults of parameters that no phase of the run reads.
 void check_parameters_are_read(const Study& study, const Base& base, std::vector<Fault>& faults) {
     std::vector<phases::Phase> phases = phases_of(study.reach);
     if (study.stability && study.reach != Reach::lem) phases.push_back(phases::lem);

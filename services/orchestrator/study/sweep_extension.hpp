@@ -7,7 +7,6 @@
 
 namespace breach::orchestrator {
 
-/// A run as it is stored.
 struct RunSoFar {
     nlohmann::json study;  ///< without its scene
     std::string scene;     ///< JSON

@@ -48,7 +48,6 @@ std::vector<VariantEntry> own_among(const json& entries, const std::string& poin
     return own;
 }
 
-/// A variant's scene after its check.
 struct CheckedVariant {
     json scene;  ///< completed; null where it has faults
     std::vector<Fault> faults;

@@ -20,7 +20,6 @@ namespace breach::orchestrator {
 class Settling {
   public:
     explicit Settling(Store& store) : store_(store) {}
-    /// armed: of this FEM.
     void settle(WatchedFem& fem, ArmedTrigger& armed);
 
   private:

@@ -49,7 +49,6 @@ std::vector<Series> runout_curves(const Run& run);
 /// Marks the start and the end of the window of transfer times; without a window, the reason.
 void mark_window(const WindowEdges& window, std::vector<Mark>& marks);
 
-/// The initial section.
 Series section_at_rest(const nlohmann::json& scene);
 
 Front front_of(const Run& run);

@@ -159,7 +159,6 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
 
 // ---------------------------------------------------------------- static scenes
 
-/// The phase's result for a variant; null: none.
 const PhaseFolder* own_result(const Run& run, const std::string& phase,
                               const std::string& variant) {
     for (const PhaseFolder* each : phases_named(run, phase))

@@ -71,7 +71,6 @@ void measure_shaking(const Run& run, const std::optional<Paper>& paper, Measures
     keep("window_upper", window.upper);
 }
 
-/// Runouts at the transfer times in the paper.
 void measure_paper_times(const std::vector<const PhaseFolder*>& runouts, const std::string& suffix,
                          const Paper& paper, Measures& found) {
     for (const PaperValue& value : paper.values) {

@@ -19,7 +19,6 @@ bool any_moves(const std::vector<const PhaseFolder*>& runouts);
 /// Certainty of a runout's distances.
 Certainty certainty_of(const PhaseFolder& mpm);
 
-/// Prefix of a lower bound.
 inline constexpr const char* at_least = "\u2265 ";
 /// A distance of this runout as text, marked when it is a lower bound; "-" stays "-".
 std::string bounded(const PhaseFolder& mpm, const std::string& distance);

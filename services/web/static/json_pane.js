@@ -82,7 +82,6 @@ export class JsonPane {
     scroll_to(pointer) {
         this.box.scrollTop = (this.line_of(pointer) - 4) * parseFloat(getComputedStyle(this.box).lineHeight);
     }
-    /// Selects the text that the pointer names.
     select(pointer) {
         const place = find_pointer(this.text, pointer);
         this.box.focus();

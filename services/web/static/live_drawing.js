@@ -21,7 +21,6 @@ export class LiveDrawing {
         if (this.is_foreign) this.changed(text);
     }
 
-    /// The text has changed.
     changed(text) {
         this.is_foreign = false;
         clearTimeout(this.timer);

@@ -23,7 +23,6 @@ export function repeated_variant(name, study) {
     return made?.made_by === "draws" ? name.replace(/_?d\d+$/, "") : name;
 }
 
-/// The repeats of a mean.
 export function draws_of(mean, rows, study) {
     return rows.filter((row) => row.transfer_time === mean.transfer_time && repeated_variant(row.variant, study) === mean.variant);
 }

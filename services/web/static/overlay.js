@@ -104,7 +104,6 @@ function draw_arrow(context, x, y, dx, dy, ratio) {
     }
 }
 
-/// The cut with the names of its ends.
 export function draw_cut({ context, to_screen, ratio }, ends) {
     context.lineWidth = 2 * ratio;
     trace(context, to_screen, ends);

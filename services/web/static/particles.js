@@ -309,7 +309,6 @@ export function size_canvas(canvas, box) {
     canvas.style.setProperty("--slenderness", Math.min(0.75, Math.max(0.2, slenderness * 1.04)));
 }
 
-/// The tasks of a run with snapshots.
 export function picture_tasks(run) {
     return run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver").sort(by_point(variants_of(run)));
 }
