@@ -32,7 +32,7 @@ std::string help_of_dam(const std::string& option);
 /// values go into `chosen`, which must outlive the subcommand.
 void take_templates(CLI::App& word, NewOptions& chosen);
 
-/// Writes scene.json, study.json and, for a shaken scene, motion.csv; prints what to do next. Throws
+/// Writes scene.json, study.json and, for a shaken scene, motion.csv; prints the next steps. Throws
 /// BadInput for options that give no closed section and for existing files.
 fault::ExitCode make_new(const NewOptions& chosen, const Console& console);
 

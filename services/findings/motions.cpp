@@ -119,7 +119,7 @@ json onset_of(std::vector<Shaken> known) {
     return best;
 }
 
-/// Least depth from which on the runout has 90 % of its largest, on the non-decreasing course that fits best
+/// Least depth from which the runout has 90 % of its largest value, on the best non-decreasing fit
 /// (pool adjacent violators, Ayer et al. 1955).
 json saturation_of(std::vector<Shaken> known) {
     std::ranges::sort(known, {}, &Shaken::liquefaction_depth);

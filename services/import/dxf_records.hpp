@@ -1,5 +1,5 @@
-// Reads a DXF text file as records: pairs of group code and value, from one code 0 to the next. Does
-// not interpret records.
+// Reads a DXF text file as records: pairs of group code and value, from one code 0 to the next,
+// without interpretation.
 #pragma once
 
 #include <string_view>

@@ -39,8 +39,8 @@ struct Imported {
     nlohmann::json scene;  ///< null when there are faults; names its motion "motion.csv"
     nlohmann::json study;  ///< for a scene with a motion, without that scene; else null
     std::string motion;    ///< text of motion.csv; empty: none
-    /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m], tolerance, healed,
-    /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
+    /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m],
+    /// tolerance, healed, areas, guessed, remarks; slope {crest, toe} if there is one; other_units
     nlohmann::json report;
     /// Unconfirmed sizes that look like a wrong unit; they are faults as well.
     std::vector<fault::Fault> to_confirm;

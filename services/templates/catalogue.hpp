@@ -36,8 +36,8 @@ const Template& named(const std::string& name);
 /// "height / 3": the rule of a default that follows another option; empty: a fixed number.
 std::string rule_of(const Option& option);
 
-/// {"templates": [{"name", "title", "options": [{"name", "topic", "type", "unit", "default", "rule",
-/// "follows", "share", "minimum", "maximum", "help"}]}]}; described in README.md.
+/// {"templates": [{"name", "title", "options": [{"name", "topic", "type", "unit", "default",
+/// "rule", "follows", "share", "minimum", "maximum", "help"}]}]}; described in README.md.
 nlohmann::json as_json(const std::vector<Template>& templates);
 
 }  // namespace breach::templates

@@ -1,5 +1,5 @@
-// Named tokens with rights, and the file that stores them. It contains only the SHA-256 of the secrets,
-// which are 32 random bytes and cannot be guessed.
+// Named tokens with rights, and their file. It contains only the SHA-256 of the secrets, which are
+// 32 random bytes and cannot be guessed.
 #pragma once
 
 #include <filesystem>
@@ -28,8 +28,8 @@ inline constexpr const char* single_token_name = "admin";
 
 /// Throws IoError (missing, or others on this machine may read or change it) and BadInput.
 std::vector<Token> read_tokens(const std::filesystem::path& file);
-/// Adds an entry, and creates the file if there is none (mode 0600); returns the secret, which is not
-/// stored anywhere. Throws as above; BadInput also when the name exists.
+/// Adds an entry, and creates the file if there is none (mode 0600). Returns the secret, which is
+/// not stored anywhere. Throws as above; BadInput also when the name exists.
 std::string add_token(const std::filesystem::path& file, const std::string& name, Right right);
 /// Throws as above; BadInput also when there is no such name.
 void remove_token(const std::filesystem::path& file, const std::string& name);

@@ -1,6 +1,5 @@
-// The attempts that may have a process: starts, watches, retries, stops and settles them. Every
-// decision is stored before it is acted upon, so that a restart only has to look at the store and at
-// the running processes.
+// The attempts that may have a process: starts, watches, retries, stops and settles them. Stores
+// every decision before it acts, so that a restart only needs the store and the running processes.
 #pragma once
 
 #include <chrono>

@@ -5,7 +5,7 @@
 //     <data>/runs/<run>/scene.json     the completed scene
 //     <data>/runs/<run>/<label>/output            what the phase writes; all attempts share it
 //                                      (checkpoints)
-//     <data>/runs/<run>/<label>/reused            names of files that the cache is placing in output
+//     <data>/runs/<run>/<label>/reused            names of files that the cache is placing there
 //     <data>/runs/<run>/files/         links to the files in <data>/files that its scene names
 //     <data>/files/<sha256>.<ending>   uploaded files, by their content
 //     <data>/runs/<run>/<label>/attempts/fence    held by the one attempt whose phase may run

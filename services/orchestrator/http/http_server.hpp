@@ -1,5 +1,5 @@
-// The service's HTTP server: sizes, hardening, tokens, routes. TLS, slow clients and rate limits are
-// left to nginx (docs/how-to/reverse_proxy.md). Only this folder uses cpp-httplib.
+// The service's HTTP server: sizes, hardening, tokens, routes. nginx handles TLS, slow clients and
+// rate limits (docs/how-to/reverse_proxy.md). Only this folder uses cpp-httplib.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// Reads uploaded studies and scenes, with checks for the HTTP layer: the sender may have confused the
-// two, and files are on this machine, not on the sender's.
+// Reads uploaded studies and scenes, with checks for the HTTP layer: the sender may have confused
+// the two, and files are on this machine, not on the sender's.
 #pragma once
 
 #include <nlohmann/json.hpp>

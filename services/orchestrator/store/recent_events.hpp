@@ -1,4 +1,4 @@
-// The newest events as the writer committed them: hundreds of listeners can read an event without a database
+// The newest committed events, so that hundreds of listeners can read an event without a database
 // query each.
 #pragma once
 

@@ -1,7 +1,7 @@
-// The memory of the service: one database file behind one interface. A single writer thread owns the
-// only writing connection and commits what has queued up together (group commit); readers use their
-// own read-only connections. SQLite 3.40 can corrupt when two connections write or checkpoint at
-// once, hence "single".
+// The service's database behind one interface. A single writer thread owns the only writing
+// connection and commits queued changes together (group commit); readers have read-only
+// connections. SQLite 3.40 can corrupt when two connections write or checkpoint at once, hence one
+// writer.
 #pragma once
 
 #include <atomic>

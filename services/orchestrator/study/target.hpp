@@ -21,7 +21,7 @@ struct Target {
 Target read_target(const nlohmann::json& entry, const UncertaintyPlan& plan, Reach reach,
                    std::vector<fault::Fault>& faults);
 
-/// "v01", "v01_d2", ...: each value on each lattice. scene: completed, with the study's own overrides.
+/// "v01", "v01_d2", ...: each value on each lattice. scene: completed, with the study's overrides.
 std::vector<VariantEntry> variants_of(const Target& target, const UncertaintyPlan& plan,
                                       const nlohmann::json& scene, Reach reach);
 

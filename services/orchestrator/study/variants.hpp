@@ -27,7 +27,7 @@ inline constexpr const char* kept_variants =
 /// The variants that the study itself defines; generated variants are derived again.
 std::vector<VariantEntry> own_variants(const nlohmann::json& document);
 
-/// Warns of an entry that one list of overrides sets twice to different values, and of variants with
+/// Warns of an entry that one list of overrides sets to two different values, and of variants with
 /// equal overrides.
 void warn_about_overrides(const nlohmann::json& document, std::vector<fault::Flag>& warnings);
 

@@ -52,7 +52,7 @@ void mark_window(const WindowEdges& window, std::vector<Mark>& marks);
 Series section_at_rest(const nlohmann::json& scene);
 
 Front front_of(const Run& run);
-/// The section before and after the governing runout, with the critical slip surface and the phreatic line.
+/// The section before and after the governing runout, with slip surface and phreatic line.
 Figure overview_of(const Run& run);
 /// For a study over distributions: the page for a regulator, then its data.
 void add_assessment(const Material& from, Document& document);

@@ -198,7 +198,7 @@ std::string drawing_of(const Run& run) {
     return can_be_drawn(draft) ? as_svg(draft, {}) : "";
 }
 
-/// "drained c' = 5 kPa, phi' = 30 deg", "s_u = 0.22 sigma'_v0"; "-" where a law has no such entries.
+/// "drained c' = 5 kPa, phi' = 30 deg", "s_u = 0.22 sigma'_v0"; "-": the law has no strength.
 std::string strength_in_words(const json& strength) {
     const auto number = [&](const char* key) { return rounded(strength.value(key, 0.0), 3); };
     const std::string type = strength.value("type", "");
