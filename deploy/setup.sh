@@ -24,11 +24,11 @@ is_installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q 'ok ins
 need_packages() {
     local missing=() package
     for package in "$@"; do
-        # Node.js may have come from elsewhere than Debian, with an npm of its own that Debian's would displace.
+        # Node.js from another source has its own npm, which Debian's npm would replace.
         case $package in
             nodejs) command -v node >/dev/null && continue ;;
             npm) command -v npm >/dev/null && continue ;;
-            # Debian's ParaView has VTK's Python modules of its own, and the two packages exclude each other.
+            # Debian's ParaView includes VTK's Python modules, and the two packages conflict.
             python3-vtk9) is_installed paraview && package=python3-paraview ;;
         esac
         is_installed "$package" || missing+=("$package")
@@ -42,11 +42,11 @@ need_packages() {
         fail "apt-get could not install the packages (see above). Free disk on /usr: $(df -h --output=avail /usr | tail -n 1)"
 }
 
-# What one compiler at work holds at most, and what a build leaves on the disk [MB].
+# Largest memory of one compiler process, and disk space of a build [MB].
 compiler_MB=1100
 declare -A build_MB=([first_result]=700 [programs]=800 [manuals]=800 [all]=2500)
 
-# Says what a build lacks before it begins. Sets `jobs` by cores and memory.
+# Checks compiler, memory and disk before a build. Sets `jobs` from cores and memory.
 check_machine() {
     local compiler=${CXX:-g++} version free_MB disk_MB need_MB=${build_MB[$1]:-2500}
     version=$("$compiler" -dumpfullversion 2>/dev/null) || version=$("$compiler" -dumpversion 2>/dev/null) ||
@@ -65,7 +65,7 @@ check_machine() {
         fail "The build needs $need_MB MB on the disk of $root/build and $disk_MB MB are free. Free some, or put the project on another disk."
 }
 
-# Ninja's lines "[done/total seconds] step" as a bar with the time left; other lines (warnings, errors) as they are.
+# Ninja's lines "[done/total seconds] step" as a bar with the time left; passes other lines (warnings, errors) on.
 show_progress() {
     local line text done_steps steps seconds left percent told=0 open=no
     local full="#########################"
@@ -87,14 +87,14 @@ show_progress() {
     [ $open = no ] || printf '\n'
 }
 
-# build first_result|programs|manuals|all [PRESET [OPTION...]]: configures and builds; the preset is release unless given. Programs alone
-# need no test libraries; a folder that has been configured with tests keeps them.
+# build first_result|programs|manuals|all [PRESET [OPTION...]]: configures and builds; default preset: release. Targets other than `all` need
+# no test libraries; a folder configured with tests keeps them.
 build() {
     local options=() target=(--target "$1") preset=${2:-release} jobs
-    [ "$1" = all ] && options=(-DBREACH_TESTS=ON) target=()  # or the preset's own
+    [ "$1" = all ] && options=(-DBREACH_TESTS=ON) target=()  # `all`: the preset's targets
     [ "$1" != all ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
     command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    export CCACHE_BASEDIR=$root  # what one folder compiled, another finds
+    export CCACHE_BASEDIR=$root  # shares the cache between folders
     options+=("${@:3}")
     check_machine "$1" "$preset"
     say "building ($1, $preset, $jobs at a time)"

@@ -32,7 +32,7 @@ bool is_recommended(const json& row, const json& answer) {
            best.at("step") == row.at("step");
 }
 
-/// What stands behind the row: "=> on front", "?", or why there is no number.
+/// Note of a row: "=>" recommended, "*" on the front, "~" below noise, "?" questionable; reasons.
 std::string note_of(const json& row, const json& answer) {
     std::string note = is_recommended(row, answer) ? "=>" : "";
     const auto add = [&](const std::string& words) { note += (note.empty() ? "" : " ") + words; };
@@ -43,7 +43,7 @@ std::string note_of(const json& row, const json& answer) {
     return note;
 }
 
-/// Of the mean that is within what is asked; "-": none is.
+/// From the mean within the requested error; "-": none.
 std::string of_mean(const json& row, const char* key) {
     const json& mean = row.at("mean_within_asked");
     return mean.is_object() ? cell(mean, key) : "-";

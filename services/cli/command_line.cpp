@@ -34,7 +34,7 @@ namespace {
 
 constexpr const char* default_server = "http://127.0.0.1:8470";
 
-/// What the arguments say; each command reads its own part.
+/// The arguments; each command reads its own part.
 struct Arguments {
     std::string server = default_server;
     std::string token_file;
@@ -51,8 +51,8 @@ struct Arguments {
     SubmitOptions submit;
     bool watch = false;
     bool dry_run = false;
-    std::size_t samples = 0;  ///< in all; 0: it is not asked
-    std::string budget;       ///< CPU seconds or "none"; empty: it is not asked
+    std::size_t samples = 0;  ///< in all; 0: not given
+    std::string budget;       ///< CPU seconds or "none"; empty: not given
     bool strict = false;
     ResultsOptions results;
     CheckOptions check;
@@ -92,7 +92,7 @@ class CommandLine {
         : app_("Talks to a Breachline server: submits studies and shows their results.", "breach") {
         app_.set_version_flag("--version", std::string("breach ") + version());
         app_.require_subcommand(1);
-        app_.fallthrough();  // --json may stand behind the command
+        app_.fallthrough();  // --json may follow the command
         app_.add_option("--server", a_.server, "the server's address")
             ->envname("BREACH_SERVER")
             ->capture_default_str()
@@ -137,11 +137,11 @@ class CommandLine {
         std::vector<std::string> words(argv + 1, argv + argc);
         if (const auto command = command_in(words); command != words.end())
             std::rotate(words.begin(), command, command + 1);
-        std::ranges::reverse(words);  // as CLI11 takes them
+        std::ranges::reverse(words);  // CLI11 expects reversed arguments
         app_.parse(words);
     }
     int explain(const CLI::ParseError& error) const {
-        if (error.get_exit_code() == 0) return app_.exit(error);  // help was asked for
+        if (error.get_exit_code() == 0) return app_.exit(error);  // help was requested
         const CLI::App& named = named_command();
         std::string program = named.get_name();
         for (const CLI::App* each = named.get_parent(); each; each = each->get_parent())
@@ -178,7 +178,7 @@ class CommandLine {
     }
 
   private:
-    /// The command among the words, wherever it stands; options may stand before it. The value of an option is none.
+    /// The command among the words; options may come before it. Skips values of options.
     std::vector<std::string>::iterator command_in(std::vector<std::string>& words) const {
         const auto takes_value = [](const CLI::App& app, const std::string& name) {
             const CLI::Option* option = app.get_option_no_throw(name);
@@ -199,7 +199,7 @@ class CommandLine {
         return words.end();
     }
 
-    /// The innermost command that was given; the program itself where none was.
+    /// The innermost given command; without one, the program.
     const CLI::App& named_command() const {
         const CLI::App* named = &app_;
         while (!named->get_subcommands().empty()) named = named->get_subcommands().front();
@@ -213,7 +213,7 @@ class CommandLine {
         return names;
     }
 
-    /// Its own, those of its groups and the program's.
+    /// Options of the command, of its groups and of the program.
     std::vector<std::string> options_of(const CLI::App& app) const {
         std::vector<std::string> names;
         const auto add_all = [&](const CLI::App& from) {
@@ -238,7 +238,7 @@ class CommandLine {
         return text;
     }
 
-    /// `example`: a line of arguments that works, for the word's own help.
+    /// `example`: working arguments, for the command's help.
     CLI::App* add(const std::string& word, const std::string& what, const std::string& example,
                   Command command) {
         CLI::App* sub = app_.add_subcommand(word, what);
@@ -295,7 +295,7 @@ class CommandLine {
         return a_.watch ? watch(server, run, questionable(), console) : ExitCode::done;
     }
 
-    /// The table of a run that is there, or of one that is submitted and watched for it.
+    /// Prints the table of an existing run, or submits and watches a run for it.
     ExitCode accuracy(Server& server, const Console& console) {
         if (!a_.id.empty() && a_.check.repeats.empty()) {
             const ExitCode end =
@@ -781,7 +781,7 @@ ExitCode guarded(CommandLine& line) {
 }  // namespace
 
 int run(int argc, char** argv) {
-    std::signal(SIGPIPE, SIG_IGN);  // a lost server is an answer of its own
+    std::signal(SIGPIPE, SIG_IGN);  // a lost server gets its own message
     CommandLine line;
     try {
         line.parse(argc, argv);

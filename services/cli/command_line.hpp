@@ -1,10 +1,11 @@
-// The command line of `breach`: parses it, runs the command, and turns exceptions into a message and an exit code.
+// The command line of `breach`: parses it, runs the command, and turns exceptions into messages and
+// exit codes.
 //
 //      0  done
 //      2  usage
-//     65  refused, by the server or because the study is no JSON
+//     65  refused, by the server or because the study is not JSON
 //     70  the run failed
-//     74  a file cannot be read or written, or is not what it should be
+//     74  a file cannot be read or written, or is invalid
 //     75  the server does not answer
 #pragma once
 

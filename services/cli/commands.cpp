@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t length_of_ids = 26;  // of runs: ULIDs
 
-/// Tasks are named after their run: "<run>-00007".
+/// Ids of tasks begin with their run's: "<run>-00007".
 bool names_task(const std::string& id) { return id.find('-') == length_of_ids; }
 
 void show_as_csv(const json& lines, const Console& console) {
@@ -50,7 +50,7 @@ std::string run_named(Server& server, const std::string& name) {
     if (latest) return runs.front().at("id");
     std::vector<std::string> begun;
     for (const json& each : runs) {
-        if (each.at("name") == name) return each.at("id");  // the newest comes first
+        if (each.at("name") == name) return each.at("id");  // newest first
         if (each.at("id").get<std::string>().starts_with(name)) begun.push_back(each.at("id"));
     }
     if (begun.size() == 1) return begun.front();
@@ -283,7 +283,7 @@ ExitCode telemetry(Server& server, const TelemetryOptions& options, const Consol
     const std::string path = path_of({"runs", run_named(server, options.run), "telemetry"});
     json lines = json::array();
     std::int64_t from = options.from;
-    for (;;) {  // the server answers with a part of a long file at a time
+    for (;;) {  // the server sends long files in parts
         json answer = server.get(path + query_of({{"phase", options.phase},
                                                   {"transfer_time", options.transfer_time},
                                                   {"variant", options.variant},
@@ -321,7 +321,7 @@ ExitCode hydrograph(Server& server, const HydrographOptions& options, const Cons
                                   {"interval", options.interval},
                                   {"cell", options.cell},
                                   {"concentration", options.concentration}}));
-    // FLO-2D's file has no place for it.
+    // FLO-2D's file has no place for the warning.
     if (!answer.warning.empty()) console.notes << harmless(answer.warning) << "\n";
     if (options.file.empty()) {
         console.out << answer.body;

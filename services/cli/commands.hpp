@@ -1,5 +1,5 @@
-// The commands of the command line: each queries the server and prints the answer. Watching, logs
-// and export have files of their own. Every command returns its exit code, or throws.
+// The commands of the command line: each queries the server and prints the answer. watch, logs and
+// export have their own files. Every command returns its exit code, or throws.
 #pragma once
 
 #include <filesystem>
@@ -16,7 +16,7 @@ namespace breach::cli {
 
 struct SubmitOptions {
     std::filesystem::path study;
-    std::filesystem::path scene = {};  ///< instead of a study: a study is generated for it
+    std::filesystem::path scene = {};  ///< instead of a study: it is put into a new study
     std::vector<std::string> overrides;
     std::string idempotency_key;              ///< empty: none
     std::vector<double> transfer_times = {};  ///< instead of the study's [s]; empty: the study's
@@ -27,11 +27,11 @@ struct SubmitOptions {
 /// Prints the new run's id, and returns it.
 std::string submit(Server& server, const SubmitOptions& options, const Console& console);
 
-/// Prints the cost of the study and, for an uncertainty study, the number of its tasks: nothing is
-/// submitted. Faults as for submitting.
+/// Prints the cost of the study and, for an uncertainty study, the number of its tasks. Submits
+/// nothing, but reports the same faults as a submission.
 fault::ExitCode show_plan(Server& server, const SubmitOptions& options, const Console& console);
 
-/// Extends an uncertainty study to so many samples in all; prints the new ones.
+/// Extends an uncertainty study to this number of samples in all; prints the new ones.
 fault::ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
                                const Console& console);
 
@@ -39,7 +39,7 @@ fault::ExitCode extend_samples(Server& server, const std::string& run, std::size
 fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
                        const Console& console);
 
-/// Sets the CPU seconds that a run may spend in all: "600", or "none" for no limit.
+/// Sets the CPU seconds that all attempts of a run may spend: "600", or "none" for no limit.
 fault::ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
                               const Console& console);
 
@@ -57,8 +57,9 @@ fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_
 /// Whether a questionable result makes the exit code a failure.
 enum class Questionable { accepted, fails };
 
-/// breakdown (70) when the ended run failed or was cancelled, or has a questionable result and that counts; try_again (75)
-/// when it stopped for its budget. Prints the reason to the notes.
+/// breakdown (70) when the ended run failed, was cancelled, or has a questionable result and
+/// `questionable` is fails; try_again (75) when its budget is spent. Prints the reason to the
+/// notes.
 fault::ExitCode code_of_end(const nlohmann::json& run, Questionable questionable,
                             const Console& console);
 
@@ -66,11 +67,11 @@ struct ResultsOptions {
     std::string run;
     std::string state;   ///< only rows in this state; empty: all
     std::string flag;    ///< only rows with a flag of this code; empty: all
-    bool means = false;  ///< only the means over the draws
+    bool means = false;  ///< only the means over the repeats
     Questionable questionable = Questionable::accepted;
 };
 
-/// Exit code: code_of_end
+/// Returns code_of_end.
 fault::ExitCode results(Server& server, const ResultsOptions& options, const Console& console);
 
 /// The table of an accuracy study, its ladders and its recommendation; for a blind check, its
@@ -80,16 +81,16 @@ fault::ExitCode show_accuracy(Server& server, const std::string& run,
 
 struct UncertaintyOptions {
     std::string run;
-    std::string quantity;  ///< only this one's statistics; empty: of all
+    std::string quantity;  ///< only statistics of this quantity; empty: of all
 };
 /// Results of an uncertainty study's samples, also while its run goes on; as CSV the samples.
 fault::ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
                                  const Console& console);
 
 struct CheckOptions {
-    std::string repeats;  ///< means of new draws; empty: no check is requested
-    std::string rung;     ///< "cells:2" instead of the recommended one; empty: that
-    std::string mean_of;  ///< draws in a mean; empty: as recommended
+    std::string repeats;  ///< number of means of new repeats; empty: no check
+    std::string rung;     ///< "cells:2"; empty: the recommended setting
+    std::string mean_of;  ///< repeats in a mean; empty: as recommended
     std::string asked_error;
 };
 
@@ -128,8 +129,8 @@ fault::ExitCode telemetry(Server& server, const TelemetryOptions& options, const
 /// document: a scene or a study.
 fault::ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console);
 
-/// A run's id, from the id itself, its beginning, or a name, which means the newest run of that name; "latest" means the
-/// newest run. Throws Refused when there is none, or several ids begin with it.
+/// A run's id from the id itself, its beginning, a name (its newest run), or "latest" (the newest
+/// run). Throws Refused when there is none, or when several ids begin with it.
 std::string run_named(Server& server, const std::string& name);
 
 }  // namespace breach::cli

@@ -13,14 +13,14 @@ std::string options_of(const CLI::App& app) {
     return words;
 }
 
-/// The options of option groups, which have no name of their own, count as the word's.
+/// Options of a command, including those of its unnamed option groups.
 std::string all_options_of(const CLI::App& word) {
     std::string words = options_of(word);
     for (const CLI::App* group : word.get_subcommands(nullptr)) words += options_of(*group);
     return words;
 }
 
-/// Words below a word; option groups have none.
+/// Subcommands of a command; option groups have no name.
 std::string words_below(const CLI::App& word) {
     std::string words;
     for (const CLI::App* each : word.get_subcommands(nullptr))
@@ -123,7 +123,7 @@ std::string completion(const CLI::App& program, const std::string& shell) {
     if (shell == "fish") return fish_completion(program);
     const std::string bash = bash_completion(program);
     if (shell == "bash") return bash;
-    // zsh reads the file at the first completion, which its last line answers.
+    // zsh reads the file at the first completion, and its last line answers it.
     return "#compdef breach\nautoload -U +X bashcompinit && bashcompinit\n" + bash +
            "_bash_complete -o filenames -F _breach\n";
 }

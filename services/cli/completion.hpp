@@ -1,4 +1,4 @@
-// Shell completion for the words of this program.
+// Shell completion for the commands and options of `breach`.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,8 +6,8 @@
 
 namespace breach::cli {
 
-/// A script for bash, zsh or fish, generated from the words and options. Completes runs by a request to the
-/// server that BREACH_SERVER names, else to the default one.
+/// Script for bash, zsh or fish, generated from the commands and options. Completes runs by a
+/// request to the server in BREACH_SERVER, else to the default one.
 std::string completion(const CLI::App& program, const std::string& shell);
 
 }  // namespace breach::cli

@@ -8,7 +8,7 @@ namespace breach::cli {
 enum class Style { people, json, csv };
 enum class Screen { terminal, plain, quiet };
 
-/// out: only the requested answer; notes: everything else.
+/// out: the requested answer only; notes: everything else.
 struct Console {
     std::ostream& out;
     std::ostream& notes;

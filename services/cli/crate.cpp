@@ -19,10 +19,10 @@ constexpr const char* process_profile = "https://w3id.org/ro/wfrun/process/0.5";
 
 json reference(const std::string& id) { return {{"@id", id}}; }
 
-/// What is no file is named by an anchor.
+/// Id of an entity that is not a file.
 std::string anchor(const std::string& name) { return std::string("#").append(name); }
 
-/// In a crate a file is named by a relative URI.
+/// Relative URI of a file in the crate.
 std::string uri_of(const std::string& path) {
     std::istringstream parts(path);
     std::string uri;
@@ -47,7 +47,7 @@ const char* status_of(const json& task) {
     return "http://schema.org/ActiveActionStatus";
 }
 
-/// Copies a text that the server gave; leaves out what is null or absent.
+/// Copies a text of the server's answer; skips null and missing entries.
 void copy_text(json& to, const char* name, const json& from, const char* key) {
     const auto found = from.find(key);
     if (found != from.end() && found->is_string()) to[name] = *found;
@@ -95,8 +95,7 @@ json Crate::inputs_of(const json& provenance) const {
         const auto found = first_with_hash_.find(each.value("sha256", std::string()));
         if (found != first_with_hash_.end()) inputs.push_back(reference(found->second));
     }
-    if (provenance.value("phase", "") != "fem_solver")
-        return inputs;  // the only one that reads them
+    if (provenance.value("phase", "") != "fem_solver") return inputs;  // only this phase reads them
     for (const auto& each : scene::references_in(provenance)) {
         const auto found = first_with_hash_.find(each.sha256);
         if (found != first_with_hash_.end()) inputs.push_back(reference(found->second));

@@ -20,9 +20,9 @@ struct CrateFile {
 class Crate {
   public:
     void add_file(const CrateFile& file);
-    /// One task as the action that made `outputs` (paths of files added before). `provenance` is
-    /// that of its result.json, null when there is none; its inputs are found among the files by
-    /// their hash. A task that was never started is left out.
+    /// Adds a task as the action that made `outputs` (paths of files added before). `provenance`:
+    /// from its result.json, or null; its inputs are found among the files by their hash. A task
+    /// that was never started is left out.
     void add_action(const nlohmann::json& task, const nlohmann::json& provenance,
                     const std::vector<std::string>& outputs);
 

@@ -18,13 +18,13 @@ using nlohmann::json;
 
 namespace {
 
-/// A scene is put into a study, so that overrides are read alike.
+/// Puts a scene into a study, so that overrides are treated the same.
 json study_of(const DrawOptions& options, bool is_study) {
     return is_study ? read_study(options.document, options.overrides)
                     : study_around(options.document, options.overrides);
 }
 
-/// The fem_solver that was installed with this program; meshes are kept where caches are.
+/// The fem_solver beside this program; meshes go to the user's cache folder.
 report::Mesher mesher_here() {
     const auto value = [](const char* name) {
         const char* found = std::getenv(name);
@@ -60,13 +60,13 @@ json warnings_of(const report::Draft& draft) {
     return list;
 }
 
-/// What is known of a document with a sound scene before it runs.
+/// What is known before a run of a document with a valid scene.
 struct Preview {
-    json cost;                         ///< as POST /v1/cost answers it
-    std::vector<fault::Fault> faults;  ///< for which the server would refuse the study
+    json cost;                         ///< the answer of POST /v1/cost
+    std::vector<fault::Fault> faults;  ///< that would make the server refuse the study
 };
 
-/// The server knows what earlier runs took. Where none answers, or it lacks the files, the scene alone counts.
+/// Asks the server for the cost of earlier runs; without an answer uses the scene alone.
 Preview preview_of(Server& server, const json& document, const report::Draft& draft,
                    const std::optional<estimate::MeshCounts>& mesh) {
     std::vector<fault::Fault> faults;

@@ -25,7 +25,7 @@ void make_folder(const fs::path& folder) {
     if (error) throw IoError(folder.string() + ": cannot be made: " + error.message());
 }
 
-/// The folder is new, empty, or holds an earlier export of the same run.
+/// The folder must be new, empty, or contain an earlier export of the same run.
 void claim(const fs::path& folder, const std::string& run) {
     make_folder(folder);
     if (fs::is_empty(folder)) return;
@@ -40,7 +40,7 @@ void write_json(const fs::path& file, const json& content) {
                            content.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-/// True when the file had to be fetched.
+/// True: the file was downloaded.
 bool fetch(Server& server, const char* kind, const std::string& promised, const fs::path& file) {
     if (fs::is_regular_file(file) && exchange::sha256_of_file(file) == promised) return false;
     make_folder(file.parent_path());
@@ -99,7 +99,7 @@ class Export {
     }
 
   private:
-    /// Of a study of several motions.
+    /// For a study of several motions.
     void keep_motions(const std::string& path, const json& tasks) {
         const auto is_fem = [](const json& each) { return each.at("phase") == "fem_solver"; };
         if (std::ranges::count_if(tasks, is_fem) < 2) return;
@@ -110,7 +110,7 @@ class Export {
         }
     }
 
-    /// Where a scene beside it finds what it names by its content.
+    /// Puts the file where references of the exported scene find it.
     void sent_file(const json& file) {
         const auto reference = scene::file_reference(file.at("reference").get<std::string>());
         if (!reference) throw IoError("the server names a file in a way that is not known here");
@@ -146,7 +146,7 @@ class Export {
         crate_.add_action(task, provenance_in(path_below(folder_, name + "result.json")), outputs);
     }
 
-    /// Null when the task left no result.
+    /// Null when the task has no result.
     static json provenance_in(const fs::path& result) {
         std::ifstream stream(result);
         const json content = json::parse(stream, nullptr, false);

@@ -20,7 +20,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uintmax_t most_bytes = 256 << 20;
-constexpr std::size_t most_lines = 12;  // of what was healed
+constexpr std::size_t most_lines = 12;  // of corrections
 
 std::string bytes_of(const std::filesystem::path& file) {
     std::error_code none;
@@ -40,7 +40,7 @@ std::optional<importing::Sent> sent(const std::filesystem::path& file) {
     return importing::Sent{file.filename().string(), bytes_of(file)};
 }
 
-/// Whether to_confirm are all that is wrong, and someone at a terminal says that they are none.
+/// Whether to_confirm are the only faults, and the user at a terminal confirms them.
 bool is_confirmed(const importing::Imported& imported, const Console& console) {
     const auto& to_confirm = imported.to_confirm;
     if (to_confirm.empty() || to_confirm.size() < imported.faults.size()) return false;
@@ -52,7 +52,7 @@ bool is_confirmed(const importing::Imported& imported, const Console& console) {
     return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-/// Study and motion beside the scene, named as `breach new` names them.
+/// Study and motion beside the scene, with the file names of `breach new`.
 Files beside(const std::filesystem::path& scene, importing::Imported& imported) {
     if (imported.motion.empty()) return {};
     imported.study["scene"] = scene.filename().string();

@@ -1,5 +1,4 @@
-// `import`: converts a section drawing to a scene file. Reads and writes files; services/import does
-// the conversion, and no server is needed.
+// `import`: converts a section drawing to a scene file with services/import. Needs no server.
 #pragma once
 
 #include <filesystem>
@@ -23,11 +22,12 @@ struct ImportOptions {
     bool confirmed = false;  ///< --yes
     bool with_fem = false;   ///< study.json and motion.csv are written beside the scene
     std::optional<double> pga = {}, shaking = {};  ///< of the synthetic motion [g, s]
-    bool force = false;                            ///< over files that are there
+    bool force = false;                            ///< overwrite existing files
 };
 
-/// At a terminal, asks whether sizes that look like a wrong unit are meant. Writes the scene and prints what was healed, guessed and skipped. With faults only the
-/// picture is written; they are printed as notes and the exit code is bad_input.
+/// Asks at a terminal whether sizes that look like a wrong unit are intended. Writes the scene and
+/// prints the corrections, guesses and skipped objects. With faults it writes only the picture,
+/// prints the faults as notes and returns bad_input.
 fault::ExitCode import_drawing(const ImportOptions& options, const Console& console);
 
 }  // namespace breach::cli

@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto time_between_looks = std::chrono::milliseconds(500);
 
-/// What is there beyond `offset`, which moves on. The server may answer with a part at a time.
+/// The log beyond `offset`, which is advanced. The server may send it in parts.
 std::string more_of(Server& server, const std::string& task, std::int64_t attempt,
                     std::int64_t& offset) {
     std::string text;
@@ -68,7 +68,7 @@ ExitCode show_log(Server& server, const LogOptions& options, const Console& cons
                 << std::flush;
     while (options.follow == Follow::until_the_end) {
         if (!console.out) throw fault::IoError("nobody reads the output any more");
-        // Asked before the rest is read: what was written before the end is then surely shown.
+        // Before the last read: everything written before the end is then shown.
         const json task = server.get(path);
         console.out << more_of(server, options.task, attempt, offset) << std::flush;
         const std::int64_t newest = newest_attempt(task);

@@ -1,4 +1,4 @@
-// A task's log: its present content, or until the task ends.
+// Prints a task's log, once or until the task ends.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ enum class Follow { no, until_the_end };
 struct LogOptions {
     std::string task;
     std::optional<std::int64_t> attempt;  ///< else the newest
-    std::size_t lines = 0;                ///< the last so many; 0: all
+    std::size_t lines = 0;                ///< only the last `lines`; 0: all
     Follow follow = Follow::no;
 };
 

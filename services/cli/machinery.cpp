@@ -115,7 +115,7 @@ ExitCode transfers(Server& server, const TransfersOptions& options, const Consol
 
 namespace {
 
-/// A PROV-JSON document read back: which activity made what, and of what.
+/// A parsed PROV-JSON document: which activity made which file, from which files.
 class Told {
   public:
     explicit Told(const json& document) : document_(document) {
@@ -178,7 +178,7 @@ class Told {
     std::map<std::string, std::vector<std::string>> used_;
     std::map<std::string, std::vector<std::string>> source_;  ///< without an activity between
     std::map<std::string, std::string> agent_;
-    std::set<std::string> seen_;  ///< told once
+    std::set<std::string> seen_;  ///< each is printed once
 };
 
 }  // namespace

@@ -1,4 +1,3 @@
-// breach: the command line of a Breachline server.
 #include "services/cli/command_line.hpp"
 
 int main(int argc, char** argv) { return breach::cli::run(argc, argv); }

@@ -27,8 +27,8 @@ motion::Recording acceleration_in(const std::filesystem::path& file, const Motio
                           {{"", "is no acceleration", "give the acceleration of the record"}});
 }
 
-/// What the check of a scene says of this motion. A study may scale it: then as scaled. Whether it is
-/// possible.
+/// Prints the warnings of a scene's check about this motion, scaled as the study scales it. Returns
+/// whether the motion is possible.
 bool tell_warnings(const std::filesystem::path& file, motion::Recording motion,
                    const MotionOptions& options, const Console& console) {
     if (!options.pga_g.empty())
@@ -66,8 +66,8 @@ struct Measured {
     json measures;
 };
 
-/// The records of a folder, sorted by name. A file that is no record, or of a motion that cannot be, is
-/// named and left out.
+/// The records of a folder, sorted by name. Names and skips files that are not a record, or not a
+/// possible motion.
 std::vector<Measured> records_in(const MotionOptions& options, const Console& console) {
     std::vector<std::filesystem::path> files;
     for (const auto& each : std::filesystem::directory_iterator(options.file))
@@ -91,7 +91,7 @@ std::vector<Measured> records_in(const MotionOptions& options, const Console& co
     return found;
 }
 
-/// The record's name as variants may be called, with its peak: "el_centro_30"; numbered where another
+/// A variant's name from the record's name and its peak: "el_centro_30"; numbered where another
 /// record has this name.
 std::string variant_named(const std::filesystem::path& file, std::optional<double> pga_g,
                           const json& others) {
@@ -110,7 +110,7 @@ std::string variant_named(const std::filesystem::path& file, std::optional<doubl
     }
 }
 
-/// A study that shakes the scene by each record, at each peak, and transfers in the middle of its window.
+/// A study that applies each record at each peak, and transfers in the middle of the window.
 json study_of(const std::vector<Measured>& records, const MotionOptions& options) {
     json variants = json::array();
     const auto add = [&](const Measured& each, std::optional<double> pga_g) {

@@ -9,12 +9,12 @@
 namespace breach::cli {
 
 struct MotionOptions {
-    std::filesystem::path file;   ///< or a folder of them
-    std::string run;              ///< instead: of a study of motions
-    std::filesystem::path scene;  ///< write a study that applies each record to it
+    std::filesystem::path file;   ///< one record, or a folder of records
+    std::string run;              ///< instead of `file`: a run of several motions
+    std::filesystem::path scene;  ///< write a study that applies each record to this scene
     std::vector<double> pga_g;    ///< scaled to each of these; empty: as recorded
     std::optional<double> scale_to_pga_g;
-    bool corrected = false;  ///< baseline correction first
+    bool corrected = false;  ///< apply a baseline correction first
 };
 
 fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console);

@@ -35,7 +35,7 @@ std::string help_of(const Option& option) {
            with_unit(option.value, option) + ")";
 }
 
-/// As it was written: a number where it is one; what else it is, the template says why not.
+/// The text as a number if it is one; else the template reports the fault.
 json value_of(const std::string& text) {
     const json value = json::parse(text, nullptr, false);
     return value.is_number() ? value : json(text);
@@ -48,8 +48,7 @@ void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
             CLI::Option* made = word.add_flag_callback(
                 name, [&chosen, entry = option.name, value] { chosen.options[entry] = value; },
                 help_of(option));
-            if (value == (option.value > 0.5))
-                made->group("");  // it changes nothing: not in the help
+            if (value == (option.value > 0.5)) made->group("");  // hidden in the help: no effect
         };
         add(flag, true);
         add("--no-" + flag.substr(2), false);
@@ -64,7 +63,7 @@ void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
         ->type_name(option.unit == "1" ? "N" : option.unit);
 }
 
-/// Folder names that may name a run do.
+/// A name from the folder's name, as far as names allow its characters.
 std::string name_for(const std::filesystem::path& folder) {
     std::string name =
         std::filesystem::absolute(folder / ".").lexically_normal().parent_path().filename();
@@ -87,7 +86,7 @@ void list_templates(const Console& console) {
     console.notes << "`breach new NAME --help` says what can be asked of each\n";
 }
 
-/// Where options are written as flags, faults name them so.
+/// Names options in faults as flags if they were given as flags.
 templates::Made made_of(const NewOptions& chosen, const json& options) {
     try {
         return templates::make(chosen.made_from, options);

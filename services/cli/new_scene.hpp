@@ -16,7 +16,7 @@ struct NewOptions {
     bool list = false;
     bool force = false;                                 ///< overwrite existing files
     std::string made_from;                              ///< name of the template
-    nlohmann::json options = nlohmann::json::object();  ///< the given ones
+    nlohmann::json options = nlohmann::json::object();  ///< given options
     std::filesystem::path folder;
 };
 
@@ -25,14 +25,14 @@ using Files = std::map<std::filesystem::path, std::string>;  ///< texts to write
 /// Throws BadInput with every file that exists.
 void refuse_to_overwrite(const Files& files, const std::string& command);
 
-/// Help of an option of the dams' templates, for commands that have the same.
+/// Help text of an option of the dam templates, for commands with the same option.
 std::string help_of_dam(const std::string& option);
 
-/// Adds every template as a subcommand of `new`, its options with unit, range and default; given
-/// values go into `chosen`, which must live as long as the subcommand.
+/// Adds every template as a subcommand of `new`, its options with unit, range and default. Given
+/// values go into `chosen`, which must outlive the subcommand.
 void take_templates(CLI::App& word, NewOptions& chosen);
 
-/// Writes scene.json, study.json and, for a shaken scene, motion.csv; prints what to do next. Throws
+/// Writes scene.json, study.json and, for a shaken scene, motion.csv; prints the next steps. Throws
 /// BadInput for options that give no closed section and for existing files.
 fault::ExitCode make_new(const NewOptions& chosen, const Console& console);
 

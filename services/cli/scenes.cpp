@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// "dam@2, slope": without a number for the newest version, which the name alone refers to.
+/// "dam@2, slope": without a number for the newest version.
 std::string names_of(const json& scene) {
     std::string names;
     for (const json& each : scene.at("names"))
@@ -23,7 +23,7 @@ std::string names_of(const json& scene) {
     return names.empty() ? "-" : names;
 }
 
-/// "scene:dam" and "scene:sha256/..." as the server's address has them.
+/// The path of "scene:dam", "scene:sha256/..." or the same without "scene:".
 std::string path_of_scene(std::string address) {
     if (address.starts_with(scene::stored_scene)) address.erase(0, scene::stored_scene.size());
     if (address.starts_with("sha256/")) address.erase(0, 7);

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int most_tries = 3;
 
-/// Visits the path of every entry that names a file: in the scene, and behind "/pointer=".
+/// Visits the path of every entry that names a file, in the scene and in overrides.
 void change_files(json& study, const scene::ChangeOfPath& changed) {
     if (!study.is_object()) return;
     for (const std::string& entry : scene::file_entries) {
@@ -39,8 +39,8 @@ bool is_about_a_part(const Refused& refused) {
            refused.type() == "/problems/other-part" || refused.type() == "/problems/being-sent";
 }
 
-/// Returns how many entries it replaced by references. What is no file here is left: it may be a path
-/// of the server's.
+/// Returns how many entries were replaced by references. Keeps paths without a file here: they may
+/// be the server's.
 std::size_t send_files_of(Server& server, json& study, const Console& console) {
     std::map<std::string, std::string> references;
     std::size_t replaced = 0;
@@ -84,7 +84,7 @@ std::string send_file(Server& server, const fs::path& file, const Console& conso
         } catch (const Unreachable&) {
             if (tries == most_tries) throw;
         } catch (const Refused& refused) {
-            // What had arrived is not what is here, or it is another's turn.
+            // The received part differs from the file, or another upload is in progress.
             if (tries == most_tries || !is_about_a_part(refused)) throw;
             from_its_beginning = refused.type() == "/problems/hash-mismatch";
         }
@@ -94,7 +94,7 @@ std::string send_file(Server& server, const fs::path& file, const Console& conso
 
 namespace {
 
-/// `post` may be called twice: files are sent between where that helps.
+/// `post` may be called twice, with the upload of files between.
 template <class Post>
 json post_with_files(Server& server, json study, Sending sending, const Console& console,
                      Post post) {

@@ -11,8 +11,8 @@
 
 namespace breach::cli {
 
-/// Returns the reference by which a scene names the file. Sends it only when the server does not
-/// have it, and again when the upload was incomplete.
+/// Returns the file's name in scenes. Sends the file only when the server does not have it, and
+/// again when the upload was incomplete.
 std::string send_file(Server& server, const std::filesystem::path& file, const Console& console);
 
 enum class Sending { where_needed, always };
@@ -20,11 +20,11 @@ enum class Sending { where_needed, always };
 /// The "warnings" of an answer, one line each.
 void show_warnings(const nlohmann::json& answer, const Console& console);
 
-/// Whether the fault may be due to a file that is on this machine only.
+/// Whether the fault may be due to a file that exists on this machine only.
 bool is_about_a_file(const fault::Fault& fault);
 
-/// Posts the study, and shows the warnings of the answer. First sends the files named in its scene or in overrides if the server cannot
-/// have them: it is another machine, or reports that it does not find them.
+/// Posts the study and shows the warnings of the answer. First sends the files named in its scene
+/// or overrides if the server is another machine or reports that it does not find them.
 nlohmann::json post_study(Server& server, const std::string& route, nlohmann::json study,
                           const Headers& headers, Sending sending, const Console& console);
 

@@ -27,10 +27,9 @@ void wait_for_the_end(Server& server, const std::string& run) {
         std::this_thread::sleep_for(pause);
 }
 
-/// A run or a file that was sent.
 struct Removed {
     std::string kind, id, name;
-    double bytes = 0.0;  ///< that it frees
+    double bytes = 0.0;  ///< freed by the removal
 };
 
 std::vector<Removed> meant(Server& server, const std::vector<std::string>& names) {

@@ -1,4 +1,4 @@
-// What the server stores on its disk: listing and removing it.
+// Lists and removes runs and files on the server's disk.
 #pragma once
 
 #include <filesystem>
@@ -9,9 +9,9 @@
 
 namespace breach::cli {
 
-/// For runs, and for files as "file:sha256/...". cancel_first: cancels a run in progress and waits.
+/// For runs; names of files are "file:sha256/...". cancel_first: cancels it and waits.
 enum class IfItRuns { refuse, cancel_first };
-/// Prints what will be removed and the disk space freed, and asks for yes or no on a terminal.
+/// ask: prints what will be removed and the disk space freed, and asks at a terminal.
 enum class Confirm { ask, given };
 fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
                            Confirm confirm, const Console& console);

@@ -23,12 +23,12 @@ json read_json(const std::filesystem::path& file) {
     return scene::parse_json(text.str(), file.string());
 }
 
-/// Paths of files in them are relative to the scene's folder.
+/// Relative paths of files in overrides start at the scene's folder.
 void add_overrides(json& study, const std::vector<std::string>& overrides,
                    const std::filesystem::path& scene_folder) {
     if (!overrides.empty()) {
         if (!study.contains("overrides")) study["overrides"] = json::array();
-        if (!study["overrides"].is_array()) return;  // the server says what is wrong with it
+        if (!study["overrides"].is_array()) return;  // the server reports the fault
         for (const std::string& each : overrides) study["overrides"].push_back(each);
     }
     scene::make_override_files_absolute(study, scene_folder);
@@ -53,13 +53,13 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
     std::filesystem::path scene_folder = file.parent_path();
     const bool named = study.contains("scene") && study["scene"].is_string();
     if (named && study["scene"].get_ref<const std::string&>().starts_with(scene::stored_scene)) {
-        // The server has it.
+        // A stored scene: the server has it.
     } else if (named) {
         const auto scene = file.parent_path() / study["scene"].get<std::string>();
         scene_folder = scene.parent_path();
         study["scene"] = read_scene_document(scene);
     } else if (study.contains("scene")) {
-        scene::resolve_references(study["scene"], scene_folder);  // as an export has them
+        scene::resolve_references(study["scene"], scene_folder);  // as in an export
     }
     add_overrides(study, overrides, scene_folder);
     return study;

@@ -1,4 +1,4 @@
-// A study file prepared for sending: the scene that it names by path is put into it.
+// Prepares a study file for sending: puts in the scene that it names by path.
 #pragma once
 
 #include <filesystem>
@@ -8,29 +8,27 @@
 
 namespace breach::cli {
 
-/// The study with its scene inline; paths of a scene (relative to the study), of a mesh and of a
-/// motion (relative to the scene, in overrides too) are resolved here, because a sent study has
-/// no folder; so are references to files that lie beside the study, as in an export. `overrides`
-/// are added to the study's own. The server checks the study. Throws IoError, BadInput (not
-/// JSON).
+/// The study with its scene inline. A sent study has no folder, so all paths are resolved here: of
+/// the scene (relative to the study), of meshes and motions (relative to the scene, in overrides
+/// too), and references to files beside the study, as in an export. `overrides` are added to the
+/// study's own. The server checks the study. Throws IoError, BadInput (not JSON).
 nlohmann::json read_study(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides);
 
-/// A study that contains only the scene of this file, and its name; the transfer times are left
-/// open.
+/// A study with only the scene of this file and its name, without transfer times.
 nlohmann::json study_around(const std::filesystem::path& scene,
                             const std::vector<std::string>& overrides);
 
-/// Whether the file is a study: it contains or names a scene. Throws as read_study.
+/// Whether the file is a study: it contains or names a scene. Throws like read_study.
 bool names_a_scene(const std::filesystem::path& file);
 
-/// The scene of a study with the study's overrides for all variants. Throws BadInput for a scene stored by the server.
+/// A study's scene with the overrides for all variants. Throws BadInput for a stored scene.
 nlohmann::json scene_of_study(const std::filesystem::path& file);
 
 /// A scene with its mesh's path resolved.
 nlohmann::json read_scene_document(const std::filesystem::path& file);
 
-/// Those of these overrides that some variants replace by their own, one line each.
+/// Overrides that some variants replace by their own, one line each.
 std::vector<std::string> overruled(const nlohmann::json& study,
                                    const std::vector<std::string>& overrides);
 

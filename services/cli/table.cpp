@@ -66,7 +66,7 @@ std::string cell(const json& value) {
     if (value.is_string()) return harmless(value.get_ref<const std::string&>());
     if (value.is_number_float()) {
         const double number = value.get<double>();
-        const bool is_long = std::abs(number) >= 1e4 && std::abs(number) < 1e9;  // no 1.235e+04
+        const bool is_long = std::abs(number) >= 1e4 && std::abs(number) < 1e9;  // not 1.235e+04
         return printed(is_long ? "%.0f" : "%.4g", number);
     }
     return harmless(value.dump(-1, ' ', false, json::error_handler_t::replace));

@@ -19,15 +19,15 @@ struct Column {
 
 using Cells = std::vector<std::string>;
 
-/// Columns as wide as their widest cell, two blanks between them, no blanks at line ends.
-/// Every row has as many cells as there are columns.
+/// Pads columns to their widest cell, with two blanks between them and none at line ends. Every row
+/// has one cell per column.
 std::string as_table(const std::vector<Column>& columns, const std::vector<Cells>& rows);
 
-/// Numbers with four significant digits or, from 10,000 on, to the unit; "-" for null, text without control characters.
+/// Four significant digits, or whole units from 10,000 on; "-" for null; harmless text.
 std::string cell(const nlohmann::json& value);
-/// The member's cell; "-" when there is none.
+/// The cell of a member; "-" when it is missing.
 std::string cell(const nlohmann::json& object, const char* key);
-/// The same for a number that names a row, as a transfer time: different ones never look alike.
+/// The same for a number that identifies a row (transfer time): all digits.
 std::string whole_cell(const nlohmann::json& object, const char* key);
 
 /// Prints the server's answer unchanged.
@@ -39,7 +39,7 @@ std::string harmless(std::string_view text);
 /// "[#####...............]  25 %"; fraction in [0, 1], other values are clamped.
 std::string bar(double fraction);
 
-/// The first `width` characters (UTF-8 is not cut in the middle).
+/// The first `width` characters; never splits a UTF-8 sequence.
 std::string shortened(const std::string& text, std::size_t width);
 
 }  // namespace breach::cli

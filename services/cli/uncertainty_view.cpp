@@ -23,7 +23,7 @@ std::string title_of(const std::string& name, const json& statistics) {
            " of " + cell(statistics, "of") + " samples";
 }
 
-/// ">= 12.3" where a sample at or below it still moved.
+/// ">= 12.3" if a sample at or below this value still moved.
 std::string marked(const json& value, const json& statistics) {
     const json bound = statistics.value("bound_from", json());
     return (bound.is_number() && value.is_number() && value >= bound ? ">= " : "") + cell(value);
@@ -47,7 +47,7 @@ std::string percentile_table(const std::string& name, const json& statistics) {
     return text;
 }
 
-/// Bars of the tornado by the parameter's name; "-": it has none.
+/// The parameter's bar in the tornado; "-": none.
 std::string bar_of(const json& tornado, const json& parameter) {
     if (tornado.contains("bars"))
         for (const json& each : tornado.at("bars"))

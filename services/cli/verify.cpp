@@ -15,7 +15,7 @@ namespace {
 
 fs::path own_folder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
-/// Installed beside the program, else that of the source tree.
+/// The installed catalogue, else that of the source tree.
 fs::path shipped_catalogue() {
     const fs::path installed =
         own_folder().parent_path() / "share/breachline/verification/catalogue";

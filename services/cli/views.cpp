@@ -38,7 +38,7 @@ std::string percent(const json& object) {
     return text.substr(text.find(']') + 1);
 }
 
-/// The sum over the attempts: what the task cost, retries included.
+/// CPU seconds of all attempts, including retries.
 std::string cpu_seconds(const json& task) {
     double sum = 0.0;
     for (const json& attempt : task.at("attempts"))
@@ -52,7 +52,7 @@ bool is_yes(const json& object, const char* key) {
     return found != object.end() && found->is_boolean() && found->get<bool>();
 }
 
-/// Of a task or a row; none when they are not known.
+/// Of a task or a row; empty: unknown.
 json flags_of(const json& object) {
     const auto found = object.find("flags");
     return found != object.end() && found->is_array() ? *found : json::array();
@@ -67,7 +67,7 @@ std::string codes_of(const json& flags) {
     return codes;
 }
 
-/// "ended: entangled at 6.7 s": an end of its own kind, which is no failure.
+/// "ended: entangled at 6.7 s": a regular end other than the planned one.
 std::string unusual_end(const json& task) {
     if (cell(task, "ended") != "entangled") return "";
     return "ended: entangled at " + cell(task, "end_time") + " s";
@@ -86,10 +86,10 @@ std::string state_shown(const json& task) {
     return is_yes(task, "questionable") ? "questionable" : cell(task, "state");
 }
 
-/// Explains each flag once: which results have it, what it says of the first of them.
+/// Explains each flag once: which results have it, and the message of the first.
 class Legend {
   public:
-    /// `where`: what carries the flag, in words
+    /// `where`: the result with the flag, in words
     void add(const json& flag, const std::string& where) {
         const std::string code = cell(flag, "code");
         const std::string severity = cell(flag, "severity");
@@ -133,7 +133,7 @@ class Legend {
         std::string message;
         std::string first;
         std::set<std::string> places;
-        bool differs;  ///< the message is not the same everywhere
+        bool differs;  ///< results have different messages
     };
     std::vector<Entry> entries_;
 };
@@ -250,8 +250,8 @@ std::string as_task_page(const json& task) {
 
 namespace {
 
-/// Without the columns that no row fills, as soon as a row has a result: a static scene has no
-/// transfer time, a stability analysis alone no runout.
+/// Without columns that are empty in all rows, once a row has a result: a static scene has no
+/// transfer time, a stability analysis no runout.
 std::vector<json> without_empty(std::vector<json> columns, const json& rows) {
     const auto is_empty = [&](const std::string& name) {
         return std::ranges::all_of(
@@ -262,7 +262,7 @@ std::vector<json> without_empty(std::vector<json> columns, const json& rows) {
     return columns;
 }
 
-/// What people read first comes first; the rest as the server has it.
+/// The columns that people read first, then the others in the server's order.
 std::vector<json> columns_for_people(const json& columns, const json& rows) {
     const bool variants =
         std::ranges::any_of(rows, [](const json& row) { return row.value("variant", "") != ""; });

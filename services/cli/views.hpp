@@ -8,29 +8,29 @@ namespace breach::cli {
 
 enum class RunEnd {
     not_yet,
-    good,  ///< succeeded, perhaps questionable; or partial: some transfer times have no runout
-    bad,   ///< failed or cancelled
-    short_of_budget,  ///< continues only when its budget is raised
+    good,             ///< succeeded, perhaps questionable, or partial
+    bad,              ///< failed or cancelled
+    short_of_budget,  ///< its budget is spent
 };
 
 RunEnd end_of(const nlohmann::json& run);
-/// Whether its verdict is that its results cannot be relied on.
+/// Whether the run's verdict is that its results are unreliable.
 bool is_doubtful(const nlohmann::json& run);
 /// "not usable: does not stand as built, ..." for a run; empty without any objection.
 std::string warning_of(const nlohmann::json& run);
-/// Whether no further attempt of it will run.
+/// Whether the task will have no further attempt.
 bool is_final_task(const nlohmann::json& task);
 
 /// GET /v1/runs
 std::string as_run_table(const nlohmann::json& runs);
-/// GET /v1/runs/{id}: description, progress, tasks, the faults of the failed ones, and what to know
-/// before relying on the others.
+/// GET /v1/runs/{id}: description, progress, tasks, faults of failed tasks, and cautions about the
+/// results.
 std::string as_run_page(const nlohmann::json& run);
 /// GET /v1/tasks/{id}
 std::string as_task_page(const nlohmann::json& task);
 /// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
 std::string as_result_table(const nlohmann::json& answer);
-/// The verdict of the same answer with its reasons, except flags, which the table's legend explains; empty: usable.
+/// The verdict of the same answer with its reasons, except flags. Empty: usable.
 std::string as_verdict(const nlohmann::json& answer);
 /// The means of the same answer, with their standard deviations and missing repeats; empty: the
 /// study has no repeats.
@@ -40,7 +40,7 @@ std::string as_telemetry_table(const nlohmann::json& lines);
 
 /// "[#####...............]  25 %  running  3 of 13 tasks  about 4 min left"
 std::string as_progress_line(const nlohmann::json& run);
-/// "mpm_solver  t_T 1.5 s": the task in a few words
+/// "mpm_solver  t_T 1.5 s"
 std::string name_of_task(const nlohmann::json& task);
 /// "failed (exit code 70): the disk is full", "succeeded, ended: entangled at 6.7 s",
 /// "questionable (still_moving)", or only the state

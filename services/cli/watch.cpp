@@ -28,13 +28,13 @@ class EventTail {
   public:
     EventTail(Server& server, std::string run) : server_(server), run_(std::move(run)) {}
 
-    /// What happened since the last call; waits up to a second for something to happen. Progress is
-    /// no event, so waiting longer would show it late.
+    /// Events since the last call; waits up to a second for one. Progress is not an event, so a
+    /// longer wait would delay its display.
     std::vector<json> next() {
         try {
             return take();
         } catch (const Unreachable&) {
-            // All places for listeners may be taken; the run itself can still be asked for.
+            // All event streams may be taken; polling the run still works.
             if (!caught_up_) throw;
             std::this_thread::sleep_for(std::chrono::seconds(1));
             return {};
@@ -59,7 +59,7 @@ class EventTail {
     Server& server_;
     std::string run_;
     std::int64_t next_ = 0;
-    bool caught_up_ = false;  // history is taken without waiting
+    bool caught_up_ = false;  // read past events without waiting
 };
 
 std::size_t terminal_width() {
@@ -73,7 +73,7 @@ bool is_busy(const json& task) {
            state == "cancelling" || state == "retry_wait";
 }
 
-/// Draws over what it drew before.
+/// Draws over its previous picture.
 class Picture {
   public:
     explicit Picture(std::ostream& out) : out_(out) {}
@@ -103,7 +103,7 @@ class Picture {
     std::size_t height_ = 0;
 };
 
-/// One line per task whose state is new.
+/// Prints one line per task with a new state.
 class Diary {
   public:
     explicit Diary(std::ostream& out) : out_(out) {}
@@ -134,7 +134,7 @@ class Onlooker {
           picture_(console.out),
           diary_(console.out) {}
 
-    /// Waits for news and shows them; the run as it is then.
+    /// Waits for news and prints them; returns the run's state then.
     json look() {
         const auto news = events_.next();
         json run = server_.get(path_);

@@ -1,5 +1,5 @@
-// Watches a run: on a terminal a few lines that stay in place, else one line per change, with
-// --json the events.
+// Watches a run: updates a few lines in place on a terminal, else prints one line per change, or
+// the events with --json.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace breach::cli {
 
-/// Returns code_of_end when the run has ended. Waits for a server that does not answer for less
-/// than a minute; then throws Unreachable.
+/// Returns code_of_end when the run has ended. Waits up to a minute for a server that does not
+/// answer, then throws Unreachable.
 fault::ExitCode watch(Server& server, const std::string& run, Questionable questionable,
                       const Console& console);
 

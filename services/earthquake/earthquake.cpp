@@ -15,7 +15,7 @@ double coefficient_kPa(const Section& section) {
     return rounded(section.residual_ratio * atmosphere);
 }
 
-/// Columns need a side that is one vertical line.
+/// Free-field columns need a side that is one vertical line.
 std::optional<Json> free_field_of(const Section& section) {
     if (!section.upright_left && !section.upright_right) return std::nullopt;
     Json columns{{"width", section.element_size}, {"thickness_factor", 1000}};
@@ -24,10 +24,10 @@ std::optional<Json> free_field_of(const Section& section) {
     return columns;
 }
 
-/// Which soil is watched, from a height upstream of the crest to the crest.
+/// The monitored soil: from one height upstream of the crest to the crest.
 std::optional<Json> watch_of(const Section& section) {
     Json names = Json::array();
-    double right = section.left;  // of what can liquefy
+    double right = section.left;  // right end of the soil that can liquefy
     for (const Region& each : section.regions) {
         if (each.layer == 0) continue;
         names.push_back(each.name);
@@ -121,7 +121,7 @@ Json transfers_of(const Motion& motion) {
                           {"upper", "jacobian_least_avg < 0.97 or epsilon_q_avg > 0.2"},
                           {"pick", "last_before"},
                           {"snapshot_interval_s", rounded(duration / 32)}}};
-    // One transfer may come before the dam has liquefied; those that a distorted mesh never reaches
+    // A transfer may come before the dam has liquefied. Times that a distorted mesh never reaches
     // cost nothing.
     for (const double share : {0.4, 0.6, 0.8, 1.0})
         study["transfer_times"].push_back(rounded(share * duration));

@@ -1,4 +1,4 @@
-// What a scene needs so that an earthquake can shake it: the FEM phase, its transfer, the stages of
+// Adds what a scene needs for an earthquake: the FEM phase, its transfer, the stages of
 // liquefaction in the stability analysis, the study's transfer times and a synthetic motion.
 #pragma once
 
@@ -28,14 +28,14 @@ struct Section {
     std::map<std::string, std::string>
         runouts;  ///< materials that another one replaces in the runout
     Line phreatic;
-    Vec2 crest;                                      ///< its downstream edge
-    double crest_from;                               ///< x of its upstream edge
+    Vec2 crest;                                      ///< downstream edge of the crest [m]
+    double crest_from;                               ///< x of the crest's upstream edge [m]
     double height;                                   ///< of the slope [m]
     double left, right, base;                        ///< ends and level of the lower edge
-    bool upright_left = true, upright_right = true;  ///< sides that are one vertical line
+    bool upright_left = true, upright_right = true;  ///< whether each side is one vertical line
     double element_size, cell_size;
     double layer_thickness;       ///< [m]
-    double largest_sigma_v0_kPa;  ///< of the soil that liquefies, where its layers by stress end
+    double largest_sigma_v0_kPa;  ///< end of the last layer by stress, in liquefying soil
     double density;               ///< of the soil that liquefies [kg/m3]
     double residual_ratio = usual_residual_ratio;
 };
@@ -45,8 +45,8 @@ Json transfer_of(const Section& section);
 /// /lem/liquefaction; none without layers.
 std::optional<Json> liquefaction_of(const Section& section);
 
-/// Rigid ground of the runout: below the base, and beyond its right end the ground's level there.
-/// `level` is that of the ground; `h` the cell size.
+/// Rigid ground of the runout: the base level up to `end`, then the level of the ground. `level`:
+/// ground level at x; `h`: cell size.
 template <class Level>
 Line terrain_of(double left, double base, double end, double right, double h, const Level& level) {
     return {{left - h, base},
@@ -55,14 +55,14 @@ Line terrain_of(double left, double base, double end, double right, double h, co
             {right, level(right)}};
 }
 
-/// A grid of cells h that begins at the base's end: the sides of the FEM sway, so there is room.
+/// Wall of a grid of cells h, beside the base's end: the sides of the FEM sway.
 inline double wall_beside(double left, double h) { return left - 0.25 * h; }
 
 /// Triggers and transfer times of the study.
 Json transfers_of(const Motion& motion);
 
-/// Text of the motion's file. PGV and Arias intensity are as those of a record of San Fernando 1971
-/// for the same PGA and length.
+/// Text of the motion's file. PGV and Arias intensity are like those of a record of San Fernando
+/// 1971 with the same PGA and length.
 std::string text_of(const Motion& motion);
 
 }  // namespace breach::earthquake

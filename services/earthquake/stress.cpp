@@ -12,7 +12,7 @@ namespace breach::earthquake {
 
 namespace {
 
-/// Vertical effective stress below ground and phreatic line [kPa].
+/// Vertical effective stress below the ground and the phreatic line [kPa].
 double sigma_v0_at(const Vec2& place, const Overburden& above) {
     const double ground = geometry::level_at(above.ground, place.x());
     const double water = std::min(geometry::level_at(above.phreatic, place.x()), ground);

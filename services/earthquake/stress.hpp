@@ -20,7 +20,7 @@ struct Region {
     double sigma_v0_kPa = 0.0;  ///< mean vertical effective stress of the layer
 };
 
-/// What lies above a place.
+/// The soil and water above a place.
 struct Overburden {
     const Line& ground;
     const Line& phreatic;
@@ -35,10 +35,10 @@ struct Sum {
     double area = 0.0;         ///< [m2]
 };
 
-/// Adds what of the polygon lies right of `from`, on a lattice.
+/// Adds the part of the polygon right of `from`, sampled on a lattice.
 void add(Sum& sum, const Polygon& polygon, const Overburden& above, double from);
 
-/// Of each layer where it can slide, right of `from`; where it has nothing there, of all of it.
+/// Means over each layer right of `from`, where it can slide; else over the whole layer.
 void find_stresses(std::vector<Region>& regions, const Overburden& above, double from);
 
 }  // namespace breach::earthquake

@@ -14,13 +14,13 @@ using nlohmann::json;
 
 namespace {
 
-// CPU seconds and bytes per piece of work: fits to the runs of README.md, in this folder. Another
-// machine is within the factor of two that all ranges have, or `learn` says how far it is off.
-constexpr double start_up = 0.01;                  // a program's own [s]
+// CPU seconds and bytes per unit of work, fitted to the runs of README.md in this folder. Another
+// machine is within the factor of two of all ranges, or `learn` corrects it.
+constexpr double start_up = 0.01;                  // of a program [s]
 constexpr double per_slice = 1.05e-7;              // [s]
 constexpr double per_polyline_and_slice = 6.5e-7;  // [s]
 constexpr double per_element_step = 2.5e-6;        // iterations included [s]
-constexpr double softening_elements = 1200;        // with more of them bands need more iterations
+constexpr double softening_elements = 1200;        // with more, shear bands need more iterations
 constexpr double per_element_step_with_memory = 8e-6;  // PM4Sand with its pore water [s]
 constexpr double per_transferred_point = 4e-6;         // [s]
 constexpr double per_point_step = 5e-8;                // [s]
@@ -33,7 +33,7 @@ constexpr double fold = 2.0, widening_of_means = 1.5;
 
 Range around(double middle) { return {middle / fold, middle * fold}; }
 
-/// What stages and samples of /lem leave; that of sensitivities and polylines is small.
+/// Output of the stages and samples of /lem; sensitivities and polylines are negligible.
 double lem_bytes(const scene::Lem& lem) {
     constexpr double per_stage = 8e3, per_number = 13.0;
     double numbers = 0.0;
@@ -56,8 +56,8 @@ PhaseCost lem_cost(const scene::Scene& scene) {
             ""};
 }
 
-/// Of a step and an element of the mean kind [s]. Bands of softening soil cost the whole mesh
-/// iterations, and each of them a factorisation.
+/// Mean time per step and element [s]. Bands of softening soil cost iterations over the whole mesh,
+/// each with a factorisation.
 double rate_of(const scene::Scene& scene, const MeshCounts& mesh) {
     const std::vector<double> elements = elements_of(scene);
     double all = 0.0, with_memory = 0.0;
@@ -78,7 +78,7 @@ double rate_of(const scene::Scene& scene, const MeshCounts& mesh) {
 MeshCounts mesh_of(const scene::Scene& scene) {
     double elements = 0.0;
     for (const double each : elements_of(scene)) elements += each;
-    return {elements, elements + 2.0 * std::sqrt(elements) + 1.0};  // a square's
+    return {elements, elements + 2.0 * std::sqrt(elements) + 1.0};  // nodes of a square mesh
 }
 
 PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool counted) {
@@ -122,7 +122,7 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
             ""};
 }
 
-/// Two digits, thousands apart: "5,500".
+/// Two significant digits, with thousands separators: "5,500".
 std::string number(double value) {
     const double size = std::abs(value);
     const double unit = size > 0.0 ? std::pow(10.0, std::floor(std::log10(size)) - 1.0) : 1.0;
@@ -158,7 +158,7 @@ std::string disk_of(const Range& bytes) {
     return bytes.high < 2e9 ? range(bytes, 1e6, "MB") : range(bytes, 1e9, "GB");
 }
 
-/// How often a study runs the phase: at least and at most, as what variants share is computed once.
+/// How often a study runs the phase: least and most, because shared tasks are computed once.
 Range times_of(const std::string& phase, const Repeats& repeats) {
     if (!repeats.tasks.empty()) {
         const auto planned = repeats.tasks.find(phase);

@@ -17,9 +17,9 @@ using scene::Vec2;
 
 namespace {
 
-// Recombined quads are smaller than asked for (Mochikoshi on 1 m: 5,494 for an area of 4,450).
+// Recombined quads are smaller than requested (Mochikoshi at 1 m: 5,494 for an area of 4,450).
 constexpr double gmsh_excess = 1.25;
-// Panels are whole, so cells get more points than they are owed (Mochikoshi on 4 m: 2,744 for 2,112).
+// Panels are whole, so cells get more points than requested (Mochikoshi at 4 m: 2,744 for 2,112).
 constexpr double panel_excess = 1.25;
 
 /// Blocks and strips have even numbers of elements along their sides.
@@ -32,7 +32,7 @@ double block_elements(const Polygon& block, double h) {
     return even(size.x() / h) * even(share * size.y() / h);
 }
 
-/// A strip whose columns widen from `first` to `last`: the integral of dx over the width there.
+/// Elements of a strip with widths from `first` to `last`: the integral of dx over the width.
 double strip_elements(const Polygon& strip, double first, double last) {
     if (strip.size() < 3) return 0.0;
     const geometry::Box box = geometry::bounding_box(strip);
@@ -51,7 +51,7 @@ double elements_of(const scene::Region& region) {
     if (h <= 0.0 || region.polygon.empty()) return 0.0;
     Polygon middle = region.polygon;
     double elements = 0.0;
-    /// Takes what lies right of the line from a to b away as a strip.
+    /// Cuts off the part right of the line from a to b as a strip.
     const auto cut = [&](const Vec2& a, const Vec2& b) {
         elements += strip_elements(geometry::clipped_left(middle, b, a), h, region.grading.largest);
         middle = geometry::clipped_left(middle, a, b);
@@ -78,7 +78,7 @@ bool can_liquefy(const scene::LiquefiedZone& zone, const scene::Soil& soil) {
     return std::ranges::count(zone.regions, soil.region) > 0 && (zone.layers.empty() || is_layer);
 }
 
-/// tan phi that the transfer gives to soil which it finds liquefied, where its profile says one.
+/// tan phi that the transfer gives to liquefied soil, if its profile has one.
 std::optional<double> liquefied_friction(const scene::Scene& scene, const scene::Soil& soil) {
     if (!scene.fem || !scene.transfer || !scene.transfer->liquefied) return std::nullopt;
     if (!can_liquefy(*scene.transfer->liquefied, soil)) return std::nullopt;
@@ -87,7 +87,7 @@ std::optional<double> liquefied_friction(const scene::Scene& scene, const scene:
     const std::size_t before = scene.section.regions[soil.region].material;
     if (before < scene.materials.size() &&
         materials::has_state_parameter(scene.materials[before].law))
-        return 0.0;  // wet points are undrained, by their state
+        return 0.0;  // wet points are undrained
     const auto* effective = std::get_if<materials::Effective>(&profile->residual->kind);
     return effective != nullptr ? std::tan(effective->phi) : 0.0;
 }
@@ -108,7 +108,7 @@ bool can_flow(const scene::Scene& scene) {
     });
 }
 
-/// The strength that the LEM gives to a material, where it has one to vary.
+/// The strength of a material in the LEM, if it has one to vary.
 std::optional<materials::Strength> limit_strength(const scene::Material& material) {
     if (const auto& own = material.limit_strength)
         return materials::Strength{own->c, std::tan(own->phi)};
@@ -130,12 +130,12 @@ double strength_parameters(const scene::Scene& scene) {
     return static_cast<double>(count);
 }
 
-/// Searches for so many variations, and one for the surface without them.
+/// Searches for this number of variations, and one for the surface without them.
 double searches_for(scene::VariedSurface surface, double variations, double surfaces) {
     return 1.0 + (surface == scene::VariedSurface::searched ? variations : variations / surfaces);
 }
 
-/// Straight lower borders of regions that circles can touch: each line once, none below the lowest level.
+/// Straight lower borders of regions that circles can touch, each once, above the lowest level.
 double boundaries_of(const scene::Scene& scene) {
     const auto& lowest = scene.lem->search->lowest_level;
     std::set<std::pair<double, double>> lines;
@@ -154,7 +154,7 @@ double boundaries_of(const scene::Scene& scene) {
     return static_cast<double>(lines.size()) + (lowest ? 1.0 : 0.0);
 }
 
-/// Vertical strips of the section: every vertex of a region or of the phreatic line begins one.
+/// Vertical strips of the section: each vertex of a region or of the phreatic line begins one.
 double strips_of(const scene::Scene& scene) {
     std::set<double> starts;
     const auto add = [&](const std::vector<Vec2>& points) {
@@ -165,7 +165,7 @@ double strips_of(const scene::Scene& scene) {
     return static_cast<double>(starts.size()) - 1.0;
 }
 
-/// Strength of a region under 100 kPa [Pa].
+/// Strength of a region at 100 kPa [Pa].
 double strength_of(const scene::Scene& scene, const scene::Region& region) {
     constexpr double unknown = std::numeric_limits<double>::infinity();
     if (region.material >= scene.materials.size()) return unknown;
@@ -173,7 +173,7 @@ double strength_of(const scene::Scene& scene, const scene::Region& region) {
     return strength ? strength->c + 1e5 * strength->tan_phi : unknown;
 }
 
-/// Layers thinner than a tenth of their depth and weaker than all thicker soil: each is searched along.
+/// Layers thinner than a tenth of their depth and weaker than all thicker soil: one search each.
 double thin_weak_layers(const scene::Scene& scene) {
     const double top = geometry::extent(scene.section).high.y();
     const auto is_thin = [&](const scene::Region& region) {
@@ -190,7 +190,7 @@ double thin_weak_layers(const scene::Scene& scene) {
         }));
 }
 
-/// Slices cut by a whole search, by its grid alone, and by the grid without the scene's bounds.
+/// Slices of a full search, of its grid only, and of the grid without the scene's bounds.
 struct SlicesCut {
     double whole, grid, without_bounds;
 };
@@ -209,15 +209,15 @@ SlicesCut slices_cut(const scene::Scene& scene) {
             coarser * coarser * pairs * (coarser * search.depths + touching) * per_circle};
 }
 
-/// Surfaces of straight pieces: the given one, and those on the way down from each stage's surface,
-/// where they are asked for or a thin weak layer is there.
+/// Polylines: the given one, and those of the descent from each stage's surface, if they are
+/// requested or a thin weak layer exists.
 double polylines_of(const scene::Lem& lem, double thin_layers) {
     constexpr int usual_vertices = 13;
     const double given = lem.non_circular && !lem.non_circular->given.empty() ? 1.0 : 0.0;
     const int asked = lem.non_circular ? lem.non_circular->vertices : 0;
     const int vertices = asked == 0 && thin_layers > 0.0 ? usual_vertices : asked;
     const auto stages = static_cast<double>(lem.liquefaction.size());
-    const double descents = stages > 0.0 ? 2.0 + stages : 1.0;  // that without layers twice
+    const double descents = stages > 0.0 ? 2.0 + stages : 1.0;  // the intact stage twice
     // measured: 7,336, 10,401 and 16,784 with 13, 30 and 60 vertices, 6,105 to 8,859 with 13
     return given + descents * 2100.0 * std::sqrt(vertices);
 }
@@ -302,7 +302,7 @@ Searches searches_of(const scene::Scene& scene) {
             refinement * lem.search->entry_points * lem.search->exit_points * lem.search->depths;
         cut = slices_cut(scene);
     }
-    // The crack's depth is sought on 2 to 13 grids; one or two whole searches follow.
+    // The crack's depth is searched on 2 to 13 grids; one or two full searches follow.
     constexpr double wholes_with_crack = 2.5, grids_with_crack = 7.0;
     const double family =
         lem.tension_crack ? wholes_with_crack * cut.whole + grids_with_crack * cut.grid : cut.whole;

@@ -1,15 +1,15 @@
-// Problem size of a scene for each phase, without meshing or filling it. Within about a third of
-// the sizes that the phases then report.
+// Estimates the problem size of a scene for each phase without meshing or filling it, within about
+// a third of the sizes that the phases report.
 #pragma once
 
 #include "core/scene/scene.hpp"
 
 namespace breach::estimate {
 
-/// Quads of each region [n_regions]: of blocks from their divisions, else from element size.
+/// Quads of each region [n_regions]: from the divisions of blocks, else from the element size.
 std::vector<double> elements_of(const scene::Scene& scene);
 
-/// Area of the section's polygons together [m2].
+/// Total area of the section's polygons [m2].
 double soil_area(const scene::Scene& scene);
 
 /// Steps that the FEM's stages plan, and duration of the dynamic ones.
@@ -20,23 +20,23 @@ struct FemSteps {
 FemSteps steps_of(const scene::Fem& fem);
 double snapshots_of(const scene::Fem& fem);
 
-/// Points of the transfer, or of the filled section where there is no FEM.
+/// Material points of the transfer, or of the filled section without a FEM.
 double points_of(const scene::Scene& scene, double elements);
 
-/// Duration of a runout that ends at rest: 7 sqrt(H / g), and 75 sqrt(H / g) where soil can flow that
-/// keeps no friction once it has softened or liquefied, at least the earliest rest and at most the
-/// longest duration [s].
+/// Duration of a runout that ends at rest [s]: 7 sqrt(H / g), or 75 sqrt(H / g) where soil can flow
+/// that keeps no friction after softening or liquefaction; limited by the earliest rest and the
+/// longest duration.
 double runout_duration(const scene::Scene& scene);
-/// Time step from the Courant number and the fastest wave of all soils [s].
+/// Time step from the Courant number and the fastest wave speed of all soils [s].
 double runout_step(const scene::Scene& scene);
 
-/// Surfaces of one search, and the number of searches: the LEM's own, one per liquefied layer, and
-/// those of varied parameters. Surfaces of straight pieces are analysed by Spencer's method.
+/// Number of surfaces in one search, and of searches: the LEM's own, one per liquefied layer, and
+/// those with varied parameters. Polylines are analysed by Spencer's method.
 struct Searches {
     double surfaces;
     double stages;
     double polylines;
-    /// For all circles, also along thin weak layers, with other crack depths and beyond the bounds.
+    /// For all circles, also along thin weak layers, with other cracks and beyond the bounds.
     double slices;
 };
 /// For a scene with /lem.

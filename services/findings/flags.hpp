@@ -1,4 +1,4 @@
-// Meaning of a result's flags: whether it can be relied on, and which of its numbers are lower bounds.
+// Interprets a result's flags: its reliability, and which numbers are lower bounds.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -22,7 +22,7 @@ std::string listed(const std::vector<fault::Flag>& flags, fault::Severity severi
 /// Whether this quantity of a runout can only grow while soil moves.
 bool grows(std::string_view quantity);
 
-/// Whether the soil of a runout still moved at its end: quantities that grow are lower bounds then.
+/// Whether soil still moved at the end, so that growing quantities are lower bounds.
 bool still_moves(const nlohmann::json& at_rest, const nlohmann::json& flags);
 bool still_moves(const nlohmann::json& result);
 

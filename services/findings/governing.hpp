@@ -1,4 +1,4 @@
-// The governing result of a run: the one for first lines, pictures and comparisons.
+// Selects the governing result of a run, for headlines, pictures and comparisons.
 #pragma once
 
 #include <cstddef>
@@ -7,16 +7,15 @@
 
 namespace breach::findings {
 
-/// The properties of a result that decide.
+/// The numbers of a result that decide.
 struct Candidate {
-    std::optional<double> runout = {};  ///< [m]
-    std::optional<double> mean_runout =
-        {};  ///< of all repeats of it [m]; nothing: it is not repeated
+    std::optional<double> runout = {};       ///< [m]
+    std::optional<double> mean_runout = {};  ///< of all its repeats [m]; nothing: no repeats
     std::optional<double> factor_of_safety = {};
 };
 
-/// Index of the largest runout; of repeated runouts, of the largest one in the largest mean; without any runout,
-/// of the least factor of safety. Nothing: there is neither.
+/// Index of the largest runout (with repeats: the largest runout within the largest mean); without
+/// runouts, of the least factor of safety. Nothing: there is neither.
 std::optional<std::size_t> governing(const std::vector<Candidate>& candidates);
 
 }  // namespace breach::findings

@@ -27,7 +27,7 @@ json correlation(const Values& measure, const Values& result) {
     return as_json(statistics::importance_of({&drawn, 1}, result).front().rank_correlation);
 }
 
-/// Those with a runout.
+/// Motions with a runout.
 std::vector<Shaken> followed(const std::vector<Shaken>& shaken) {
     std::vector<Shaken> known;
     std::ranges::copy_if(shaken, std::back_inserter(known),
@@ -49,8 +49,8 @@ struct Probit {
     double aa, ab, bb;  ///< covariance
 };
 
-/// By maximum likelihood, Fisher scoring (Baker 2015, Earthquake Spectra 31). Nothing: a value parts those
-/// that passed from those that did not, so that any slope fits.
+/// Maximum likelihood by Fisher scoring (Baker 2015, Earthquake Spectra 31). Nothing: a value
+/// separates the motions that passed from the others, so that any large slope fits.
 std::optional<Probit> probit(const Values& logs, const std::vector<bool>& yes) {
     const auto [least, most] = std::ranges::minmax(logs);
     Probit fit{.a = 0.0, .b = 0.0, .aa = 0.0, .ab = 0.0, .bb = 0.0};
@@ -76,7 +76,7 @@ std::optional<Probit> probit(const Values& logs, const std::vector<bool>& yes) {
     return std::nullopt;
 }
 
-/// Half of the motions send soil past the toe at the median; beta: standard deviation of ln x.
+/// median: half of the motions send soil past the toe; beta: standard deviation of ln x.
 json fragility(const Values& measure, const std::vector<Shaken>& known) {
     const auto of = static_cast<std::size_t>(std::ranges::count_if(known, passed));
     const auto refused = [&](const char* why) { return json{{"refused", why}}; };
@@ -104,7 +104,7 @@ json fragility(const Values& measure, const std::vector<Shaken>& known) {
             {"beta", 1.0 / fit->b}};
 }
 
-/// The depth with fewest motions on its wrong side, half-way between two.
+/// The depth with the fewest motions on its wrong side, midway between two motions.
 json onset_of(std::vector<Shaken> known) {
     std::ranges::sort(known, {}, &Shaken::liquefaction_depth);
     auto wrong = std::ranges::count_if(known, [](const Shaken& each) { return !passed(each); });
@@ -119,7 +119,7 @@ json onset_of(std::vector<Shaken> known) {
     return best;
 }
 
-/// Least depth from which on the runout has 90 % of its largest, on the non-decreasing course that fits best
+/// Least depth from which the runout has 90 % of its largest value, on the best non-decreasing fit
 /// (pool adjacent violators, Ayer et al. 1955).
 json saturation_of(std::vector<Shaken> known) {
     std::ranges::sort(known, {}, &Shaken::liquefaction_depth);

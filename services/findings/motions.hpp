@@ -1,4 +1,4 @@
-// Findings of a study of several motions: which measure of a motion correlates with liquefaction and
+// Findings of a study of several motions: the measure that correlates best with liquefaction and
 // runout, the least liquefied depth with soil past the toe, and its probability for a given motion.
 #pragma once
 
@@ -19,12 +19,12 @@ struct Shaken {
     bool lower_bound = false;  ///< of the runout
 };
 
-/// With fewer motions there are no findings.
+/// Fewer motions give no findings.
 inline constexpr std::size_t fewest_motions = 5;
 
-/// {"rows", "measures": [{"name", "title", "unit", "with_depth", "with_runout", "fragility"}], "best",
-/// "onset", "saturation", "sentences"}, described in services/orchestrator/http/openapi.json. shaken:
-/// at least fewest_motions.
+/// {"rows", "measures": [{"name", "title", "unit", "with_depth", "with_runout", "fragility"}],
+/// "best", "onset", "saturation", "sentences"}, as in services/orchestrator/http/openapi.json.
+/// shaken: at least fewest_motions.
 nlohmann::json motions_of(const std::vector<Shaken>& shaken);
 
 }  // namespace breach::findings

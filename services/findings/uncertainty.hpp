@@ -9,7 +9,7 @@ namespace breach::findings {
 
 /// answer: that of GET /v1/runs/{id}/uncertainty so far.
 std::vector<std::string> sentences_of(const nlohmann::json& answer);
-/// Samples missing from its numbers, and numbers that are lower bounds.
+/// Cautions: samples missing from the numbers, and numbers that are lower bounds.
 std::vector<std::string> cautions_of(const nlohmann::json& answer);
 
 }  // namespace breach::findings

@@ -36,7 +36,7 @@ bool is_over(const std::string& state) {
     return !open.contains(state);
 }
 
-/// What flags are called in a line that counts them.
+/// Flags in words, for lines that count them.
 constexpr std::array<std::pair<const char*, const char*>, 8> briefs{{
     {"still_moving", "still moving: lower bounds"},
     {"numerical_share", "with much energy made or lost by the numerics"},
@@ -80,7 +80,7 @@ Usable worth_of(const fault::Flag& flag) {
     return flag.severity == Severity::questionable ? Usable::questionable : Usable::with_remarks;
 }
 
-/// What several phases say of one scene in the same words is one reason.
+/// The same flag of several phases with the same message is one reason.
 void add_flags(std::vector<Raised> raised, std::vector<Reason>& reasons) {
     const auto place = [](const Raised& each) {
         return std::ranges::find(phases::all, each.phase, &phases::Phase::program);
@@ -147,7 +147,7 @@ Reason reason_of(const Early& early) {
             early.transfers};
 }
 
-/// Variants without a transfer. The dam may stand only where its FEM ended without a failure.
+/// Variants without a transfer. The dam may be stable only where its FEM ended without a failure.
 void add_without_transfer(const Facts& facts, std::vector<Reason>& reasons) {
     std::map<std::pair<bool, std::string>, std::vector<const NoTransfer*>> alike;
     for (const NoTransfer& each : facts.without_transfer)

@@ -1,5 +1,5 @@
-// Whether the results of a run can be used, and the reasons in sentences, the worst first. Store and report collect
-// the facts; only this file judges them.
+// Judges whether the results of a run can be used, with reasons in sentences, the worst first.
+// Store and report collect the facts.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace breach::findings {
 
-/// One flag of one phase, with the number of results that carry it.
+/// One flag of one phase, with the number of results that have it.
 struct Raised {
-    fault::Flag flag;  ///< of the first of them
+    fault::Flag flag;  ///< of the first such result
     std::string phase;
     std::int64_t results = 1;
-    std::int64_t of_results = 1;  ///< total number of the phase's results
-    std::string first = {};       ///< label of the first
+    std::int64_t of_results = 1;  ///< results of the phase in all
+    std::string first = {};       ///< label of the first such result
 };
 
 /// Stability analyses with a factor of safety below 1 before any layer liquefies.
@@ -26,7 +26,7 @@ struct Unstable {
     std::int64_t analyses;
     std::int64_t of_analyses;
     double least;
-    std::string variant;  ///< of the least; empty: the scene itself
+    std::string variant;  ///< with the least factor; empty: the scene itself
 };
 
 /// A variant with a FEM that ended before all its transfer times, or without a trigger that fired.
@@ -37,12 +37,12 @@ struct NoTransfer {
     std::string pointer = "/triggers";  ///< entry that requested a transfer
 };
 
-/// Transfers before the liquefied zone had most of its final depth in the same FEM (its milestone "liquefied").
+/// Transfers before the liquefied zone had most of its final depth (milestone "liquefied").
 struct Early {
     std::int64_t transfers;
     std::int64_t of_transfers;
     double first;         ///< transfer time of the first of them [s]
-    double liquefied_at;  ///< that milestone [s]
+    double liquefied_at;  ///< time of the milestone [s]
 };
 
 /// Tasks without a result.
@@ -57,7 +57,7 @@ struct Facts {
     std::string state;  ///< of the run
     std::vector<Raised> raised = {};
     std::optional<Unstable> unstable =
-        {};  ///< nothing: of samples, or of a section that is known to have failed
+        {};  ///< nothing: for samples, or a section that is known to have failed
     std::vector<NoTransfer> without_transfer = {};
     bool has_runout = false;
     std::optional<Early> early = {};
@@ -73,13 +73,12 @@ const char* name_of(Usable usable);
 const char* phrase_of(Usable usable);
 
 struct Reason {
-    Usable usable;  ///< the best verdict that it allows
-    std::string
-        code;  ///< a flag's, or that of a judgement: does_not_stand, early_transfer, no_transfer, ...
+    Usable usable;      ///< the best verdict that it allows
+    std::string code;   ///< a flag's code, or does_not_stand, early_transfer, no_transfer, ...
     std::string brief;  ///< "7 of 8 runouts still moving: lower bounds"
     std::string text;   ///< one or two sentences
     std::string pointer = {};
-    std::int64_t count = 1;  ///< results, analyses or variants that it is about
+    std::int64_t count = 1;  ///< number of results, analyses or variants
 };
 
 struct Verdict {
@@ -89,7 +88,7 @@ struct Verdict {
 
 Verdict verdict_of(const Facts& facts);
 
-/// Why a run is less than usable, in one line; empty if it is usable.
+/// Why a run is less than usable, in one line; empty: usable.
 std::string line_of(const Verdict& verdict);
 
 /// {"usable", "words", "reasons": [{"usable", "code", "brief", "text", "pointer", "count"}]}

@@ -11,7 +11,7 @@ std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, 
     const double length = chord.norm();
     if (length == 0.0 || bulge == 0.0) return {};
     const double angle = 4.0 * std::atan(bulge);
-    const double radius = 0.25 * length * (bulge + 1.0 / bulge);  // signed as the bulge
+    const double radius = 0.25 * length * (bulge + 1.0 / bulge);  // with the sign of the bulge
     const Vec2 left(-chord.y() / length, chord.x() / length);
     const Vec2 centre = from + 0.5 * chord + left * (0.25 * length * (1.0 / bulge - bulge));
     const double off = std::min(sagitta / std::abs(radius), 1.0);

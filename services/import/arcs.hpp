@@ -1,4 +1,4 @@
-// Arcs as chords. Pure geometry.
+// Replaces arcs by chords. Pure geometry.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@ namespace breach::importing {
 
 using mechanics::Vec2;
 
-/// Points strictly between `from` and `to` on the arc of this bulge (tangent of a quarter of its
-/// angle, positive counter-clockwise), so that chords are off by at most `sagitta` [m] and there are
-/// at most 512 of them.
+/// Points strictly between `from` and `to` on the arc with this bulge (tangent of a quarter of its
+/// angle, positive counter-clockwise). Chords deviate by at most `sagitta` [m], but there are at
+/// most 512 of them.
 std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, double sagitta);
 
 }  // namespace breach::importing

@@ -14,7 +14,7 @@ namespace breach::importing {
 namespace {
 
 constexpr int most_passes = 20;
-constexpr std::size_t most_nodes = 8000, most_steps = 40000;  // lines that cross everywhere
+constexpr std::size_t most_nodes = 8000, most_steps = 40000;  // limits where lines cross everywhere
 
 // ---------------------------------------------------------------- snapping
 
@@ -83,7 +83,7 @@ class Snapping {
         std::size_t node;
     };
 
-    /// Nodes that an edge passes by within the tolerance are put into it.
+    /// Inserts nodes within the tolerance of an edge into the edge.
     bool bend_edges() {
         bool changed = false;
         for (std::size_t c = 0; c < result_.chains.size(); ++c) {
@@ -153,7 +153,7 @@ class Snapping {
         };
         std::ranges::stable_sort(segments, {}, left);
         bool changed = false;
-        std::map<std::pair<Edge, Edge>, std::size_t> known;  // several chains share an edge
+        std::map<std::pair<Edge, Edge>, std::size_t> known;  // several chains may share an edge
         for (std::size_t i = 0; i < segments.size(); ++i) {
             const Segment& s = segments[i];
             const double right = std::max(result_.nodes[s.a].x(), result_.nodes[s.b].x());
@@ -196,7 +196,7 @@ class Snapping {
 
 // ---------------------------------------------------------------- faces
 
-/// Node after v on the face to the left of u-v: the first clockwise from the way back.
+/// The node after v on the face left of u-v: the first one clockwise from v-u.
 class Fan {
   public:
     Fan(const std::vector<Vec2>& nodes, const std::vector<Edge>& directed) : around_(nodes.size()) {
@@ -221,7 +221,7 @@ class Fan {
     std::vector<std::vector<std::pair<double, std::size_t>>> around_;
 };
 
-/// Closed walks through directed edges, each used once.
+/// Closed walks along directed edges, each used once.
 std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
                                             const std::vector<Edge>& directed) {
     const Fan fan(nodes, directed);
@@ -247,7 +247,7 @@ double least_distance(const Vec2& place, const Polygon& ring) {
     return least;
 }
 
-/// Levels between vertices: of the widest of them, at most 48.
+/// Levels midway between vertices, at most 48: those in the widest gaps.
 std::vector<double> levels_between(const Polygon& ring) {
     std::vector<double> ys;
     for (const Vec2& each : ring) ys.push_back(each.y());
@@ -262,7 +262,7 @@ std::vector<double> levels_between(const Polygon& ring) {
     return levels;
 }
 
-/// The middles of what a level crosses of the ring.
+/// Midpoints of the parts of a level inside the ring.
 std::vector<Vec2> middles_at(const Polygon& ring, double y) {
     std::vector<double> xs;
     for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -277,7 +277,7 @@ std::vector<Vec2> middles_at(const Polygon& ring, double y) {
     return middles;
 }
 
-/// Where the largest of the tried circles stands; `others` may lie within the ring.
+/// Places the largest of the tried circles; `others` may lie within the ring.
 void find_inside(Face& face, const Polygon& ring, const std::vector<Polygon>& others) {
     face.width = 0.0;
     face.inside = ring.front();
@@ -327,7 +327,7 @@ std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edg
     for (auto& ring : walks(nodes, directed)) {
         Polygon polygon = polygon_of(nodes, ring);
         const double area = geometry::signed_area(polygon);
-        if (ring.size() < 3 || !(area > 0.0)) continue;  // what is seen from outside
+        if (ring.size() < 3 || !(area > 0.0)) continue;  // the outer boundary
         faces.push_back({std::move(ring), Vec2::Zero(), 0.0, area});
         rings.push_back(std::move(polygon));
     }

@@ -1,5 +1,5 @@
-// Overlay of chains of points: near vertices are merged, near edges pass through them, edges that
-// cross get a common node. The result divides the plane into faces. Knows no soils.
+// Overlays chains of points: merges near vertices, bends edges through near vertices, and gives
+// crossing edges a common node. The result divides the plane into faces. Independent of soils.
 #pragma once
 
 #include <utility>
@@ -17,10 +17,10 @@ struct Chain {
     bool closed;
 };
 
-/// A vertex that was moved to a node, or an edge that was bent to one.
+/// A vertex that was moved to a node, or an edge that was bent through one.
 struct Meeting {
     std::size_t chain;  ///< whose vertex or edge
-    std::size_t with;   ///< chain that the node belongs to
+    std::size_t with;   ///< chain of the other node
     Vec2 at;            ///< the node [m]
     Vec2 was;           ///< the vertex, or its foot on the edge [m]
     bool on_edge;
@@ -30,10 +30,10 @@ struct Snapped {
     std::vector<Vec2> nodes;                       ///< farther than the tolerance from each other
     std::vector<std::vector<std::size_t>> chains;  ///< nodes along each; closed: first not repeated
     std::vector<Meeting> meetings;
-    bool settled;  ///< no edge is nearer to a foreign node than the tolerance, none cross
+    bool settled;  ///< no edges cross, none is within the tolerance of others' nodes
 };
 
-/// The vertex that was drawn first stays; others within `tolerance` [m] are moved to it.
+/// The vertex drawn first stays; others within `tolerance` [m] move to it.
 Snapped snapped(const std::vector<Chain>& chains, double tolerance);
 
 using Edge = std::pair<std::size_t, std::size_t>;  ///< nodes, the lower one first
@@ -43,16 +43,16 @@ Edge edge_of(std::size_t a, std::size_t b);
 std::vector<Edge> edges_of(const Snapped& snapped, std::size_t chain, bool closed);
 
 struct Face {
-    std::vector<std::size_t> ring;  ///< nodes, counter-clockwise; an edge into it is passed twice
+    std::vector<std::size_t> ring;  ///< nodes, counter-clockwise; twice along an inner edge
     Vec2 inside;                    ///< a place well inside
-    double width;                   ///< of the largest circle found there [m]
+    double width;                   ///< diameter of the largest circle found around `inside` [m]
     double area;                    ///< [m2]
 };
 
-/// Bounded faces; `edges` each once. Unconnected parts may lie undetected in each other's faces.
+/// Bounded faces; `edges`: each once. Does not detect parts inside faces of other parts.
 std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edge>& edges);
 
-/// Rings that bound the union of faces, split at nodes where it touches itself: outer ones
+/// Rings around the union of faces, split at nodes where it touches itself: outer rings
 /// counter-clockwise, holes clockwise.
 std::vector<std::vector<std::size_t>> union_of(const std::vector<Vec2>& nodes,
                                                const std::vector<const Face*>& faces);

@@ -34,10 +34,10 @@ std::vector<std::string> fields_of(std::string_view row, char separator) {
     return fields;
 }
 
-/// Where a row has its entries.
+/// Positions of the entries in a row.
 struct Columns {
     std::optional<std::size_t> region, x, y;
-    std::size_t count = 0;  ///< that the header names
+    std::size_t count = 0;  ///< number of columns in the header
 };
 
 /// A column's name without its unit: "x" and "ft" of "x_ft", "X (ft)" and "x [feet]".
@@ -68,10 +68,10 @@ Title title_of(const std::string& column) {
     for (const auto& [word, symbol] : spelt)
         if (unit == word) unit = symbol;
     if (in_brackets || unit_named(unit)) return {name.substr(0, end), unit};
-    return {name, ""};  // "x_offset": another column
+    return {name, ""};  // "x_offset" is another column
 }
 
-/// Positions of the columns that have one of these names.
+/// Positions of the columns with one of these names.
 std::vector<std::size_t> columns_named(const std::vector<std::string>& header,
                                        std::initializer_list<std::string_view> names) {
     std::vector<std::size_t> found;
@@ -120,7 +120,7 @@ class CsvReader {
         take_vertex(fields_of(row, separator_));
     }
 
-    /// The column of one of these names; a fault where there are several.
+    /// The column with one of these names; several are a fault.
     std::optional<std::size_t> only(const std::vector<std::string>& header,
                                     std::initializer_list<std::string_view> names,
                                     const std::string& meaning, const std::string& remedy) {
@@ -197,7 +197,7 @@ class CsvReader {
         return std::nullopt;
     }
 
-    /// Empty ones at its end apart, a row has no more fields than the header names.
+    /// Whether the row has no more fields than the header, ignoring empty ones at its end.
     bool fits_header(const std::vector<std::string>& fields) {
         std::size_t count = fields.size();
         while (count > columns_->count && fields[count - 1].empty()) --count;

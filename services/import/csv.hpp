@@ -1,4 +1,4 @@
-// Outlines from comma-separated text: columns region, x, y (a polygon per region), or x, y alone.
+// Reads outlines from CSV: columns region, x, y (a polygon per region), or x, y only.
 #pragma once
 
 #include <string_view>
@@ -8,12 +8,12 @@
 
 namespace breach::importing {
 
-/// A header names the columns, in any order; separators are commas, semicolons (then with decimal
-/// commas) or tabs; lines that begin with # are remarks. A region's outline ends with another region's
-/// name or a blank line. Rows without a region column belong to the layer `alone`. Soil is closed,
-/// lines are not. Levels may be called z; other columns are ignored. Two columns of one meaning are a
-/// fault, and so are rows with more fields than the header. The header may give the unit ("x_mm",
-/// "x (ft)", "x [m]"); metres where neither it nor `asked` does, and a fault where they differ.
+/// A header names the columns in any order; "z" means levels; other columns are ignored. Separators
+/// are commas, semicolons (then with decimal commas) or tabs; lines that begin with # are remarks.
+/// A region's outline ends at another region's name or a blank line; soil is closed, lines are not.
+/// Rows without a region column belong to the layer `alone`. The header may give the unit ("x_mm",
+/// "x (ft)", "x [m]"); without it and without `asked` it is metres. Faults: units that differ, two
+/// columns with the same meaning, rows longer than the header.
 Drawing read_csv(std::string_view text, const LayerMap& layers, const std::optional<Unit>& asked,
                  const std::string& alone = "");
 

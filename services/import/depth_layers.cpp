@@ -15,7 +15,7 @@ std::string short_text(double depth) {
     std::string digits = std::to_string(depth);
     digits.erase(digits.find_last_not_of('0') + 1);
     if (digits.back() == '.') digits.pop_back();
-    std::ranges::replace(digits, '.', 'p');  // names hold no points
+    std::ranges::replace(digits, '.', 'p');  // names contain no dots
     return digits;
 }
 
@@ -34,7 +34,7 @@ std::size_t part_at(const LayerRequest& request, const std::vector<Vec2>& line, 
     return part;
 }
 
-/// The line `depth` lower, level beyond its ends, from one side of the ring to the other.
+/// The line lowered by `depth` and extended horizontally to both sides of the ring.
 std::vector<Vec2> lowered(const std::vector<Vec2>& line, double depth, const Polygon& ring) {
     const geometry::Box box = geometry::bounding_box(ring);
     const double aside = 1.0 + (box.high - box.low).norm();
@@ -47,7 +47,7 @@ std::vector<Vec2> lowered(const std::vector<Vec2>& line, double depth, const Pol
     return low;
 }
 
-/// What of a line lies inside the ring, piece by piece.
+/// The parts of a line inside the ring.
 std::vector<Chain> inside_of(const Polygon& ring, const std::vector<Vec2>& line) {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -95,7 +95,7 @@ Cut cut(const std::vector<Soil>& soils, std::size_t target, const LayerRequest& 
     return {std::move(fit), std::move(shares)};
 }
 
-/// Parts of the target that are nowhere thicker than the tolerance become a part beside them.
+/// Parts of the target that are nowhere thicker than the tolerance join an adjacent part.
 void take_in_thin_parts(Shares& shares, const LayerRequest& request, std::size_t first,
                         double tolerance, const std::vector<Soil>& soils,
                         std::vector<Change>& changes) {
@@ -124,7 +124,7 @@ void cut_region(Healed& healed, std::size_t target, const LayerRequest& request,
                                  "give a smaller tolerance, or other depths"});
         return;
     }
-    // Labels: the soils as they were, then the parts.
+    // Labels: the original soils, then the parts.
     std::vector<Soil> soils = healed.soils;
     const std::size_t first = soils.size();
     for (std::size_t part = 0; part <= request.depths.size() + 1; ++part) {

@@ -1,4 +1,4 @@
-// A region cut into layers by depth below the phreatic line.
+// Cuts a region into layers by depth below the phreatic line.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,18 @@
 namespace breach::importing {
 
 struct LayerRequest {
-    std::string region;          ///< a region's name, or the layer that several regions come from
-    std::vector<double> depths;  ///< ascending, vertically below the line [m]
+    std::string region;          ///< a region's name, or the layer shared by several regions
+    std::vector<double> depths;  ///< ascending, measured vertically below the line [m]
 };
 
-/// "tailings=5,10,15"; adds a fault to `faults` for any other form.
+/// "tailings=5,10,15"; any other form adds a fault to `faults`.
 std::optional<LayerRequest> layer_request_from(const std::string& entry,
                                                std::vector<Fault>& faults);
 
-/// The line is level beyond its ends. Parts: NAME_above, NAME_0_5, NAME_5_10, ..., NAME_below_15; a
-/// part in several pieces gives NAME_0_5_2 and so on. Neighbours get the vertices of the cuts; parts
-/// thinner than `tolerance` [m] are merged with the part beside them, and listed in `changes`.
+/// Extends the line horizontally beyond its ends. Parts: NAME_above, NAME_0_5, NAME_5_10, ...,
+/// NAME_below_15; further pieces of a part: NAME_0_5_2 and so on. Neighbours get the vertices of
+/// the cuts. Parts thinner than `tolerance` [m] are merged with an adjacent part, and listed in
+/// `changes`.
 Healed with_layers(std::vector<Soil> soils, const LayerRequest& request,
                    const std::vector<Vec2>& line, double tolerance);
 

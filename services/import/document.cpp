@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-/// A micrometre is enough, and what two regions share stays equal.
+/// To a micrometre; shared points of regions stay equal.
 double rounded(double value) { return std::round(1e6 * value) / 1e6; }
 
 json line_as_json(const std::vector<Vec2>& line) {
@@ -33,7 +33,7 @@ json section_of(const std::vector<Soil>& soils, double element_size) {
     return {{"element_size", element_size}, {"regions", regions}};
 }
 
-/// Regions that reach above the toe: what lies below it is ground, and does not run out.
+/// Regions that reach above the toe; lower ones are ground and do not run out.
 json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell) {
     json names = json::array();
     for (const Soil& each : soils)
@@ -51,7 +51,7 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
     const double floor = down(box.low.y() - 2.0 * cell);
-    // The wall touches the section's upstream end: through a gap the soil would flow against it.
+    // The wall touches the section's upstream end: soil would flow into a gap.
     const bool goes_on = box.low.x() < section_end - 2.0 * cell;
     const double left = goes_on ? down(box.low.x()) : rounded(section_end);
     const json domain_x{left, rounded(left + up(box.high.x() - left))};

@@ -1,4 +1,4 @@
-// Healed soils and lines as a scene document, with the guessed entries.
+// Builds a scene document from healed soils and lines, with a list of guessed entries.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace breach::importing {
 
-/// Lines of the section, from left to right; empty: not drawn.
+/// Lines of the section, from left to right; empty: missing in the drawing.
 struct Lines {
     std::vector<Vec2> phreatic, terrain, ground;
 };
@@ -19,11 +19,11 @@ struct Document {
     std::optional<Slope> slope;
 };
 
-/// The materials of a scene, or of a document that is nothing but materials.
+/// The materials of a scene, or of a document that contains only materials.
 const nlohmann::json& materials_in(const nlohmann::json& document);
 
-/// given: what materials_in reads. Always /section; /lem if the ground has a slope; /mpm if a terrain was drawn, with cells of this
-/// share of an element.
+/// given: the document with the materials. Always writes /section; /lem if the ground has a slope;
+/// /mpm if there is a terrain, with cells of this share of an element.
 Document document_of(const std::string& name, const nlohmann::json& given,
                      const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);
 

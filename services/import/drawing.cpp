@@ -17,7 +17,7 @@ std::string digits(const char* format, double value) {
     return buffer;
 }
 
-/// A millimetre is enough for a place, unless it is far away.
+/// To a millimetre, unless the value is large.
 std::string coordinate(double value) {
     return digits("%.10g", std::abs(value) < 1e9 ? std::round(1e3 * value) / 1e3 : value);
 }

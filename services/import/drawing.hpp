@@ -1,4 +1,4 @@
-// An imported drawing before it becomes soil: polylines by layer, each with its place in the file.
+// A drawing before it becomes soil: polylines by layer, each with its place in the file.
 // Independent of materials, tolerances and scenes.
 #pragma once
 
@@ -43,17 +43,17 @@ struct Drawing {
     std::vector<std::string> remarks;  ///< skipped objects and assumptions
     std::string unit = "m";            ///< unit of its coordinates
     bool knows_unit = true;
-    bool says_unit = false;  ///< in a table's header
+    bool says_unit = false;  ///< whether a table's header gives it
 };
 
-/// Most outlines and points that are accepted: more are no section.
+/// Limits on outlines and points: no section has more.
 constexpr std::size_t most_outlines = 2000, most_points = 4000;
 
 /// "line 12"
 std::string at_line(std::size_t line);
 /// "LWPOLYLINE 2F on layer CLAY"
 std::string named(const Outline& outline);
-/// "(12.5, -3)", as the faults' drawing reads it.
+/// "(12.5, -3)", in the form that the drawing of faults reads.
 std::string text(const Vec2& place);
 /// "0.013 m"
 std::string metres(double length);
@@ -61,7 +61,7 @@ std::string metres(double length);
 std::string extent(double length);
 /// "1200.5 m2"
 std::string square_metres(double area);
-/// Bytes of any code page as UTF-8: bytes that are not UTF-8 are read as Latin-1.
+/// Converts bytes of any code page to UTF-8: bytes that are not UTF-8 are read as Latin-1.
 std::string as_utf8(std::string_view bytes);
 std::string lower(std::string text);
 

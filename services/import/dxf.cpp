@@ -12,8 +12,7 @@ namespace breach::importing {
 
 namespace {
 
-constexpr double flatten_meanwhile =
-    0.05;  // m: arcs that are refused, for the drawing of the faults
+constexpr double flatten_meanwhile = 0.05;  // m: for drawing arcs that are refused
 constexpr std::array<std::string_view, 6> shapes{"LWPOLYLINE", "POLYLINE", "LINE",
                                                  "ARC",        "CIRCLE",   "INSERT"};
 constexpr std::array<std::string_view, 22> writing{"TEXT",      "MTEXT",
@@ -295,7 +294,7 @@ class DxfReader {
         const double from = value_of(record, 50, 0.0) * pi / 180.0;
         const double angle =
             std::fmod(value_of(record, 51, 0.0) * pi / 180.0 - from + 8.0 * pi, 2.0 * pi);
-        // Halves, because the bulge of a nearly full circle is nearly infinite.
+        // Two halves, because the bulge of a nearly full circle is nearly infinite.
         const double bulge = std::tan(0.125 * angle);
         corners_ = {{on_circle(from), 0.0, bulge},
                     {on_circle(from + 0.5 * angle), 0.0, bulge},
@@ -347,7 +346,7 @@ class DxfReader {
         finish(!solid_);
     }
 
-    /// `own_plane`: coordinates are those of the entity's plane, which may be seen from behind.
+    /// `own_plane`: coordinates in the entity's plane, which may face away.
     void finish(bool own_plane) {
         if (points_ + corners_.size() > most_points) corners_.resize(most_points - points_);
         double lowest = INFINITY, highest = -INFINITY;
@@ -415,7 +414,6 @@ class DxfReader {
     std::size_t points_ = 0;
     std::size_t bad_numbers_ = 0;
     bool too_many_ = false;
-    // The outline that is being read.
     Outline current_{};
     std::vector<Corner> corners_;
     bool in_polyline_ = false, solid_ = false, mirrored_ = false, tilted_ = false;

@@ -1,5 +1,5 @@
-// The polylines of a DXF drawing: LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE of model space, in metres.
-// Everything else on a layer with a meaning is a fault or, if it is only text, reported as skipped.
+// Reads the polylines of a DXF drawing: LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE of model space,
+// in metres. Other entities on a layer with a meaning are faults; texts are reported as skipped.
 // Does not check whether outlines close or touch.
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace breach::importing {
 
 struct DxfOptions {
-    std::optional<Unit> unit = {};  ///< instead of the file's
-    /// Arcs become chords with at most this error [m]; none: arcs are refused.
+    std::optional<Unit> unit = {};  ///< replaces the file's unit
+    /// Arcs become chords with at most this error [m]; nothing: arcs are faults.
     std::optional<double> flatten = {};
 };
 

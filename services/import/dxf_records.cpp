@@ -106,7 +106,7 @@ bool Records::next(Record& record) {
             return stop(group.line, "one entity of more than a million groups", again);
         record.groups.push_back(group);
     }
-    return true;  // what the cut-off file still holds
+    return true;  // the rest of a truncated file
 }
 
 }  // namespace breach::importing

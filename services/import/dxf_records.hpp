@@ -1,5 +1,5 @@
-// Reads a DXF text file as records: pairs of group code and value, from one code 0 to the next. Does
-// not interpret records.
+// Reads a DXF text file as records: pairs of group code and value, from one code 0 to the next,
+// without interpretation.
 #pragma once
 
 #include <string_view>
@@ -21,11 +21,11 @@ struct Record {
     std::vector<Group> groups;
 };
 
-/// Reads record by record; the text outlives it.
+/// Reads record by record; the text must outlive this object.
 class Records {
   public:
     explicit Records(std::string_view text);
-    /// False at the end of the file, or where it cannot be read further: then `fault` says why.
+    /// False at the end of the file or at a fault (faults()).
     bool next(Record& record);
     const std::vector<Fault>& faults() const { return faults_; }
 
@@ -41,7 +41,7 @@ class Records {
     std::vector<Fault> faults_;
 };
 
-/// Why these bytes are no DXF text (binary form, DWG, NUL bytes); empty: they may be one.
+/// Why these bytes are not DXF text (binary form, DWG, NUL bytes); empty: they may be.
 std::vector<Fault> form_faults(std::string_view bytes);
 
 }  // namespace breach::importing

@@ -16,8 +16,8 @@ std::vector<Vec2> mirrored(std::vector<Vec2> line) {
     return line;
 }
 
-/// Whether the ground beyond this place is ground and no face: it falls less than a third as steeply as
-/// from the crest to here. Falls of less than `near` do not count.
+/// Whether the ground beyond this place is not part of the face: it falls less than a third as
+/// steeply as from the crest to here. Ignores falls shorter than `near`.
 bool is_gentle_beyond(const std::vector<Vec2>& ground, std::size_t crest, std::size_t at,
                       double near) {
     const Vec2 fall = ground[at] - ground[crest];
@@ -29,8 +29,8 @@ bool is_gentle_beyond(const std::vector<Vec2>& ground, std::size_t crest, std::s
     return true;
 }
 
-/// The last place that is nearly as high as the highest, and the first one right of it and below half
-/// of the fall there where the face ends.
+/// Crest: the last place nearly as high as the highest. Toe: the first place right of it, below
+/// half of the fall, where the face ends.
 Slope falling_right(const std::vector<Vec2>& ground) {
     const auto y = [](const Vec2& each) { return each.y(); };
     const double highest = std::ranges::max(ground, {}, y).y();
@@ -47,7 +47,7 @@ Slope falling_right(const std::vector<Vec2>& ground) {
     return {ground[crest], ground[toe]};
 }
 
-/// To three digits of the section's length: a guess is not known to the millimetre.
+/// To three digits of the section's length: a guess has no millimetres.
 double rounded(double x, double length) {
     const double step = std::pow(10.0, std::floor(std::log10(length)) - 2.0);
     return std::round(x / step) * step;
@@ -91,7 +91,7 @@ bool looks_upside_down(const std::vector<Soil>& soils) {
         for (Vec2& place : each.ring) place.y() = -place.y();
     if (slope_of(ground_of(soils))) return false;
     const auto slope = slope_of(ground_of(turned));
-    constexpr double face = 0.1;  // a base that falls less steeply is no face of a dam
+    constexpr double face = 0.1;  // flatter bases are not the face of a dam
     return slope && slope->fall() > face * std::abs(slope->toe.x() - slope->crest.x());
 }
 

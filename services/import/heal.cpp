@@ -16,7 +16,7 @@ namespace {
 
 // ---------------------------------------------------------------- one outline
 
-/// A corner that a line runs into and out of again: narrower than a thousandth of its length.
+/// Width of a spike, narrower than a thousandth of its length; negative: not a spike.
 double spike_width(const Vec2& before, const Vec2& tip, const Vec2& after) {
     const Vec2 in = before - tip, out = after - tip;
     const double shorter = std::min(in.norm(), out.norm());
@@ -26,7 +26,7 @@ double spike_width(const Vec2& before, const Vec2& tip, const Vec2& after) {
     return width <= 1e-3 * shorter ? width : -1.0;
 }
 
-/// Vertices within the tolerance of the one before them are left out.
+/// Drops vertices within the tolerance of the previous one.
 void drop_short_sides(Soil& soil, double tolerance, std::vector<Change>& changes) {
     Polygon kept;
     for (const Vec2& each : soil.ring) {
@@ -83,7 +83,7 @@ double slimness(const Polygon& ring) {
     return length > 0.0 ? 2.0 * geometry::area(ring) / length : 0.0;
 }
 
-/// Where the outline crosses itself and cuts off more than a sliver.
+/// Crossings of the outline with itself that cut off more than a sliver.
 std::vector<Vec2> self_crossings(const Polygon& ring, double tolerance) {
     std::vector<Vec2> places;
     const std::size_t n = ring.size();
@@ -101,7 +101,7 @@ std::vector<Vec2> self_crossings(const Polygon& ring, double tolerance) {
     return places;
 }
 
-/// Outlines that cannot be laid beside others; true: it was one.
+/// Adds the faults of an outline that cannot be used; true: there are some.
 bool refused(const Soil& soil, double tolerance, std::vector<Fault>& faults) {
     const std::string who = soil.origin.entity + " on layer " + soil.layer;
     if (soil.ring.size() < 3 || slimness(soil.ring) <= 0.5 * tolerance) {
@@ -123,8 +123,8 @@ bool refused(const Soil& soil, double tolerance, std::vector<Fault>& faults) {
 
 // ---------------------------------------------------------------- several
 
-/// The section ends at two verticals: vertices beside them come to them, because slices and walls would
-/// find air between corners that are not quite above each other.
+/// Moves vertices near the section's ends onto the vertical end lines: slices and walls would
+/// otherwise find air between corners that are not exactly above each other.
 void straighten_ends(std::vector<Soil>& soils, double tolerance, std::vector<Change>& changes) {
     double left = INFINITY, right = -INFINITY;
     for (const Soil& soil : soils)
@@ -163,7 +163,7 @@ void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
         const bool lines = each.chain >= soils.size() || each.with >= soils.size();
         std::string kind = "junction";
         if (size > 1e-12 * extent) {
-            // A vertex stood in the other's soil, or the edge's owner reached over the vertex.
+            // Overlap: the vertex was inside the other soil, or the edge's soil covered the vertex.
             const bool over = !lines && (each.on_edge ? is_within(soils[each.chain].ring, each.at)
                                                       : is_within(soils[each.with].ring, each.was));
             kind = over ? "overlap" : "gap";
@@ -174,7 +174,7 @@ void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
     }
 }
 
-/// Nodes along the terrain's chain; what snapping turned back is left out.
+/// Nodes along the terrain's chain, without those that snapping moved backwards.
 std::vector<Vec2> terrain_of(const Snapped& snapped, std::size_t chain) {
     std::vector<Vec2> line;
     for (const std::size_t node : snapped.chains[chain])
@@ -199,7 +199,7 @@ std::map<Edge, std::vector<std::size_t>> faces_at_edges(const std::vector<Face>&
     return at;
 }
 
-/// Length of border with each owner beside these faces [m].
+/// Border lengths of these faces with each adjacent owner [m].
 std::map<int, double> borders(const Shares& shares, const std::set<std::size_t>& of) {
     std::map<int, double> lengths;
     for (const auto& [edge, faces] : faces_at_edges(shares.faces)) {
@@ -229,7 +229,7 @@ struct Claim {
     std::vector<int> owners;
 };
 
-/// Faces of one soil are its own; thin others are given to a neighbour; thick ones are faults.
+/// Gives each face to its soil, or a thin one to a neighbour; thick others are faults.
 Shares shared_out(const Snapped& snapped, const std::vector<Soil>& soils, double tolerance,
                   Healed& result) {
     std::set<Edge> edges;
@@ -282,7 +282,7 @@ Shares shared_out(const Snapped& snapped, const std::vector<Soil>& soils, double
     return shares;
 }
 
-/// Faces of one soil that hang together by edges.
+/// Faces of one soil connected by edges.
 std::vector<std::vector<std::size_t>> groups_of(const Shares& shares, int owner) {
     std::vector<std::size_t> parent(shares.faces.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});

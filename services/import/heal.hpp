@@ -1,5 +1,5 @@
-// Makes outlines of soil fit together that nearly do: common vertices, no gaps, no overlaps. Reports
-// each change with place and size; deviations beyond the tolerance are faults.
+// Makes outlines that nearly fit together fit: common vertices, no gaps, no overlaps. Reports each
+// change with place and size; larger deviations than the tolerance are faults.
 #pragma once
 
 #include <string>
@@ -19,38 +19,38 @@ struct Soil {
     int depth_layer = 0;  ///< below the phreatic line, from 1; 0: none
 };
 
-/// One change by healing.
+/// One correction.
 struct Change {
     std::string kind;  ///< gap, overlap, junction, sliver, short_side, spike, orientation, end,
                        ///< edge
     std::vector<std::string> regions;
     Vec2 at;
-    double size;  ///< how wide the gap or overlap was, how far something moved [m]
+    double size;  ///< width of the gap or overlap, or distance of the move [m]
 };
 
 struct Healed {
-    std::vector<Soil> soils;    ///< rings counter-clockwise, of common vertices
-    std::vector<Vec2> terrain;  ///< through the vertices that it passes
+    std::vector<Soil> soils;    ///< counter-clockwise rings with common vertices
+    std::vector<Vec2> terrain;  ///< with all vertices that it passes
     std::vector<Change> changes;
     std::vector<Fault> faults;
 };
 
-/// `tolerance` [m]: nearer places are meant to touch. `terrain`: a line from left to right that soil may
-/// lie on; empty: none.
+/// `tolerance` [m]: points closer than this coincide. `terrain`: a line from left to right on which
+/// soil may lie; empty: none.
 Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>& terrain = {});
 
-/// Faces with the soil that each belongs to: the result of healing and of cutting into layers.
+/// Faces with their soils: the result of healing and of cutting into layers.
 struct Shares {
     std::vector<Vec2> nodes;
     std::vector<Face> faces;
     std::vector<int> owners;  ///< per face, index of a soil; -1: none
 };
 
-/// Moves thin pieces joined to their soil at a corner only to the neighbour with the longest border.
+/// Gives thin pieces that touch their soil only at a corner to the longest neighbour.
 void give_slivers_away(Shares& shares, const std::vector<Soil>& soils, double tolerance,
                        std::vector<Change>& changes);
 
-/// Outer rings of a soil's faces, the largest first; `holes`: it encloses something.
+/// Outer rings of a soil's faces, the largest first; `holes`: whether it encloses something.
 std::vector<Polygon> pieces_of(const Shares& shares, int owner, bool& holes);
 
 }  // namespace breach::importing

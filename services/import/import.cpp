@@ -40,7 +40,7 @@ bool is_dxf(const Sent& sent) {
            sent.bytes.substr(0, 4096).find("SECTION") != std::string::npos;
 }
 
-/// Made of the letters that a name of a scene or a region may have.
+/// Replaces characters that names of scenes or regions must not have.
 std::string as_name(const std::string& text, const std::string& otherwise) {
     std::string name;
     for (const char each : text) {
@@ -73,7 +73,7 @@ class Import {
                           {"guessed", json::array()}, {"remarks", json::array()}};
         if (check_request() && read_drawing()) {
             sort_out();
-            if (is_turned()) {  // lines would have odd faults
+            if (is_turned()) {  // the faults of lines would mislead
                 result_.faults.push_back(result_.to_confirm.front());
                 give_up();
                 return std::move(result_);
@@ -179,7 +179,7 @@ class Import {
         return all.empty() ? "none" : as_utf8(std::string_view(all).substr(0, 400));
     }
 
-    /// Outlines by what they stand for, lines of a layer joined.
+    /// Sorts outlines by their meaning, and joins the lines of a layer.
     void sort_out() {
         std::vector<std::string> order;
         std::map<std::string, std::vector<Outline>> by_layer;
@@ -208,7 +208,7 @@ class Import {
             take_line(joined(std::move(pieces), request_.tolerance), role, "");
     }
 
-    /// Whether the section is higher than long, and nobody confirmed it.
+    /// Whether the section is higher than long, without confirmation.
     bool is_turned() {
         if (soils_.empty()) return false;
         const geometry::Box box = geometry::extent(outlines_of(soils_));
@@ -253,7 +253,7 @@ class Import {
                                        : "ground line";
     }
 
-    /// `file`: where the line is from, when it is not the drawing.
+    /// `file`: source of the line, if not the drawing.
     void take_line(std::vector<Outline> pieces, Role role, const std::string& file) {
         const std::string word = word_of(role);
         const auto place = [&](const Outline& each) {
@@ -359,7 +359,7 @@ class Import {
         finish(healed.soils);
     }
 
-    /// A gap that is open to a side is no face of the drawing, and no valley either.
+    /// A gap that is open to a side is not a face of the drawing, but not a valley either.
     void check_for_air(const std::vector<Soil>& soils) {
         const auto air = highest_void(soils, request_.tolerance);
         if (!air) return;
@@ -375,7 +375,7 @@ class Import {
                                    [&](const Fault& each) { return each.pointer == pointer; });
     }
 
-    /// Materials first: what follows relies on their entries.
+    /// Materials first: later steps need their entries.
     bool can_be_shaken(const std::vector<Soil>& soils) {
         Document bare = document_of(scene_name(request_), request_.materials, soils, {});
         bare.scene.erase("lem");
@@ -401,12 +401,12 @@ class Import {
                                                 {"size", each.size}});
     }
 
-    /// A layer by depth is of the material of its own name, where there is one. Case does not count.
+    /// A depth layer has the material with its own name, if there is one. Case does not count.
     void choose_materials(std::vector<Soil>& soils) {
         std::map<std::string, std::string> own;
         for (const std::string& each : names_in(materials_)) own[lower(each)] = each;
         for (Soil& each : soils) {
-            if (names_.contains(each.name)) continue;  // a region as drawn: its layer says
+            if (names_.contains(each.name)) continue;  // a region as drawn: its layer decides
             const auto found = own.find(lower(each.name));
             if (found == own.end() || found->second == each.material) continue;
             remark("region " + each.name + " is of the material of its name, no longer of " +
@@ -415,7 +415,7 @@ class Import {
         }
     }
 
-    /// The section's length and height [m], had the drawing been in these units.
+    /// The section's length and height [m], also for other units.
     void tell_size(const std::vector<Soil>& soils) {
         const geometry::Box box = geometry::extent(outlines_of(soils));
         const Vec2 size = box.high - box.low;
@@ -438,7 +438,7 @@ class Import {
              remedy + "; or confirm it with --yes (\"confirmed\": true in a request)"});
     }
 
-    /// Sizes and shapes that are likelier a slip than a section.
+    /// Sizes and shapes that suggest a mistake.
     void check_shape(const std::vector<Soil>& soils, const std::optional<Slope>& slope) {
         constexpr double least = 3.0, most = 500.0;  // m
         const geometry::Box box = geometry::extent(outlines_of(soils));
@@ -473,7 +473,7 @@ class Import {
 
     // ------------------------------------------------------------ the scene
 
-    /// The motion's file is not written yet.
+    /// Without the motion, whose file is not written yet.
     check::Checked checked(json document) const {
         if (document.contains("fem")) document["fem"].erase("motion");
         return check::checked_document(std::move(document), request_.drawing.name, ".", {});
@@ -501,7 +501,7 @@ class Import {
         return thinnest;
     }
 
-    /// The reader's faults, with the drawing's lines instead of the regions' pointers.
+    /// Replaces the regions' pointers by lines of the drawing in the reader's faults.
     std::vector<Fault> seen_from_drawing(std::vector<Fault> faults,
                                          const std::vector<Soil>& soils) const {
         constexpr std::string_view regions = "/section/regions/";
@@ -517,8 +517,8 @@ class Import {
         return faults;
     }
 
-    /// Cells that the scene's own check takes: halved for thin layers, at most to an eighth of an
-    /// element. Thinner layers keep too coarse cells, and the report names them.
+    /// Halves the cells for thin layers until the scene's check accepts them, at most to an eighth
+    /// of an element. The report names layers that are still too thin.
     std::pair<Document, check::Checked> with_sound_cells(const std::vector<Soil>& soils) const {
         const auto is_coarse = [](const Fault& each) { return each.pointer == "/mpm/cell_size"; };
         constexpr double finest = 0.125;
@@ -573,7 +573,7 @@ class Import {
         result_.sketch = std::move(read.scene);
     }
 
-    /// Only faults are left, and the outlines as they were sent.
+    /// Keeps only the faults and the outlines as sent.
     void give_up() {
         result_.scene = nullptr;
         auto& faults = result_.faults;

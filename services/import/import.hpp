@@ -1,8 +1,7 @@
-// Converts a section drawing (DXF, CSV) to a scene: read, healed, cut into layers, checked. Pure:
-// texts in, a scene or its faults out. The command line and the service handle files, options and
-// pictures.
+// Converts a section drawing (DXF, CSV) to a scene: reads, heals, cuts into layers, checks. Texts
+// in, a scene or its faults out; the callers handle files, options and pictures.
 //
-// The namespace is not called `import`, which is a word of C++20.
+// The namespace is not `import`, a keyword of C++20.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -26,33 +25,33 @@ struct Request {
     nlohmann::json materials;           ///< a scene's /materials, or a document that has them
     std::vector<std::string> map = {};  ///< "LAYER=material", "LAYER=phreatic|terrain|ground|none"
     std::vector<std::string> layers =
-        {};  ///< "REGION=5,10,15": by depth below the phreatic line [m]
+        {};  ///< "REGION=5,10,15": cut at depths below the phreatic line [m]
     std::optional<Sent> phreatic = {}, terrain = {}, ground = {};  ///< CSV with x, y
     std::string unit = "";    ///< empty: that of the drawing or of the CSV's header, else metres
-    double tolerance = 0.05;  ///< nearer is meant to touch [m]
+    double tolerance = 0.05;  ///< points closer than this coincide [m]
     std::optional<double> flatten = {};  ///< arcs become chords with at most this error [m]
-    std::string name = "";               ///< of the scene; empty: of the file
-    bool confirmed = false;              ///< sizes that look like a wrong unit are meant
+    std::string name = "";               ///< of the scene; empty: the file's name
+    bool confirmed = false;              ///< sizes that look like a wrong unit are intended
     std::optional<earthquake::Motion> motion = {};  ///< shakes the section; none: no FEM
 };
 
 struct Imported {
-    nlohmann::json scene;  ///< null when there are faults; a motion is its "motion.csv"
-    nlohmann::json study;  ///< of a scene with a motion, without that scene; else null
+    nlohmann::json scene;  ///< null when there are faults; names its motion "motion.csv"
+    nlohmann::json study;  ///< for a scene with a motion, without that scene; else null
     std::string motion;    ///< text of motion.csv; empty: none
-    /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m], tolerance, healed,
-    /// areas, guessed, remarks; slope {crest, toe} where there is one; other_units
+    /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m],
+    /// tolerance, healed, areas, guessed, remarks; slope {crest, toe} if there is one; other_units
     nlohmann::json report;
     /// Unconfirmed sizes that look like a wrong unit; they are faults as well.
     std::vector<fault::Fault> to_confirm;
     std::vector<fault::Fault> faults;  ///< pointers: "line 12", an option's name, or into the scene
-    scene::Scene sketch;  ///< for a picture: the scene, or the outlines as they were sent
+    scene::Scene sketch;               ///< for a picture: the scene, or the outlines as sent
 };
 
-/// Never throws for any request.
+/// Never throws.
 Imported import_section(const Request& request);
 
-/// The report as text lines; of `healed` the first `most`.
+/// The report as text lines, with at most `most` lines of `healed`.
 std::vector<std::string> lines_of(const nlohmann::json& report, std::size_t most);
 
 }  // namespace breach::importing

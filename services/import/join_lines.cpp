@@ -12,7 +12,7 @@ bool closes(const Outline& outline, double tolerance) {
            (outline.points.front() - outline.points.back()).norm() <= tolerance;
 }
 
-/// The nearest free piece with an end here; reversed so that it begins there.
+/// The nearest unused piece with an end here, reversed if necessary so that it begins here.
 std::optional<std::size_t> next_piece(std::vector<Outline>& pieces, const std::vector<bool>& used,
                                       const Vec2& end, double tolerance) {
     std::optional<std::size_t> found;
@@ -54,7 +54,7 @@ std::vector<Outline> joined(std::vector<Outline> pieces, double tolerance) {
                 outline.points.pop_back();
                 outline.closed = true;
             } else {
-                std::ranges::reverse(outline.points);  // then the other end; then as it was
+                std::ranges::reverse(outline.points);  // then the other end; then restored
             }
         }
         whole.push_back(std::move(outline));

@@ -41,7 +41,7 @@ LayerMap::LayerMap(const std::vector<std::string>& entries, const std::set<std::
             faults.push_back({"map",
                               "\"" + as_utf8(each) + "\": there is no material \"" + word + "\"",
                               "the materials are " + (all.empty() ? "none" : all)});
-            told_[layer] = {Role::none, "", true};  // told once is enough
+            told_[layer] = {Role::none, "", true};  // one fault is enough
         }
     }
 }
@@ -51,7 +51,7 @@ Meaning LayerMap::meaning_of(const std::string& layer) const {
     if (const auto found = told_.find(name); found != told_.end()) return found->second;
     if (const auto found = own_.find(name); found != own_.end())
         return {Role::soil, found->second, false};
-    if (name == "defpoints") return {Role::none};  // CAD never plots it
+    if (name == "defpoints") return {Role::none};  // CAD never plots this layer
     if (name == "none") return {};
     if (const auto line = line_named(name)) return {*line};
     return {};

@@ -15,20 +15,20 @@ enum class Role { soil, phreatic, terrain, ground, none, unknown };
 struct Meaning {
     Role role = Role::unknown;
     std::string material = "";  ///< of soil
-    bool told = false;          ///< by a mapping, not by its own name
+    bool told = false;          ///< from the mapping, not from the layer's name
 };
 
-/// Layer names are not case-sensitive. A layer means what the mapping says, else the material or the
-/// line (phreatic, terrain, ground) of its own name.
+/// Layer names are not case-sensitive. The mapping decides, else the layer's name: a material or a
+/// line (phreatic, terrain, ground).
 class LayerMap {
   public:
-    /// `entries`: "LAYER=material", "LAYER=phreatic|terrain|ground|none". Adds a fault to `faults`
-    /// for any other form.
+    /// `entries`: "LAYER=material", "LAYER=phreatic|terrain|ground|none". Any other form adds a
+    /// fault to `faults`.
     LayerMap(const std::vector<std::string>& entries, const std::set<std::string>& materials,
              std::vector<Fault>& faults);
 
     Meaning meaning_of(const std::string& layer) const;
-    /// Entries whose layer is not among these.
+    /// Entries whose layer is not in `layers`.
     std::vector<std::string> unused(const std::set<std::string>& layers) const;
 
   private:

@@ -1,4 +1,4 @@
-// Numbers and lengths in drawings.
+// Reads numbers and units of length in drawings.
 #pragma once
 
 #include <optional>
@@ -8,17 +8,17 @@
 namespace breach::importing {
 
 std::string_view trimmed(std::string_view text);
-/// The whole text, blanks around it apart, as a finite number.
+/// The whole text as a finite number, ignoring blanks around it.
 std::optional<double> number_in(std::string_view text);
 
 struct Unit {
     std::string name;  ///< "mm"
-    double metres;     ///< in one
+    double metres;     ///< metres per unit
 };
 /// m, mm, cm, dm, km, in, ft, yd, mi, us-ft (US survey foot).
 std::optional<Unit> unit_named(const std::string& name);
 std::string unit_names();
-/// Unit of DXF's $INSUNITS; none for 0 (unitless) and for units that no section is drawn in.
+/// Unit of DXF's $INSUNITS; nothing for 0 (unitless) and for units that no section uses.
 std::optional<Unit> unit_of_code(int code);
 
 }  // namespace breach::importing

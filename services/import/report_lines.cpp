@@ -1,4 +1,4 @@
-// The report for people.
+// Writes the import's report as text.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -18,7 +18,7 @@ std::string joined_names(const json& names) {
     return all;
 }
 
-/// Which unit was taken and from where, and how large that made the section.
+/// The unit and its source, and the size of the section.
 std::string unit_line(const json& report) {
     const std::string unit = report.at("unit"), from = report.at("unit_from");
     const char* why = from == "asked"     ? "as asked"
@@ -30,7 +30,7 @@ std::string unit_line(const json& report) {
            extent(size[1]) + " high";
 }
 
-/// Between which places the slope lies that is searched.
+/// The crest and the toe of the slope that is searched.
 std::string slope_line(const json& slope) {
     const auto place = [&](const char* name) {
         return Vec2(slope.at(name)[0].get<double>(), slope.at(name)[1].get<double>());

@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double same_place = 1e-6;  // m, to which a scene's vertices are rounded
+constexpr double same_place = 1e-6;  // m: rounding of a scene's vertices
 
 geometry::Box box_of(const std::vector<Soil>& soils) {
     return geometry::extent(outlines_of(soils));
@@ -67,7 +67,7 @@ void check_layers(const std::vector<Soil>& soils, const Lines& lines, const json
     }
 }
 
-/// The lower edge must be level: the rock below is a level line.
+/// The lower edge must be level, like the rock below it.
 void check_base(const std::vector<Soil>& soils, std::vector<Fault>& faults) {
     const geometry::Outlines outlines = outlines_of(soils);
     const std::vector<double> xs = geometry::abscissae(outlines);
@@ -92,7 +92,7 @@ void check_base(const std::vector<Soil>& soils, std::vector<Fault>& faults) {
                           " there, and so along the whole section"});
 }
 
-/// A side is one vertical line, where a free-field column stands, or the ground comes down to the base.
+/// Each side is one vertical line, for a free-field column, or the ground falls to the base.
 void check_side(const std::vector<Soil>& soils, double x, const std::string& side,
                 std::vector<Fault>& faults) {
     const geometry::Upright reach = geometry::upright_at(outlines_of(soils), x, same_place);
@@ -112,7 +112,7 @@ struct Completed {
     std::map<std::string, std::string> runouts;
 };
 
-/// The soil of "breach new" that this one is assumed to be like, and why.
+/// The assumed soil of "breach new" that resembles this one, and why.
 std::pair<earthquake::Soil, std::string> like(const std::string& material,
                                               const std::vector<Soil>& soils, const json& scene) {
     const json& runout = scene.at("mpm").at("runout");
@@ -135,7 +135,6 @@ std::pair<earthquake::Soil, std::string> like(const std::string& material,
     return {earthquake::foundation, "foundation of \"breach new\": it lies below the toe"};
 }
 
-/// The same soil with the values that are given for it.
 earthquake::Soil with_given(earthquake::Soil soil, const json& own) {
     const json& law = own.at("law");
     const json strength = own.value("limit_strength", law);
@@ -146,8 +145,8 @@ earthquake::Soil with_given(earthquake::Soil soil, const json& own) {
     return soil;
 }
 
-/// Drained soil NAME becomes PM4Sand; in the runout it is NAME_runout, as it was given. What is
-/// PM4Sand already stays.
+/// Drained soil NAME becomes PM4Sand, and NAME_runout in the runout with the given values. PM4Sand
+/// is unchanged.
 Completed completed(const std::vector<Soil>& soils, Document& document) {
     Completed all{document.scene.at("materials"), {}};
     std::set<std::string> names;
@@ -176,7 +175,7 @@ Completed completed(const std::vector<Soil>& soils, Document& document) {
     return all;
 }
 
-/// The wall of the runout is beside the soil, which has swayed.
+/// Moves the wall of the runout away from the soil, which has swayed.
 void make_room(double left, Document& document) {
     json& mpm = document.scene["mpm"];
     const double h = mpm.at("cell_size"), wall = earthquake::wall_beside(left, h);
@@ -236,7 +235,7 @@ void add_earthquake(const Earthquake& asked, const std::vector<Soil>& soils, con
     json& scene = document.scene;
     Completed completed = importing::completed(soils, document);
     const geometry::Box box = box_of(soils);
-    const json low = as_json(box.low), high = as_json(box.high);  // as the scene's vertices
+    const json low = as_json(box.low), high = as_json(box.high);  // like the scene's vertices
     const auto wet = std::ranges::find_if(soils, [](const Soil& s) { return s.depth_layer > 0; });
     const std::string soil = wet->material;
     earthquake::Section section{.regions = {},

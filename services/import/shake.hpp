@@ -1,5 +1,5 @@
-// Adds an earthquake to an imported section: what the FEM needs of the drawing, and the scene's FEM,
-// transfer and materials. services/earthquake has the rules.
+// Adds an earthquake to an imported section: adapts the drawing to the FEM, and adds the scene's
+// FEM, transfer and materials by the rules of services/earthquake.
 #pragma once
 
 #include "services/earthquake/earthquake.hpp"
@@ -8,21 +8,21 @@
 namespace breach::importing {
 
 /// Moves vertices within `tolerance` of the lowest level, or of an end of the section, onto it: the
-/// FEM's base is level, and its free-field columns stand at vertical sides.
+/// FEM needs a level base and vertical sides.
 std::vector<Change> straightened(std::vector<Soil>& soils, double tolerance);
 
 /// Why the FEM cannot shake this section; empty: it can.
 std::vector<Fault> faults_of_shaking(const std::vector<Soil>& soils, const Lines& lines,
                                      const nlohmann::json& materials);
 
-/// Below the section, and level from its right end on. The ground has a slope.
+/// Along the section's base, then level from its right end. Needs a ground with a slope.
 std::vector<Vec2> guessed_terrain(const std::vector<Soil>& soils);
 
 struct Earthquake {
     earthquake::Motion motion;
     double layer_thickness;  ///< of the thinnest layer [m]
 };
-/// The document's scene has /lem and /mpm, and faults_of_shaking found nothing.
+/// Needs a scene with /lem and /mpm, and no fault from faults_of_shaking.
 void add_earthquake(const Earthquake& asked, const std::vector<Soil>& soils, const Lines& lines,
                     Document& document);
 

@@ -15,7 +15,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// SIGINT and SIGTERM are taken by one waiting thread; every thread made later inherits the mask.
+/// One thread waits for SIGINT and SIGTERM; all later threads inherit the mask.
 sigset_t blocked_stop_signals() {
     sigset_t set{};
     sigemptyset(&set);
@@ -82,7 +82,7 @@ int serve(const ServeSettings& settings) {
                      ? "stopping: running phases save their checkpoints"
                      : "stopping: running phases go on");
     server.stop();
-    // Not left to its destructor: that comes when the last client has its answer, and some are slow.
+    // Before its destructor, which waits for the last, perhaps slow, client.
     dispatcher.stop();
     return 0;
 }

@@ -22,7 +22,7 @@ struct ServeSettings {
     SlurmSettings slurm;
     DispatchSettings dispatch;
     RetentionSettings retention;
-    std::size_t largest_file_mb = 256;  ///< of the files that are sent
+    std::size_t largest_file_mb = 256;                                  ///< of an upload
     std::optional<std::vector<std::filesystem::path>> allowed_folders;  ///< SentFiles::allowed
     HttpSettings http;
 };

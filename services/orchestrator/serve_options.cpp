@@ -22,7 +22,7 @@ std::string token_in(const std::filesystem::path& file) {
     return token;
 }
 
-/// A shared folder: installed beside the executable, else in the source tree.
+/// A shared folder: beside the installed executable, else in the source tree.
 std::filesystem::path shared_folder(const std::filesystem::path& self, const char* name,
                                     const char* in_source_tree) {
     const auto installed = self.parent_path().parent_path() / "share" / "breachline" / name;
@@ -62,7 +62,7 @@ CLI::App* ServeOptions::add_to(CLI::App& program) {
     program.allow_config_extras(CLI::config_extras_mode::error);
     CLI::App* serving =
         program.add_subcommand("serve", "answer requests and run what is submitted");
-    serving->fallthrough();  // --config may stand behind the word
+    serving->fallthrough();  // --config may follow the command
     serving->add_option("--data", settings_.data, "folder of the database and all results")
         ->capture_default_str();
     serving->add_option("--bin", settings_.dispatch.bin, "folder of the phase executables")
@@ -191,7 +191,7 @@ void ServeOptions::add_slurm(CLI::App& serving) {
         ->capture_default_str();
 }
 
-/// With the shipped studies, whose scenes name files beside them.
+/// Includes the folder of the shipped studies, whose scenes name files there.
 std::vector<std::filesystem::path> ServeOptions::allowed() const {
     std::vector<std::filesystem::path> folders{settings_.workflows};
     for (const std::filesystem::path& each : allowed_folders_) {

@@ -19,7 +19,7 @@ class ServeOptions {
     /// Message about an unknown key of the settings file, with its line and the nearest known key.
     static std::string explained(const CLI::ConfigError& error, const CLI::App& program,
                                  const CLI::App& serving);
-    /// After parsing. Throws BadInput and IoError.
+    /// Call after parsing. Throws BadInput and IoError.
     ServeSettings settings() const;
 
   private:

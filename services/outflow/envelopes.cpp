@@ -37,7 +37,7 @@ std::string text_of(const std::filesystem::path& file) {
     return std::move(text).str();
 }
 
-/// Numbers of a line; an empty cell is not a number. False when it is no such line.
+/// Numbers of a line; an empty cell is NaN. False: not such a line.
 bool read_line(std::string_view line, std::array<double, columns>& values) {
     for (std::size_t c = 0; c < columns; ++c) {
         const std::string_view cell = line.substr(0, line.find(','));
@@ -58,8 +58,8 @@ bool is_a_time(std::string_view quantity) {
     return quantity == "arrival" || quantity == "time_of_peak";
 }
 
-/// Of a sample at any x: between its columns by a straight line, a time only where both columns have
-/// one; beyond them as where it never came.
+/// Value of a sample at any x: linear between columns, for times only where both columns have one;
+/// beyond the columns as where the flow never arrived.
 double value_at(const std::vector<double>& x, const std::vector<double>& values, double at,
                 bool time) {
     const double absent = time ? never : 0.0;

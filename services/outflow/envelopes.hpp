@@ -1,4 +1,4 @@
-// The envelopes of runouts (envelope.csv), one by one and over an ensemble.
+// Reads the envelopes of runouts (envelope.csv), and combines them over an ensemble.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace breach::outflow {
 
-/// Of one runout, per column; NaN for a time that was not reached.
+/// Envelope of one runout at each x; NaN: time that was not reached.
 struct Envelope {
     std::vector<double> x{};                      ///< ascending [m]
     std::vector<double> largest_depth{};          ///< [m]
@@ -30,7 +30,7 @@ void for_each_quantity(AnyEnvelope& envelope, Visit&& visit) {
     visit("final_depth", "m", envelope.final_depth);
 }
 
-/// Throws BadInput if it is no such table, IoError if it cannot be read.
+/// Throws BadInput if the file is not such a table, IoError if it cannot be read.
 Envelope read_envelope(const std::filesystem::path& file);
 
 /// One quantity over the samples; NaN where so few samples were reached that the percentile falls
@@ -41,7 +41,7 @@ struct Band {
     std::vector<double> p10{};
     std::vector<double> p50{};
     std::vector<double> p90{};
-    /// Samples with a value of their own: for times those that were reached, else all.
+    /// Samples with a value: for times those that the flow reached, else all.
     std::vector<std::size_t> rests_on{};
 };
 
@@ -52,9 +52,10 @@ struct Ensemble {
     std::vector<Band> bands{};           ///< one per quantity, in the order of for_each_quantity
 };
 
-/// Percentiles by linear interpolation between order statistics (as numpy's default) over all samples: a
-/// sample with flow that never reached an x has depth and velocity 0 there, and arrives after all others.
-/// Samples on other grids are interpolated; beyond its grid a sample is not reached.
+/// Percentiles over all samples, by linear interpolation between order statistics (as numpy's
+/// default). A sample with flow that never reached an x has depth and velocity 0 there, and arrives
+/// after all others. Samples on other grids are interpolated; beyond its grid a sample counts as
+/// not reached.
 Ensemble ensemble_of(std::span<const Envelope> samples);
 
 /// {"x": [...], "largest_depth": {"unit", "values"}}; NaN is null.

@@ -17,7 +17,7 @@ const std::string slurry_warning =
 
 namespace {
 
-/// Those of the drop-down list that are whole seconds [s].
+/// Intervals of HEC-RAS's list that are whole seconds [s].
 constexpr std::array intervals_of_hec_ras{1,   2,   3,   4,   5,    6,    10,  12,
                                           15,  20,  30,  60,  120,  180,  240, 300,
                                           360, 600, 720, 900, 1200, 1800, 3600};
@@ -33,7 +33,7 @@ std::string number(const char* format, double value) {
     return text;
 }
 
-/// What has passed for good: never more than at any later time.
+/// Volume that does not flow back: the least of all later values.
 std::vector<double> passed_for_good(const std::vector<double>& volume) {
     std::vector<double> passed(volume.size());
     double least = volume.back();

@@ -1,5 +1,5 @@
-// Hydrographs in the formats of other programs: CSV, HEC-RAS's flow hydrograph, FLO-2D's
-// INFLOW.DAT. docs/how-to/hydrographs.md gives the sources of the formats and what was tested.
+// Writes hydrographs in the formats of other programs: CSV, HEC-RAS's flow hydrograph, FLO-2D's
+// INFLOW.DAT. Sources and tests: docs/how-to/hydrographs.md.
 #pragma once
 
 #include <optional>
@@ -9,35 +9,35 @@
 
 namespace breach::outflow {
 
-/// Warning against routing the numbers as if they were water.
+/// Warns against routing the flow as water.
 extern const std::string slurry_warning;
-/// The same, and the reasons against using this hydrograph.
+/// slurry_warning, and the reasons against using this hydrograph.
 std::string warning_of(const Hydrograph& hydrograph);
 
-/// Every row per metre; with a width the discharges and volumes of its low, best and high, too.
+/// All rows per metre of width; with a width also its low, best and high discharges and volumes.
 std::string as_csv(const Hydrograph& hydrograph, const std::optional<BreachWidth>& width);
 
 /// Flows at equal intervals.
 struct Ordinates {
     double interval;               ///< [s]
     std::vector<double> m3_per_s;  ///< the first and the last are 0
-    double volume;                 ///< by straight lines between them [m3]
+    double volume;                 ///< with straight lines between them [m3]
     double peak_before;            ///< largest flow of the hydrograph [m3/s]
     double peak_after;             ///< largest of these flows [m3/s]
 };
 
-/// Means over intervals about each time, so that straight lines between them carry exactly the volume
-/// that passed: the first ordinate is an interval before the runout begins. Soil that flows back is
-/// subtracted from the flow before it, so that no flow is negative. Throws BadInput when nothing passes
-/// towards +x, or for more than a million ordinates.
+/// Means over intervals around each time, so that straight lines between them carry exactly the
+/// volume that passed. The first ordinate lies one interval before the runout begins. Flow back is
+/// subtracted from the flow before it, so that no flow is negative. Throws BadInput when nothing
+/// passes towards +x, or for more than a million ordinates.
 Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interval,
                        const std::string& file);
 
 /// The peak before and after, with a warning and a remedy where more than a tenth of it is lost.
 std::string peaks_in_words(const Ordinates& flows);
 
-/// Comments, then ordinate, simulation time, flow [m3/s]. interval: one of HEC-RAS's, in whole
-/// seconds; otherwise throws BadInput.
+/// Comments, then ordinate, simulation time, flow [m3/s]. interval: whole seconds, one of
+/// HEC-RAS's; others throw BadInput.
 std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
                        const std::string& file);
 
@@ -46,7 +46,7 @@ struct Flo2dOptions {
     std::optional<double> concentration{};  ///< of solids by volume; none: no column [-]
 };
 
-/// Hours and m3/s. Throws BadInput as ordinates_of does.
+/// Hours and m3/s. Throws BadInput like ordinates_of.
 std::string as_flo_2d(const Hydrograph& hydrograph, double width, double interval,
                       const Flo2dOptions& request, const std::string& file);
 

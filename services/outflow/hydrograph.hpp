@@ -1,4 +1,4 @@
-// The hydrographs of a runout at its sections (history.h5).
+// Reads the hydrographs of a runout at its sections (history.h5).
 #pragma once
 
 #include <filesystem>
@@ -10,20 +10,19 @@
 
 namespace breach::outflow {
 
-/// At one section, per metre of width; one entry per telemetry line.
+/// Flow past one section per metre of width; one entry per telemetry line.
 struct Hydrograph {
     std::string section;
     std::vector<double> time{};       ///< since the runout began [s]
-    std::vector<double> discharge{};  ///< mean since the entry before, towards +x [m2/s]
+    std::vector<double> discharge{};  ///< mean since the previous entry, towards +x [m2/s]
     std::vector<double> depth{};      ///< [m]
     std::vector<double> velocity{};   ///< [m/s]
-    std::vector<double> volume{};     ///< of soil before the runout, passed so far, net [m2]
+    std::vector<double> volume{};     ///< net, passed so far, at initial density [m2]
     std::vector<double> mass{};       ///< [kg/m]
-    std::string
-        warning{};  ///< why the runout's numbers should not be relied on; empty: no reason is known
+    std::string warning{};  ///< why the runout's numbers are unreliable; empty: no reason is known
 };
 
-/// Calls visit(name, unit, values) for every column beside the time.
+/// Calls visit(name, unit, values) for every column except the time.
 template <class AnyHydrograph, class Visit>
 void for_each_column(AnyHydrograph& hydrograph, Visit&& visit) {
     visit("discharge", "m2/s", hydrograph.discharge), visit("depth", "m", hydrograph.depth);
@@ -31,14 +30,13 @@ void for_each_column(AnyHydrograph& hydrograph, Visit&& visit) {
     visit("mass", "kg/m", hydrograph.mass);
 }
 
-/// Names of the sections that a history has.
 std::vector<std::string> sections_in(const exchange::Archive& history);
 
 /// Throws BadInput, naming `file` and its sections, if the section does not exist.
 Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& section,
                          const std::string& file);
 
-/// Of a runout's output folder.
+/// The history in a runout's output folder.
 exchange::Archive history_of(const std::filesystem::path& output);
 
 /// Width of the breach [m].

@@ -84,7 +84,7 @@ std::string marks_of(const json& row) {
     return marks + (marks.empty() || reason.empty() ? "" : " ") + reason;
 }
 
-/// Of the mean that is within what is asked; "-": none is.
+/// From the mean within the requested error; "-": none.
 std::string of_mean(const json& row, const char* key) {
     const json& mean = row.at("mean_within_asked");
     return mean.is_object() ? number(mean.at(key), 3) : "-";

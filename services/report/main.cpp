@@ -1,4 +1,4 @@
-// report: figures of what phases have written.
+// report: writes reports and figures of phases' results.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -14,7 +14,7 @@ namespace {
 
 using breach::fault::ExitCode;
 
-/// Runs the work and says what went wrong on standard error.
+/// Runs the work and reports errors on standard error.
 template <class Work>
 ExitCode guarded(const std::filesystem::path& source, const Work& work) {
     const auto say = [](const std::string& what, ExitCode code) {

@@ -13,7 +13,7 @@ namespace breach::report {
 
 namespace {
 
-/// Lays another run's runouts over this one's; without a figure of them nothing.
+/// Adds another run's runouts to this run's figure; without such a figure nothing.
 void lay_over(const Run& other, Document& document) {
     for (Chapter& chapter : document.chapters) {
         const auto figure = std::ranges::find(chapter.figures, runout_figure, &Figure::name);
@@ -25,7 +25,7 @@ void lay_over(const Run& other, Document& document) {
     }
 }
 
-/// Runouts, grounds and variants of another run, distinguished by its name.
+/// Adds another run's runouts, grounds and variants under its name.
 void add_companion(const std::filesystem::path& folder, const std::optional<Paper>& paper,
                    Document& document) {
     const Run run = read_run(folder);

@@ -22,11 +22,11 @@ using earthquake::Json, earthquake::Overburden, earthquake::Region, earthquake::
 
 namespace {
 
-/// Of soil that is to stand: a few per cent of critical damping, or it would swing for minutes.
+/// For soil that stays: a few per cent of critical damping, else it would oscillate for minutes.
 constexpr double damping = 3e4;  // Pa s
 
 const Soil loose_soil{"soil", 1850, 0.85, 1e-6, 0.35, 476, 2.7, 2, 34, 2, 34, 20, 0.3};
-/// Their strength comes from slimes_ratio and residual_ratio.
+/// slimes_ratio and residual_ratio give the strength.
 const Soil slimes{"slimes", 1700, 1.4, 1e-9, 0, 0, 0, 0, 28, 0, 0, 10, 0.49};
 const Soil rockfill{"rockfill", 2100, 0.4, 1e-3, 0.75, 890, 0.63, 0, 42, 0, 42, 80, 0.3};
 
@@ -39,7 +39,7 @@ std::string name_of(const std::string& whole, int layer, int piece) {
            (piece > 0 ? "_" + std::to_string(piece + 1) : "");
 }
 
-/// The lower end of the foundation, which is level and foundation_depth below the ground's lowest.
+/// The level base of the foundation, foundation_depth below the lowest ground.
 double base_of(const Values& values) {
     return std::min(0.0, Terrain(values).at(values["foundation_extent"])) -
            values["foundation_depth"];
@@ -51,7 +51,7 @@ std::vector<Region> regions_of(const Values& values, const Outline& outline, con
     if (values["foundation_depth"] > 0.0) {
         const double right = values["foundation_extent"];
         const Terrain terrain(values);
-        // From the right to the left, so many metres below the ground.
+        // From right to left, at this depth below the ground.
         const auto below_ground = [&](double depth) {
             Line line{{right, terrain.at(right) - depth}};
             if (!terrain.is_level()) line.push_back({0.0, -depth});
@@ -128,7 +128,7 @@ struct Context {
     const Soil& wet;
     std::vector<Region> regions;
     bool with_fem;
-    double unit;  ///< sqrt(H / g), by which times are measured [s]
+    double unit;  ///< sqrt(H / g), the unit of times [s]
 };
 
 bool has(const Context& all, const std::string& material) {
@@ -147,7 +147,7 @@ double residual_kPa(const Context& all, const Region& layer) {
     return rounded(all.values["residual_ratio"] * layer.sigma_v0_kPa);
 }
 
-/// Without a FEM every layer below the phreatic line is its own material, of constant strength.
+/// Without a FEM, each layer below the phreatic line has its own material of constant strength.
 std::string material_of(const Context& all, const Region& region) {
     const bool liquefied = region.layer > 0 && !all.with_fem;
     return region.material + (liquefied ? "_" + std::to_string(region.layer) : "");
@@ -164,8 +164,7 @@ Json weak_layer(const Context& all) {
     return material;
 }
 
-/// The phases that take profiles have the strength by stress; the finite elements, that have not,
-/// its mean.
+/// Phases that support profiles get the strength by stress; the FEM gets its mean.
 Json slimes_of(const Context& all, bool in_elements) {
     Json material{
         {"notes",
@@ -316,7 +315,7 @@ Json stability_of(const Context& all) {
     return lem;
 }
 
-/// Grid lines go through the model's left end and through its floor.
+/// Grid lines coincide with the model's left end and its floor.
 Json runout_of(const Context& all) {
     const Values& values = all.values;
     const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
@@ -425,7 +424,7 @@ Json study_of(const Values& values, const Json& scene) {
     if (overrides.empty()) return study;
     for (const auto& [name, material] : scene.at("materials").items())
         overrides.push_back("/materials/" + name + "/viscosity=" + words::text_of(damping));
-    // What stands releases hardly any energy to measure its swinging by.
+    // A stable dam releases hardly any energy to compare its oscillation with.
     overrides.push_back("/mpm/rest_kinetic_share=0.05");
     overrides.push_back("/mpm/rest_speed=0.2");
     overrides.push_back("/lem/undrained=" + undrained_regions.dump());

@@ -1,4 +1,4 @@
-// Converts an outline to a scene: layers, materials with assumptions, and each phase's part.
+// Builds a scene from an outline: layers, materials with assumptions, and each phase's part.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,13 +9,12 @@
 
 namespace breach::templates {
 
-/// The scene, with `name` and its title.
 nlohmann::ordered_json scene_of(const Values& values, const Outline& outline,
                                 const std::string& name);
 
 earthquake::Motion motion_in(const Values& values);
 
-/// The study that runs it, with the same name and title; its scene is "scene.json" beside it.
+/// The study of the scene, with the same name and title; its scene is "scene.json" beside it.
 nlohmann::ordered_json study_of(const Values& values, const nlohmann::ordered_json& scene);
 
 }  // namespace breach::templates

@@ -63,7 +63,7 @@ Options foundation_options() {
     };
 }
 
-/// Of the dams.
+/// Options of the dams.
 Options site() {
     return {
         ratio("valley_slope", 0, 0.2, 0,
@@ -103,8 +103,8 @@ Options computation() {
     };
 }
 
-/// Of the dams: the finite elements of a slope or a heap of loose sand fold within seconds, and what
-/// is left of their energy is not enough for a runout.
+/// Options of the dams only: the FEM of a slope or heap of loose sand entangles within seconds, and
+/// the remaining energy is too small for a runout.
 Options earthquake() {
     return {
         sized("element_size", 0.1, 0.05, 50, "elements, with with_fem"),
@@ -231,7 +231,7 @@ Template leach_heap() {
                 computation()})};
 }
 
-/// Defaults that follow another option get their value at that one's default.
+/// Computes defaults that follow another option from that option's default.
 Template with_values(Template made) {
     for (Option& each : made.options) {
         if (each.follows.empty()) continue;
@@ -253,7 +253,7 @@ const char* type_of(Kind kind) {
     return "";
 }
 
-/// Where a form asks for it: "section" unless it is listed here.
+/// The group of an option in a form: "section" unless it is listed here.
 const char* topic_of(const std::string& name) {
     static const std::map<std::string, const char*> topics{{"layer_thickness", "soils"},
                                                            {"residual_ratio", "soils"},

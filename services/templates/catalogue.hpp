@@ -10,8 +10,8 @@ namespace breach::templates {
 
 enum class Kind { number, whole, yes_or_no };
 
-/// A default that is a share of another option follows it, so that a dam of another height is the
-/// same dam in another size.
+/// A default may be a share of another option, so that a dam of another height is the same dam in
+/// another size.
 struct Option {
     std::string name;
     Kind kind;
@@ -26,18 +26,18 @@ struct Option {
 struct Template {
     std::string name;
     std::string title;
-    std::vector<Option> options;  ///< options that others follow come first
+    std::vector<Option> options;  ///< options come before those that follow them
 };
 
 const std::vector<Template>& catalogue();
-/// Throws BadInput that lists the names.
+/// Throws BadInput with the list of names.
 const Template& named(const std::string& name);
 
-/// "height / 3": the rule of a default that follows another option; empty: it is a number.
+/// "height / 3": the rule of a default that follows another option; empty: a fixed number.
 std::string rule_of(const Option& option);
 
-/// {"templates": [{"name", "title", "options": [{"name", "topic", "type", "unit", "default", "rule",
-/// "follows", "share", "minimum", "maximum", "help"}]}]}; described in README.md.
+/// {"templates": [{"name", "title", "options": [{"name", "topic", "type", "unit", "default",
+/// "rule", "follows", "share", "minimum", "maximum", "help"}]}]}; described in README.md.
 nlohmann::json as_json(const std::vector<Template>& templates);
 
 }  // namespace breach::templates

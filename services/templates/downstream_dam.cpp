@@ -1,4 +1,4 @@
-// Starter dam on the foundation, every raise on the downstream face of what stood before.
+// Starter dam on the foundation; each raise covers the downstream face of the previous stage.
 #include <algorithm>
 
 #include "services/templates/layers.hpp"
@@ -7,7 +7,7 @@ namespace breach::templates {
 
 namespace {
 
-/// The dam as it stood at one time.
+/// The dam at one time.
 struct Stage {
     double height;
     double upstream_edge, downstream_edge, toe;  ///< x

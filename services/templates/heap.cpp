@@ -1,4 +1,4 @@
-// Half of a heap: its axis is the model's left end, its toe lies at (0, 0).
+// Half of a heap: the axis is the model's left end, the toe is at (0, 0).
 #include <algorithm>
 
 #include "services/templates/outline.hpp"

@@ -12,7 +12,7 @@ namespace breach::templates {
 
 namespace {
 
-/// Where two segments meet; their ends count. Parallel ones meet nowhere.
+/// Intersection of two segments, including their ends; nothing for parallel ones.
 std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
     const double little = 1e-12;
     const Vec2 u = b - a, v = d - c;
@@ -22,7 +22,7 @@ std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
     return at;
 }
 
-/// The line over all of the polygon and beyond.
+/// The line extended beyond both sides of the polygon.
 Line across(const Line& line, const Polygon& polygon) {
     const geometry::Box box = geometry::bounding_box(polygon);
     const double margin = 1.0 + (box.high - box.low).norm();
@@ -32,7 +32,7 @@ Line across(const Line& line, const Polygon& polygon) {
     return all;
 }
 
-/// The polygon with its meetings with the line among its vertices; they are returned from left to
+/// Inserts the intersections with the line as vertices of the polygon; returns them from left to
 /// right.
 Line mark_meetings(Polygon& polygon, const Line& line, double nearest) {
     Polygon marked;
@@ -65,7 +65,7 @@ Line mark_meetings(Polygon& polygon, const Line& line, double nearest) {
     return meetings;
 }
 
-/// A way through the polygon from one meeting to the next.
+/// The part of the line through the polygon between two intersections.
 Line way_between(const Vec2& from, const Vec2& to, const Line& line, double nearest) {
     Line way{from};
     for (const Vec2& kink : line)
@@ -84,7 +84,7 @@ double distance_to_border(const Polygon& polygon, const Vec2& place) {
     return least;
 }
 
-/// All of the way but its ends lies inside.
+/// Whether the path is inside except for its ends.
 bool runs_inside(const Polygon& polygon, const Line& way, double little) {
     for (std::size_t k = 1; k < way.size(); ++k) {
         const Vec2 middle = 0.5 * (way[k - 1] + way[k]);
@@ -101,7 +101,7 @@ std::optional<std::size_t> vertex_at(const Polygon& polygon, const Vec2& place) 
     return static_cast<std::size_t>(found - polygon.begin());
 }
 
-/// The two parts of a polygon on either side of a way between two of its vertices.
+/// Splits a polygon along a path between two of its vertices.
 std::array<Polygon, 2> parted(const Polygon& polygon, std::size_t from, std::size_t to,
                               const Line& way) {
     const auto along = [&](std::size_t i, std::size_t end) {
@@ -115,7 +115,7 @@ std::array<Polygon, 2> parted(const Polygon& polygon, std::size_t from, std::siz
     return {one, other};
 }
 
-/// Depth below the line in the middle of the widest vertical way through the polygon.
+/// Depth below the line at the middle of the widest vertical extent of the polygon.
 double depth_of(const Polygon& polygon, const Line& line) {
     const geometry::Box box = geometry::bounding_box(polygon);
     double widest = 0.0, depth = 0.0;
@@ -137,7 +137,7 @@ double depth_of(const Polygon& polygon, const Line& line) {
     return depth;
 }
 
-/// Side i of a ring, backwards, is a side of the other ring.
+/// Whether side i of a ring, reversed, is a side of the other ring.
 bool is_shared(const Polygon& ring, std::size_t i, const Polygon& other) {
     const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
     for (std::size_t k = 0; k < other.size(); ++k)
@@ -145,7 +145,7 @@ bool is_shared(const Polygon& ring, std::size_t i, const Polygon& other) {
     return false;
 }
 
-/// The border that two rings share, when it is one connected line.
+/// The shared border of two rings, if it is one connected line.
 struct Seam {
     std::size_t begin, sides;  ///< of the first ring
     double length = 0.0;
@@ -166,7 +166,7 @@ std::optional<Seam> seam_between(const Polygon& one, const Polygon& other) {
     return seams.front();
 }
 
-/// Both as one ring, without their seam.
+/// Unites both rings along their seam.
 Polygon united(const Polygon& one, const Polygon& other, const Seam& seam) {
     const std::size_t end = (seam.begin + seam.sides) % one.size();
     Polygon ring;
@@ -176,14 +176,15 @@ Polygon united(const Polygon& one, const Polygon& other, const Seam& seam) {
     return ring;
 }
 
-/// The number is that of the larger piece.
+/// The larger piece gives the number.
 Layer joined(const Layer& one, const Layer& other, const Seam& seam) {
     const bool first = geometry::area(one.polygon) > geometry::area(other.polygon);
     return {first ? one.number : other.number, united(one.polygon, other.polygon, seam)};
 }
 
-/// One thin piece joined with the neighbour that it has most border with; false: there is none. Wet soil
-/// goes to wet soil and dry to dry where it can: a layer that became dry would keep its strength.
+/// Joins one thin piece with the neighbour with the longest common border; false: there is none.
+/// Wet soil joins wet soil and dry joins dry if possible, because a layer that became dry would
+/// keep its strength.
 bool absorb_one(std::vector<Layer>& all, double thinnest) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (!geometry::thickness_below(thinnest, all[i].polygon)) continue;

@@ -11,21 +11,21 @@ struct Layer {
 };
 
 struct Cut {
-    double thickness;  ///< of a layer, measured downwards from the line; the lowest takes the rest,
-                       ///< less than another one [m]
-    double nearest;    ///< places of the cut nearer than this to a vertex are moved to it [m]
+    double thickness;  ///< of a layer, measured downwards from the line; the lowest layer is up to
+                       ///< twice as thick [m]
+    double nearest;    ///< points of the cut closer than this to a vertex move to it [m]
     double
-        thinnest;  ///< a thinner piece is merged with a neighbour on the same side of the line with
-                   ///< the longest common border, else with one across the line [m]
+        thinnest;  ///< thinner pieces are merged with the neighbour with the longest common border,
+                   ///< if possible on the same side of the line [m]
 };
 
-/// From the top down. A layer may be in several pieces: each is one entry.
+/// From the top down. Each piece of a layer is one entry.
 std::vector<Layer> cut_by_depth(const Polygon& polygon, const Line& phreatic, const Cut& cut);
 
-/// The pieces of a polygon on either side of a line. Places within `nearest` of a vertex move to it.
+/// Splits a polygon along a line. Points within `nearest` of a vertex move to it.
 std::vector<Polygon> divided(const Polygon& polygon, const Line& line, double nearest);
 
-/// Every vertex of one part on another part's side is added to that one, too.
+/// Adds every vertex on another part's side to that part, too.
 void share_vertices(std::vector<Part>& parts);
 
 }  // namespace breach::templates

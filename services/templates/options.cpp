@@ -28,7 +28,7 @@ std::string range_of(const Option& option) {
            " to " + with_unit(option.most, option);
 }
 
-/// What is wrong with a value, or nothing.
+/// The fault of a value; empty: none.
 std::string flaw(const json& value, const Option& option) {
     if (option.kind == Kind::yes_or_no) return value.is_boolean() ? "" : "is " + value.dump();
     if (!value.is_number()) return "is " + value.dump();

@@ -1,5 +1,5 @@
-// The given options, completed with the template's defaults and checked one by one and against each
-// other.
+// Completes the given options with the template's defaults, and checks them one by one and against
+// each other.
 #pragma once
 
 #include <map>
@@ -39,7 +39,7 @@ Values completed(const Template& of, const nlohmann::json& given);
 class Refusal {
   public:
     explicit Refusal(const Values& values) : values_(&values) {}
-    /// The option's own value is put before the cause: "is 12 m, ...".
+    /// Adds a fault unless `holds`. Puts the option's value before the cause: "is 12 m, ...".
     void unless(bool holds, const std::string& option, const std::string& cause,
                 const std::string& remedy);
     /// Throws BadInput if there are any.

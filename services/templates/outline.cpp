@@ -22,7 +22,7 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     const double span = exit.x() - from.x();
     const double same = 0.005 * span;
     std::vector<double>
-        xs;  // the ground's kinks, so that no chord leaves it, and places of the parabola
+        xs;  // kinks of the ground, so that no chord leaves it, and points of the parabola
     for (const Vec2& kink : ground)
         if (kink.x() > from.x() + same && kink.x() < exit.x() - same) xs.push_back(kink.x());
     const auto add = [&](double x) {
@@ -31,7 +31,7 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     };
     if (measured) add(measured->x());
     for (int i = 1; i < pieces && !measured; ++i) {
-        const double share = 1.0 - static_cast<double>(i) / pieces;  // of the height that is left
+        const double share = 1.0 - static_cast<double>(i) / pieces;  // of the remaining height
         add(exit.x() - span * share * share);
     }
     std::ranges::sort(xs);
@@ -50,8 +50,8 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     return line;
 }
 
-/// The level in the piezometer below the crest, where the template asks for one; refused above the
-/// water at `from` or below that at `exit`.
+/// The level in the piezometer below the crest, if the template has it; refused above the water at
+/// `from` or below it at `exit`.
 std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, const Vec2& from,
                                    const Vec2& exit) {
     const double depth = values.or_none("piezometer_depth");

@@ -1,5 +1,5 @@
 // The outline of a template: a section in parts with its water, before it becomes a scene. x points
-// downstream, the toe is at (0, 0) on the foundation's surface.
+// downstream; the toe is at (0, 0) on the foundation's surface.
 #pragma once
 
 #include <string>
@@ -21,11 +21,11 @@ struct Part {
 };
 
 struct Outline {
-    std::vector<Part> parts;  ///< they touch, without gaps; above the foundation
+    std::vector<Part> parts;  ///< adjacent, without gaps; above the foundation
     Line ground;              ///< from the model's left end to the toe
     Line phreatic;            ///< from the left end to beyond the toe
     std::string wet;          ///< the part with soil that can liquefy below the phreatic line
-    Vec2 crest;               ///< its downstream edge
+    Vec2 crest;               ///< downstream edge of the crest
     double crest_from;        ///< x of its upstream edge
     double left;              ///< x of the model's left end
 };
@@ -39,12 +39,13 @@ struct Terrain {
     double rise, fall;  ///< metres per metre
 };
 
-/// Adds a phreatic line to an outline: level from the left end to `from`, then Dupuit's parabola (h^2
-/// linear in x), or straight through the piezometer's level where one is given, to the foundation's
-/// surface at x = `exit`; nowhere above the ground, and on the foundation beyond its exit.
+/// Adds a phreatic line to an outline: level from the left end to `from`, then down to the
+/// foundation's surface at x = `exit`, by Dupuit's parabola (h^2 linear in x), or straight through
+/// the piezometer's level where one is given. It is never above the ground, and on the foundation
+/// beyond `exit`.
 void add_water(const Values& values, const Vec2& from, double exit, Outline& outline);
 
-/// A fault where the ground rises into the upper half of the starter dam.
+/// Adds a fault where the ground rises into the upper half of the starter dam.
 void check_heel(Refusal& refusal, double heel_level, double starter);
 
 /// Divides the tailings into beach and slimes, if slimes are requested.
@@ -55,7 +56,6 @@ inline std::string starter_fill(const Values& values) {
     return values.is_on("rockfill_starter") ? "rockfill" : "embankment";
 }
 
-/// The option, and what it says, of the soil's surface where the model ends: too low is refused.
 Outline upstream_dam(const Values& values);
 Outline downstream_dam(const Values& values);
 Outline slope(const Values& values);

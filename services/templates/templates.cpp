@@ -21,7 +21,7 @@ Outline outline_of(const Values& values) {
     return name == "slope" ? slope(values) : heap(values);
 }
 
-/// Lengths that the scene repeats get so few digits that they are read with ease.
+/// Rounds lengths that appear in the scene to readable digits.
 void round_sizes(Values& values) {
     for (const Option& each : values.of().options) {
         if (each.kind != Kind::number || each.follows.empty()) continue;
@@ -29,8 +29,8 @@ void round_sizes(Values& values) {
     }
 }
 
-/// By default two cells across the weak layer, the least that see a slide along it, unless that multiplies the
-/// cost by more than 27; and a cell of firm ground below it.
+/// By default two cells across the weak layer, the least that resolve sliding along it, unless that
+/// multiplies the cost by more than 27; and a cell of firm ground below it.
 void fit_weak_layer(Values& values, const json& given) {
     const double clay = values["clay_thickness"], cell = values["cell_size"];
     if (clay == 0.0) return;
@@ -87,7 +87,7 @@ std::string name_in(const Template& of, const json& options) {
           "give lower-case letters, digits, _ and -, at most 64, a letter or digit first"}});
 }
 
-/// What the reader of scenes refuses all the same: too coarse for the thinnest part.
+/// Adds faults from the reader of scenes: cells too coarse for the thinnest part.
 void check_made(const Values& values, const Json& scene) {
     std::vector<fault::Fault> faults = scene::read_text(scene.dump(), "scene", ".", {}).faults;
     if (faults.empty()) return;
@@ -114,7 +114,7 @@ std::string on_a_line(const Json& value) {
     return value.is_object() ? "{ " + text + " }" : "[" + text + "]";
 }
 
-/// Short entries stand on one line.
+/// Writes short entries on one line.
 void write(std::ostream& out, const Json& value, std::size_t indent) {
     constexpr std::size_t width = 110;
     const std::string line = on_a_line(value);

@@ -1,4 +1,4 @@
-// Starter dam on the foundation, raises on the tailings upstream of it.
+// Starter dam on the foundation; raises on the tailings upstream of it.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,7 @@ std::vector<Dyke> dykes_of(const Values& values) {
     const double height = values["height"];
     const double starter = raises == 0 ? height : values["starter_height"];
     std::vector<Dyke> dykes{dyke_at(0.0, 0.0, starter, values["starter_slope"], values)};
-    // Its upstream face meets ground that rises.
+    // The ground rises towards its upstream face.
     const double rise = values["valley_slope"];
     dykes[0].heel /= 1.0 + rise * values["upstream_slope"];
     dykes[0].heel_level = -rise * dykes[0].heel;

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One entry of a file, and what is wrong with it.
+/// One entry of a file, and its faults.
 class Entry {
   public:
     Entry(const json& of, std::string pointer, std::vector<fault::Fault>& faults)
@@ -33,7 +33,7 @@ class Entry {
         blame(key, "is missing", remedy);
         return 0.0;
     }
-    /// Of a list that must have something.
+    /// A list that must not be empty.
     std::vector<std::pair<json, std::string>> list(const std::string& key) {
         std::vector<std::pair<json, std::string>> items;
         const json given = of_.value(key, json::array());
@@ -87,7 +87,7 @@ Level level_from(Entry entry) {
 
 using Commands = std::vector<std::vector<std::string>>;
 
-/// The case's own commands, else one run of its program, else the commands of the file; each with the case's `set`.
+/// The case's commands, else a run of its program, else the file's; each with its `set`.
 Commands commands_of(const json& of, const json& file) {
     Commands commands = of.value("commands", Commands());
     if (commands.empty() && !of.contains("program")) commands = file.value("commands", Commands());
@@ -100,7 +100,7 @@ Commands commands_of(const json& of, const json& file) {
     return commands;
 }
 
-/// Its exit code stands as the case's quantity.
+/// The exit code becomes the case's quantity.
 Refusal refusal_from(Entry entry, std::vector<Quantity>& quantities) {
     entry.only({"exit", "says"});
     Refusal made{static_cast<int>(entry.number("exit", "give the exit code")), {}};

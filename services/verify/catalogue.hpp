@@ -1,4 +1,4 @@
-// The comparisons of `verify`: with closed forms, published tables, independent programs.
+// Reads the comparisons of `verify`: with closed forms, published tables, independent programs.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace breach::verify {
 struct Place {
     std::string file;    ///< result.json, telemetry.jsonl, or a CSV file
     std::string at;      ///< JSON pointer; of a CSV file its column
-    std::string key;     ///< entry (JSON lines) or column (CSV) that chooses the line; empty: none
-    double value = 0.0;  ///< value of the key in that line; between two lines linear
+    std::string key;     ///< entry (JSON lines) or column (CSV) that selects the line; empty: none
+    double value = 0.0;  ///< of the key; interpolated between two lines
 };
 
 struct Quantity {
@@ -29,7 +29,7 @@ struct Quantity {
     std::optional<double> limit = {};
 };
 
-/// One run of a series with an order of convergence.
+/// One run of a series for an order of convergence.
 struct Level {
     double size;  ///< the refined size, in any unit
     std::vector<std::string> set;
@@ -46,12 +46,12 @@ struct Case {
     std::string question;
     std::string source;
     std::string kind;                                ///< closed form, published, program
-    std::filesystem::path scene;                     ///< empty: an element test or the like
+    std::filesystem::path scene;                     ///< empty: no scene, such as an element test
     std::vector<std::vector<std::string>> commands;  ///< {input} and {output} stand for files
-    std::vector<Level> levels;  ///< from coarse to fine; empty: one run as the scene is
+    std::vector<Level> levels;  ///< from coarse to fine; empty: one run with the scene unchanged
     bool slow = false;          ///< left out of --quick
     std::vector<Quantity> quantities;
-    std::optional<Refusal> refusal = {};  ///< its exit code is the one quantity
+    std::optional<Refusal> refusal = {};  ///< its exit code is the only quantity
 };
 
 struct Topic {
@@ -61,8 +61,8 @@ struct Topic {
     std::vector<Case> cases;
 };
 
-/// Every *.json of the folder, by name. Throws BadInput where an entry lacks its source, expected value
-/// or tolerance with a reason, or two cases have one id.
+/// Every *.json of the folder, by name. Throws BadInput where an entry lacks its source, expected
+/// value or tolerance with a reason, or where two cases have the same id.
 std::vector<Topic> catalogue_in(const std::filesystem::path& folder);
 
 }  // namespace breach::verify

@@ -32,7 +32,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-/// What it says goes to log.txt. One that cannot be started has no exit code.
+/// Runs the program with its output in log.txt. No exit code: it cannot be started.
 command::Result run_program(std::vector<std::string> words, const fs::path& folder) {
     constexpr auto longest = std::chrono::hours(2);
     command::Result result;
@@ -88,7 +88,7 @@ std::vector<std::pair<double, double>> lines_in(const fs::path& file, const Plac
     return found;
 }
 
-/// By a straight line between the first two lines that enclose it; without a key the last line's.
+/// Interpolates between the first two lines that enclose the key; without a key, the last line.
 std::optional<double> at_key(const std::vector<std::pair<double, double>>& lines,
                              const Place& place) {
     if (lines.empty()) return std::nullopt;
@@ -137,7 +137,7 @@ Found order_in(const fs::path& folder, const Case& of, const Quantity& quantity)
     return {&quantity, (n * xy - x * y) / (n * xx - x * x), ""};
 }
 
-/// The exit code, as long as the message says what it must.
+/// The exit code, if the message contains the required words.
 Found refusal_in(const fs::path& folder, const Case& of, int exit_code) {
     const Quantity* quantity = &of.quantities.front();
     std::ifstream stream(folder / "log.txt");
@@ -149,8 +149,8 @@ Found refusal_in(const fs::path& folder, const Case& of, int exit_code) {
 }
 
 struct Ran {
-    std::string broke = {};            ///< why, or nothing
-    std::optional<int> exit_code = 0;  ///< of the command that ended it
+    std::string broke = {};            ///< error of the programs; empty: none
+    std::optional<int> exit_code = 0;  ///< of the command that ended the case
 };
 
 Ran run_commands(const Case& of, const std::vector<std::string>& set, const fs::path& folder,

@@ -32,7 +32,6 @@ std::string allowed_of(const Quantity& quantity) {
                              : digits(quantity.allowed, 2);
 }
 
-/// Outcomes of one topic.
 std::vector<const Outcome*> of_topic(const Topic& topic, const std::vector<Outcome>& outcomes) {
     std::vector<const Outcome*> own;
     for (const Outcome& each : outcomes)
@@ -56,10 +55,10 @@ std::vector<std::vector<std::string>> rows_of(const std::vector<const Outcome*>&
     return rows;
 }
 
-/// |difference| of the right value against CPU seconds. Nothing where no right value is above zero.
+/// difference| from the right value against CPU seconds; nothing: no right value is above zero.
 std::optional<report::Figure> error_figure(const Topic& topic,
                                            const std::vector<const Outcome*>& outcomes) {
-    constexpr double least = 1e-8;  // what is exact stands there [%]
+    constexpr double least = 1e-8;  // exact results are drawn here [%]
     report::Series passed{"passed", {}, {}, report::Style::points},
         failed{"failed", {}, {}, report::Style::points};
     for (const Outcome* each : outcomes)

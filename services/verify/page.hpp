@@ -1,4 +1,4 @@
-// The comparisons as one page: HTML with figures, and Markdown for docs.
+// Writes the comparisons as one page: HTML with figures, and Markdown for docs.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ report::Document document_of(const std::vector<Topic>& catalogue,
 std::string as_markdown(const std::vector<Topic>& catalogue, const std::vector<Outcome>& outcomes,
                         const About& about, const std::string& figures);
 
-/// index.html, index.md, results.json and figures/ in the folder.
+/// Writes index.html, index.md, results.json and figures/ into the folder.
 void write_pages(const std::filesystem::path& folder, const std::vector<Topic>& catalogue,
                  const std::vector<Outcome>& outcomes, const About& about);
 

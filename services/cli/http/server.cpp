@@ -62,7 +62,7 @@ Server::Server(const Address& address, const std::optional<std::string>& token,
     : connection_(new Connection{address.origin, address.prefix, httplib::Client(address.origin)}) {
     httplib::Client& client = connection_->client;
     client.set_keep_alive(true);
-    client.set_tcp_nodelay(true);  // a small request must not wait for the answer to the last one
+    client.set_tcp_nodelay(true);  // no delay of small requests (Nagle)
     client.set_connection_timeout(patience_to_connect);
     client.set_read_timeout(patience_for_an_answer);
     if (token) client.set_bearer_token_auth(*token);
@@ -78,7 +78,7 @@ Server::~Server() = default;
 
 namespace {
 
-/// Why the server's certificate was not taken, and what helps. verdict: OpenSSL's; where that is good, the name was not.
+/// Why the certificate was rejected. verdict: OpenSSL's; if X509_V_OK, the name is wrong.
 std::string fault_of_certificate(const std::string& origin, long verdict) {
     const std::string what = origin + ": its certificate is not to be trusted: ";
     switch (verdict) {
@@ -106,7 +106,7 @@ std::string fault_of_certificate(const std::string& origin, long verdict) {
     }
 }
 
-/// The body of a good answer; everything else is thrown.
+/// The body of a successful answer; throws everything else.
 const httplib::Response& good(const httplib::Result& result, const httplib::Client& client,
                               const std::string& origin) {
     if (result.error() == httplib::Error::SSLServerVerification)

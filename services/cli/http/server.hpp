@@ -16,13 +16,13 @@
 
 namespace breach::cli {
 
-/// The server did not answer, or cannot for now (429 and 5xx).
+/// The server does not answer, or cannot at the moment (429 and 5xx).
 class Unreachable : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The server answered no (4xx): problem+json, RFC 9457.
+/// The server refused the request (4xx): problem+json, RFC 9457.
 class Refused : public std::runtime_error {
   public:
     Refused(int status, const std::string& summary, std::vector<fault::Fault> faults,
@@ -49,8 +49,8 @@ struct TextAnswer {
 };
 
 struct KnownFile {
-    std::string reference;    ///< by which scenes name it; empty: the file is incomplete
-    std::size_t arrived = 0;  ///< of an incomplete file [bytes]
+    std::string reference;    ///< name in scenes; empty: the file is incomplete
+    std::size_t arrived = 0;  ///< bytes received of an incomplete file
 };
 
 using Headers = std::map<std::string, std::string>;
@@ -58,7 +58,7 @@ using Headers = std::map<std::string, std::string>;
 /// Every call throws Unreachable, Refused, or IoError when the answer violates the API.
 class Server {
   public:
-    /// authority: PEM file of the trusted certificate authorities; empty: those that the system trusts.
+    /// authority: PEM file of the trusted certificate authorities; empty: those of the system.
     Server(const Address& address, const std::optional<std::string>& token,
            const std::filesystem::path& authority = {});
     ~Server();
@@ -71,7 +71,7 @@ class Server {
                         const Headers& headers = {});
     nlohmann::json remove(const std::string& path);
     KnownFile known_file(const std::string& path);
-    /// Streams a file to the server, from this byte on.
+    /// Streams the file to the server, beginning at the byte `from`.
     nlohmann::json upload(const std::string& path, const std::filesystem::path& file,
                           std::size_t from);
     /// "http://host:port", with the prefix.
@@ -84,7 +84,7 @@ class Server {
     std::unique_ptr<Connection> connection_;
 };
 
-/// Longest time that the server holds a long-poll open; the client waits longer for the answer.
+/// Longest time that the server keeps a long poll open; the client's time limit is longer.
 inline constexpr std::chrono::seconds longest_poll{20};
 
 }  // namespace breach::cli

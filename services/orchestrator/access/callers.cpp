@@ -37,7 +37,7 @@ std::optional<Caller> Callers::caller(const std::string& secret) const {
     const std::string hash = exchange::sha256_of_text(secret);
     std::optional<Caller> found;
     const auto compare = [&](const std::vector<Token>& tokens) {
-        for (const Token& each : tokens)  // all of them, whichever fits
+        for (const Token& each : tokens)  // always all of them: constant time
             if (CRYPTO_memcmp(hash.data(), each.sha256.data(), hash.size()) == 0)
                 found = Caller{each.name, each.right};
     };

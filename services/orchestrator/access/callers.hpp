@@ -13,19 +13,20 @@
 namespace breach::orchestrator {
 
 struct Caller {
-    std::string name;  ///< of the token; empty: the service needs none
+    std::string name;  ///< the token's name; empty: the service needs no token
     Right right = Right::none;
 };
 
 class Callers {
   public:
-    /// secret: of --token-file, admin; empty: none. file: of named tokens; empty: none. Without both, anyone who
-    /// can connect may do everything. Throws as read_tokens does.
+    /// secret: the admin's (--token-file); empty: none. file: named tokens; empty: none. Without
+    /// both, anyone who can connect may do everything. Throws like read_tokens.
     Callers(const std::string& secret, std::filesystem::path file);
 
     bool needs_token() const { return !single_.empty() || !file_.empty(); }
-    /// Nothing: no token has this secret. Takes equally long for every wrong one. Changes of the file take effect within
-    /// a second; if the file becomes unusable, the tokens before it stay valid, and the log says so.
+    /// Nothing: no token has this secret. Takes equally long for every wrong secret. Changes of the
+    /// file take effect within a second; if it becomes unusable, the last tokens stay valid and the
+    /// log reports it.
     std::optional<Caller> caller(const std::string& secret) const;
 
   private:
@@ -36,7 +37,7 @@ class Callers {
     std::filesystem::path file_;
     mutable std::mutex mutex_;
     mutable std::shared_ptr<const std::vector<Token>> of_file_;
-    mutable std::string trouble_;  ///< of the last look at the file
+    mutable std::string trouble_;  ///< error of the last read of the file
     mutable Clock::time_point looked_;
 };
 

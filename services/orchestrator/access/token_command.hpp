@@ -9,9 +9,8 @@ namespace breach::orchestrator {
 
 class TokenCommand {
   public:
-    /// Adds the subcommand.
     CLI::App* add_to(CLI::App& program);
-    /// After parsing. The exit code; throws BadInput and IoError.
+    /// Call after parsing. Returns the exit code; throws BadInput and IoError.
     int run() const;
 
   private:

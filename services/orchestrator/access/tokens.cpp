@@ -33,7 +33,7 @@ bool is_name(const std::string& text) {
            });
 }
 
-/// A hash tells nothing, but whoever may write here is admin, and names are nobody else's business.
+/// Hashes reveal no secret, but anyone who can write here becomes admin, and names are private.
 void need_private(const std::filesystem::path& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0)
@@ -79,7 +79,7 @@ Token token_from(const json& entry, const std::string& pointer, const std::strin
     return token;
 }
 
-/// Private from its first byte on; a file that was there before keeps its owner and mode.
+/// Private from the first byte on; an existing file keeps its owner and mode.
 void save(const std::vector<Token>& tokens, const std::filesystem::path& file) {
     struct stat before {};
     const bool existed = ::stat(file.c_str(), &before) == 0;

@@ -1,5 +1,5 @@
-// Named tokens with rights, and the file that stores them. It contains only the SHA-256 of the secrets,
-// which are 32 random bytes and cannot be guessed.
+// Named tokens with rights, and their file. It contains only the SHA-256 of the secrets, which are
+// 32 random bytes and cannot be guessed.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace breach::orchestrator {
 
-/// Each includes those before it. read: everything that GET answers. submit: also requests that compute
-/// or change a run. admin: also removal and protection from it.
+/// Each right includes those before it. read: all GET requests. submit: also requests that compute
+/// or change a run. admin: also removal and protection from removal.
 enum class Right { none, read, submit, admin };
 std::string_view name_of(Right right);
 /// Throws BadInput.
@@ -24,13 +24,12 @@ struct Token {
     bool operator==(const Token&) const = default;
 };
 
-/// The name in events for the token of --token-file.
 inline constexpr const char* single_token_name = "admin";
 
-/// Throws IoError (not there, or others on this machine may read or change it) and BadInput.
+/// Throws IoError (missing, or others on this machine may read or change it) and BadInput.
 std::vector<Token> read_tokens(const std::filesystem::path& file);
-/// Adds an entry, and creates the file if there is none (mode 0600); returns the secret, which is not
-/// stored anywhere. Throws as above; BadInput also when the name exists.
+/// Adds an entry, and creates the file if there is none (mode 0600). Returns the secret, which is
+/// not stored anywhere. Throws as above; BadInput also when the name exists.
 std::string add_token(const std::filesystem::path& file, const std::string& name, Right right);
 /// Throws as above; BadInput also when there is no such name.
 void remove_token(const std::filesystem::path& file, const std::string& name);

@@ -1,5 +1,5 @@
-// The table of an accuracy study as plain data: every rung with its value, error and cost; the
-// error of each ladder; the recommended setting. And the result of a blind check.
+// The table of an accuracy study as plain data (value, error and cost of each rung, error of each
+// ladder, recommended setting), and the result of a blind check.
 #pragma once
 
 #include <optional>
@@ -16,30 +16,30 @@ namespace breach::orchestrator {
 struct MeanOfDraws {
     std::size_t draws;
     double error;        ///< largest error in nine of ten cases; relative
-    double cpu_seconds;  ///< of all the repeats; those of points share a FEM
+    double cpu_seconds;  ///< sum over the repeats; repeats of points share one FEM
 };
 
 struct AccuracyRow {
     Setting setting;
     std::optional<double> size = {};
-    std::optional<statistics::Repeats> value = {};  ///< of the draws that have one
-    std::optional<Cost> cost = {};                  ///< mean over the draws; of memory the most
-    std::optional<double> error = {};  ///< of the mean of the draws, relative to the reference
-    /// Error from its own ladder: the difference from the finest rung as reference, plus the error
-    /// of that one
+    std::optional<statistics::Repeats> value = {};  ///< over the repeats that have a value
+    std::optional<Cost> cost = {};                  ///< mean over the repeats; the largest memory
+    std::optional<double> error = {};  ///< of the mean over the repeats, relative to the reference
+    /// Error on its own ladder: the difference from the reference; if that is the finest rung, plus
+    /// the error of the finest rung
     std::optional<statistics::Share> of_own_ladder = {};
-    /// Error of the base's rungs in the other ladders, together: shared by this row
+    /// Error of the base on the other ladders together, which this row shares
     double error_of_other_ladders = 0.0;
-    /// Of one run, relative: its own bias and that of the other ladders, and its scatter. The bias of
-    /// a reference rung is its ladder's error of the finest.
+    /// Relative error of one run: bias of its own and of the other ladders, plus scatter. The bias
+    /// of a reference rung is the error of the finest rung.
     std::optional<double> error_of_a_run = {};
-    std::optional<double> bias = {};  ///< the same without the scatter
-    /// Of the fewest repeats with a mean within the asked error; nothing: not even many suffice
+    std::optional<double> bias = {};  ///< error_of_a_run without the scatter
+    /// Fewest repeats whose mean is within the requested error; nothing: no allowed number suffices
     std::optional<MeanOfDraws> mean_within_asked = {};
-    bool is_reference = false;  ///< errors are measured from it: its own is not known
+    bool is_reference = false;  ///< errors are relative to it; its own error is unknown
     bool below_noise = false;   ///< the error does not exceed the noise of the repeats
-    bool questionable = false;  ///< a run of it has a flag that makes it unreliable
-    bool on_front = false;      ///< of error against CPU seconds
+    bool questionable = false;  ///< one of its runs has a flag that makes it unreliable
+    bool on_front = false;      ///< on the Pareto front of error and CPU seconds
     std::string reason = {};    ///< why a repeat has no value, or there is no error
 
     bool has_all_draws() const { return value && value->count == setting.variants.size(); }
@@ -48,13 +48,13 @@ struct AccuracyRow {
 struct LadderSummary {
     statistics::Convergence convergence;
     std::optional<double> reference;
-    bool reference_is_questionable = false;  ///< its rung carries such a flag
-    std::string message;                     ///< the course in a sentence
+    bool reference_is_questionable = false;  ///< the reference's rung is questionable
+    std::string message;                     ///< the convergence in a sentence
     /// Error of the rung that is the base; nothing: no rung is the base, or its error is unknown
     std::optional<statistics::Share> of_base;
-    /// Errors are relative to its finest rung, and the error of that one is unknown without sizes
+    /// Errors are relative to the finest rung, whose own error is unknown without sizes
     bool lacks_sizes = false;
-    bool base_lacks_sizes = false;  ///< such a ladder includes the base, too
+    bool base_lacks_sizes = false;  ///< a ladder without sizes that includes the base
 };
 
 struct AccuracyTable {
@@ -66,18 +66,18 @@ struct AccuracyTable {
     std::string recommendation;              ///< in a sentence
 };
 
-/// Its error is known and reliable: all its repeats have a value, and neither it nor its reference is
-/// questionable.
+/// Whether the row's error is known and reliable: all repeats have a value, and neither the row nor
+/// its reference is questionable.
 inline bool can_be_offered(const AccuracyTable& table, const AccuracyRow& row) {
     return row.error_of_a_run && row.cost && row.has_all_draws() && !row.questionable &&
            !table.ladders[row.setting.ladder].reference_is_questionable;
 }
 
 struct BlindMean {
-    std::vector<std::string> variants;  ///< one per draw
-    std::optional<double> value = {};   ///< nothing: a draw has none
+    std::vector<std::string> variants;  ///< one per repeat
+    std::optional<double> value = {};   ///< nothing: a repeat has none
     std::optional<double> error = {};   ///< relative to the reference
-    bool kept = false;                  ///< the error is at most the one that was asked for
+    bool kept = false;                  ///< the error is at most the requested one
     bool questionable = false;          ///< a repeat has a flag that makes it unreliable
     std::string reason = {};            ///< why there is no value
 };

@@ -26,7 +26,7 @@ std::string worst_reason(const std::vector<Measured>& draws) {
     return "";
 }
 
-/// Means over the draws that have a value.
+/// Means over the repeats that have a value.
 std::optional<Cost> mean_cost(const std::vector<Measured>& draws) {
     Cost mean;
     const auto n = static_cast<double>(
@@ -65,7 +65,7 @@ AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
     return row;
 }
 
-/// Rungs without a known size are taken as halved; what rests on that is then not told.
+/// Assumes halved sizes where they are unknown, and then leaves out results that depend on them.
 statistics::Convergence convergence_of_ladder(const std::vector<const AccuracyRow*>& rows) {
     std::vector<statistics::Rung> rungs;
     bool sized = true;
@@ -98,7 +98,6 @@ std::optional<double> reference_of(const Reference& reference,
     return finest.value ? std::optional(finest.value->mean) : std::nullopt;
 }
 
-/// The errors of a ladder's rows, or why they are not known.
 void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
                  const std::vector<AccuracyRow*>& rows) {
     for (AccuracyRow* row : rows) {
@@ -128,8 +127,8 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
     }
 }
 
-/// What a rung is off by what its own ladder says: with the finest rung as reference its difference
-/// from that, and what that one is off itself.
+/// Error of a rung on its own ladder: its difference from the reference; if that is the finest
+/// rung, plus the finest rung's own error.
 std::optional<statistics::Share> share_of(const AccuracyRow& row, const LadderSummary& ladder,
                                           ReferenceKind reference) {
     const std::optional<double>& of_finest = ladder.convergence.error_of_finest;
@@ -141,7 +140,7 @@ std::optional<statistics::Share> share_of(const AccuracyRow& row, const LadderSu
     return statistics::Share{*row.error + *of_finest, !row.below_noise || finest_is_told};
 }
 
-/// Whether the row's share of another ladder is not known for want of that ladder's sizes.
+/// Whether the error of the base on another ladder is unknown because that ladder has no sizes.
 bool rests_on_unsized(const AccuracyTable& table, AccuracyRow& row) {
     std::string names;
     for (std::size_t i = 0; i < table.ladders.size(); ++i)
@@ -152,8 +151,8 @@ bool rests_on_unsized(const AccuracyTable& table, AccuracyRow& row) {
     return true;
 }
 
-/// A row is off by its own ladder's error, and by what the base is off on the others: a number from
-/// elsewhere as reference has all of them in it.
+/// A row's error is its own ladder's error plus the base's error on the other ladders. A given
+/// reference includes them all.
 void tell_errors_of_runs(AccuracyTable& table) {
     const ReferenceKind reference = table.plan.reference.kind;
     const bool in_it = reference == ReferenceKind::given;
@@ -177,7 +176,7 @@ void tell_errors_of_runs(AccuracyTable& table) {
     }
 }
 
-/// Draws of the points share the FEM, which no lattice changes.
+/// Repeats of points share the FEM, because the lattice does not change it.
 MeanOfDraws mean_of(const AccuracyRow& row, Redrawn drawn, double reference, std::size_t draws) {
     const auto& by_phase = row.cost->cpu_seconds_by_phase;
     const auto fem = by_phase.find(phases::fem.program);
@@ -236,7 +235,7 @@ std::vector<json> softening_soils(const AccuracyPlan& plan, const json& study_sc
     return soils;
 }
 
-/// Softening without a length of its own goes on in one element or cell, however small it is.
+/// Softening without an internal length localises in one element or cell of any size.
 std::string softening_in_words(const AccuracyPlan& plan, const json& scene, const Ladder& ladder,
                                statistics::Course course) {
     const bool of_fem = plan.quantity.reach == Reach::fem || plan.quantity.reach == Reach::chain;

@@ -12,7 +12,7 @@
 namespace breach::orchestrator {
 
 /// Nothing: the run is no accuracy study, or does not exist.
-/// asked_error: instead of the study's own.
+/// asked_error: replaces the study's.
 std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder& data,
                                             const std::string& run,
                                             std::optional<double> asked_error = {});

@@ -43,7 +43,7 @@ const AccuracyRow& wanted_row(const AccuracyTable& table, const CheckRequest& re
            "GET .../accuracy lists ladders and steps");
 }
 
-/// What a mean over few draws is worth: as many as keep the asked error, or one.
+/// The requested number, else as many repeats as keep the requested error, else one.
 std::size_t draws_of_a_mean(const AccuracyRow& row, const CheckRequest& request) {
     if (request.mean_of) return *request.mean_of;
     return row.mean_within_asked ? row.mean_within_asked->draws : 1;

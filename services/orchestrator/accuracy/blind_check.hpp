@@ -1,6 +1,6 @@
-// Checks the error of an accuracy study with new repeats of a setting: a run whose study has the
-// entry "check" averages its repeats in order, so many at a time; each mean is within the asked
-// error of the reference or not.
+// Checks the error of an accuracy study with new repeats of a setting. A run whose study has the
+// entry "check" averages its repeats in groups; each mean is within the requested error of the
+// reference or not.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -17,9 +17,9 @@ constexpr std::size_t most_repeats_of_a_check = 100;
 
 /// The setting to check: a row of the table, and the number of its repeats in a mean.
 struct CheckRequest {
-    std::size_t repeats = 10;  ///< number of means; with mean_of as many draws as a study may have
+    std::size_t repeats = 10;  ///< number of means; a study limits repeats * mean_of
     std::optional<std::string> ladder = {};
-    std::optional<std::size_t> step = {};  ///< from 1; with the ladder: instead of the recommended
+    std::optional<std::size_t> step = {};  ///< from 1; nothing: the recommended setting
     std::optional<std::size_t> mean_of = {};
 };
 

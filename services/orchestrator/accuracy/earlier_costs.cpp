@@ -11,7 +11,7 @@ namespace breach::orchestrator {
 namespace {
 
 using estimate::Earlier;
-using Found = std::optional<Earlier>;  // none: the task says nothing
+using Found = std::optional<Earlier>;  // nothing: the task has no usable cost
 
 constexpr std::size_t newest_runs = 8, tasks_of_a_phase = 8;
 
@@ -42,7 +42,7 @@ std::vector<Earlier> read(const Store& store, const std::string& run) {
     for (const Task& task : store.computed_tasks_of(run, tasks_of_a_phase)) {
         try {
             if (const Found found = earlier_of(store, task, *run_scene)) earlier.push_back(*found);
-        } catch (const fault::BadInput&) {  // a scene of an earlier version
+        } catch (const fault::BadInput&) {  // a scene that this version refuses
         }
     }
     return earlier;

@@ -14,9 +14,9 @@ namespace breach::orchestrator {
 
 class EarlierCosts {
   public:
-    /// Of the newest runs, some tasks of each phase that succeeded by computing (not from the cache),
-    /// spread over their transfer times: soil that runs out costs ten times soil that stays. Cached: a
-    /// second call is fast.
+    /// Costs from the newest runs: tasks of each phase that succeeded by computing (not from the
+    /// cache), spread over the transfer times, because soil that runs out costs ten times soil that
+    /// stays. Cached.
     std::vector<estimate::Earlier> of(const Store& store);
 
   private:
@@ -27,7 +27,7 @@ class EarlierCosts {
         std::vector<estimate::Earlier> earlier;
     };
     std::mutex mutex_;
-    std::map<std::string, Known> runs_;  ///< ratios, and the number of tasks done then
+    std::map<std::string, Known> runs_;  ///< with the number of tasks done when they were read
 };
 
 }  // namespace breach::orchestrator

@@ -35,7 +35,7 @@ void add(Cost& cost, const Task& task) {
         cost.peak_memory_MB = std::max(cost.peak_memory_MB.value_or(0.0), *peak);
 }
 
-/// Why a task that should give the value has not.
+/// Why the last task of the chain has no value.
 std::string reason_of(const std::vector<const Task*>& chain) {
     for (const Task* each : chain)
         if (each->fault) return each->phase + ": " + each->fault->summary;
@@ -45,15 +45,14 @@ std::string reason_of(const std::vector<const Task*>& chain) {
 std::optional<double> value_measured(const Task& task, const Quantity& quantity,
                                      const DataFolder& data) {
     if (!quantity.time) return number_in(*task.result, quantity.pointer);
-    // A course of more lines than one answer holds is read on.
+    // A long telemetry comes in several parts.
     TelemetryRequest request{.fields = {"time", quantity.name}};
     for (;;) {
         const json part = read_telemetry(data.output(task) / phases::files::telemetry, request);
         if (const auto value = value_at(part.at("lines"), quantity.name, *quantity.time))
             return value;
         if (part.at("next") <= request.from + 1 || part.at("lines").empty()) return std::nullopt;
-        request.from =
-            part.at("next").get<std::int64_t>() - 1;  // the line before the gap once more
+        request.from = part.at("next").get<std::int64_t>() - 1;  // repeat the line before the gap
     }
 }
 

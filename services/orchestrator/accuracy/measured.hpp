@@ -31,8 +31,8 @@ struct Measured {
 std::map<std::string, Measured> measured_variants(const std::vector<Task>& tasks,
                                                   const Quantity& quantity, const DataFolder& data);
 
-/// The value of a field at a time, between two lines of telemetry linearly; nothing: the telemetry
-/// ends before or lacks the field. lines: objects with "time", ascending.
+/// Value of a field at a time, interpolated linearly between two lines of telemetry; nothing: the
+/// telemetry ends before or lacks the field. lines: objects with "time", ascending.
 std::optional<double> value_at(const nlohmann::json& lines, const std::string& field, double time);
 
 }  // namespace breach::orchestrator

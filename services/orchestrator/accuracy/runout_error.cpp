@@ -16,9 +16,10 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_studies = 20;  // the newest are asked
-/// Standard deviation of a runout over lattices of points where no draws tell it: about what
-/// docs/verification/accuracy.md has of short runouts (up to 0.5 of a cell) and of long ones (1.2 to 1.5 %).
+constexpr std::size_t most_studies = 20;  // only the newest
+/// Standard deviation of a runout over lattices of points without measured repeats: about the
+/// values in docs/verification/accuracy.md for short runouts (up to 0.5 cells) and long ones (1.2
+/// to 1.5 %).
 constexpr double scatter_in_cells = 0.5;
 constexpr double scatter_of_runout = 0.015;
 constexpr const char* noise_of_points =
@@ -28,19 +29,19 @@ constexpr const char* noise_of_fem =
 
 struct Estimate {
     std::optional<double> error;      ///< [m]
-    std::string from;                 ///< what tells it, or why nothing does
+    std::string from;                 ///< its source, or why there is none
     std::optional<double> bias = {};  ///< the same without scatter [m]
 };
 
-/// Recipes of the three phases; of the FEM without the times of its snapshots. Of points that fill
-/// the section that of the MPM alone.
+/// Recipes of the three phases; the FEM's without the times of its snapshots. If points fill the
+/// section, only the MPM's.
 using Question = std::tuple<std::string, std::string, std::string>;
 
 class Questions {
   public:
     explicit Questions(const Store& store) : store_(store) {}
 
-    /// Of a task of the MPM; nothing: a phase of its chain has no recipe.
+    /// For a task of the MPM; nothing: a phase of its chain has no recipe.
     std::optional<Question> of(const Task& mpm, const Task& transfer, const Task& fem) {
         if (!mpm.recipe || !transfer.recipe || !fem.recipe) return std::nullopt;
         auto known = fems_.find(*fem.recipe);
@@ -87,7 +88,7 @@ Estimate estimate_of(const AccuracyTable& table, const AccuracyRow& row, const s
             *row.bias * reference};
 }
 
-/// A rung of several ladders: the largest of their errors.
+/// If several ladders share the rung, the largest of their errors.
 Estimate estimate_of(const AccuracyTable& table, const std::string& variant,
                      const std::string& run) {
     Estimate found{std::nullopt, "accuracy study " + run + " does not tell it"};
@@ -100,8 +101,8 @@ Estimate estimate_of(const AccuracyTable& table, const std::string& variant,
     return found;
 }
 
-/// Rungs of the accuracy studies that there are, by the recipe of their MPM. What else was asked of
-/// the phases is looked up only where that is equal.
+/// Rungs of the accuracy studies, by the recipe of their MPM. The recipes of the other phases are
+/// looked up only where that is equal.
 class Studies {
   public:
     Studies(const Store& store, const DataFolder& data)
@@ -148,11 +149,11 @@ class Studies {
     const Store& store_;
     const DataFolder& data_;
     Questions questions_;
-    std::multimap<std::string, AccuracyRung> rungs_;  ///< those of a newer study first
+    std::multimap<std::string, AccuracyRung> rungs_;  ///< newer studies first
     std::map<std::string, std::optional<AccuracyTable>> tables_;
 };
 
-/// A variant at a transfer time; of a static scene there is none.
+/// A variant at a transfer time; a static scene has no time.
 using Place = std::pair<std::string, std::optional<double>>;
 
 Place place_at(const std::string& variant, const json& transfer_time) {
@@ -160,7 +161,7 @@ Place place_at(const std::string& variant, const json& transfer_time) {
             transfer_time.is_number() ? std::optional<double>(transfer_time) : std::nullopt};
 }
 
-/// The draws of each variant at each transfer time.
+/// The repeats of each variant at each transfer time.
 class Scatter {
   public:
     Scatter(const Store& store, const std::string& run, const AllRows& all_rows) {
@@ -184,7 +185,7 @@ class Scatter {
             "scatter of " + std::to_string(found->second.size()) + " repeats: " + noise_};
     }
 
-    /// What the scatter leaves of the mean of a place's draws.
+    /// The error that scatter leaves in the mean over the repeats at a place.
     Estimate of_mean(const Place& place) const {
         const auto found = runouts_.find(place);
         if (found == runouts_.end() || found->second.size() < 2)
@@ -194,7 +195,7 @@ class Scatter {
                     " repeats, Student's 90 %: " + noise_};
     }
 
-    /// Root mean square of what the draws scatter by over all places; nothing: none has two.
+    /// Root mean square of the repeats' scatter over all places; nothing: none has two repeats.
     std::optional<double> everywhere() const {
         double sum = 0.0, places = 0.0;
         for (const auto& [place, runouts] : runouts_) {
@@ -205,7 +206,7 @@ class Scatter {
         return places > 0.0 ? std::optional(std::sqrt(sum / places)) : std::nullopt;
     }
 
-    /// The MPM's task of a draw that has a runout; nothing: none has.
+    /// The MPM task of a repeat that has a runout; nothing: none has.
     std::optional<std::string> task_of(const Place& place) const {
         const auto found = tasks_.find(place);
         return found == tasks_.end() ? std::nullopt : std::optional(found->second);
@@ -225,7 +226,7 @@ class Scatter {
     std::map<Place, std::string> tasks_;
 };
 
-/// What the runouts of a variant scatter by over the transfer time.
+/// Scatter of a variant's runouts over the transfer time.
 class OverTransferTime {
   public:
     explicit OverTransferTime(const std::vector<ResultRow>& rows) {
@@ -257,7 +258,7 @@ class OverTransferTime {
     std::map<Place, double> scatter_;
 };
 
-/// Size of a runout's cells [m]; nothing: its recipe is not known.
+/// Cell size of a runout [m]; nothing: its recipe is unknown.
 std::optional<double> cell_size_of(const Store& store, const ResultRow& row) {
     const auto task = store.task(value_of(row, "mpm_task").get<std::string>());
     const auto recipe = task && task->recipe ? store.recipe(*task->recipe) : std::nullopt;
@@ -267,8 +268,8 @@ std::optional<double> cell_size_of(const Store& store, const ResultRow& row) {
     return part.contains(at) ? std::optional(part.at(at).get<double>()) : std::nullopt;
 }
 
-/// Runouts at neighbouring transfer times begin from nearly equal points on one lattice: what they
-/// scatter by shrinks with the step between the times, and says nothing of other lattices.
+/// Runouts at neighbouring transfer times begin with nearly equal points on one lattice. Their
+/// scatter shrinks with the spacing of the times, and does not include other lattices.
 Estimate at_least_lattices(Estimate beside, double runout, const std::optional<double>& draws,
                            const std::optional<double>& cell) {
     const double usual =
@@ -284,7 +285,7 @@ Estimate at_least_lattices(Estimate beside, double runout, const std::optional<d
                        " m only: noise, not the error of the setting or of the FEM"};
 }
 
-/// Bias by an accuracy study and scatter by the draws themselves.
+/// Bias from an accuracy study, scatter from the repeats.
 Estimate of_mean(const std::optional<Estimate>& studied, Estimate scatter) {
     if (!studied || !studied->bias || !scatter.error) return scatter;
     return {*studied->bias + *scatter.error, "bias by " + studied->from + "; " + scatter.from};

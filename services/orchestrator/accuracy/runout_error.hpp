@@ -1,6 +1,6 @@
 // Error of a runout of any sweep, if known from an accuracy study of the same scene at the same
-// setting, from the sweep's own repeats, or from its neighbours in transfer time. Else nothing, with
-// the reason.
+// setting, from the sweep's own repeats, or from its neighbours in transfer time. Otherwise the
+// reason.
 #pragma once
 
 #include <functional>

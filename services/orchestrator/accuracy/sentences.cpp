@@ -24,7 +24,7 @@ std::string with_unit(double value, const Quantity& quantity) {
     return shown(value) + (quantity.unit == "1" ? "" : " " + quantity.unit);
 }
 
-/// Empty: every run of the quantity gives the same.
+/// Empty: repeats of the quantity do not scatter.
 std::string what_tells_the_noise(const AccuracyPlan& plan) {
     if (can_redraw(Redrawn::points, plan.quantity.reach)) return "set \"draws\" to measure it";
     return can_redraw(Redrawn::fem, plan.quantity.reach)
@@ -39,7 +39,7 @@ std::string noise_in_words(const statistics::Convergence& convergence, const Acc
     return remedy.empty() ? "" : "; the noise of one run is not known, " + remedy;
 }
 
-/// Where the noise leaves the order open: what else it could be, and what would tell it.
+/// Where the noise leaves the order uncertain: its range, and how to narrow it.
 std::string order_in_words(const statistics::Convergence& convergence) {
     std::string words = "order " + shown(*convergence.order, "%.2g");
     if (!convergence.order_by_noise) return words;
@@ -56,7 +56,7 @@ std::string setting_in_words(const AccuracyTable& table, const AccuracyRow& row)
     return words;
 }
 
-/// Ladders whose error at the base is not known, so that no row of another has it.
+/// Ladders whose error of the base is unknown, so that the other ladders' rows lack it.
 std::string left_out(const AccuracyTable& table, const AccuracyRow& row) {
     if (table.plan.reference.kind == ReferenceKind::given) return "";
     std::string names;
@@ -79,7 +79,7 @@ std::string run_in_words(const AccuracyTable& table, const AccuracyRow& row) {
            cost_in_words(row.cost->cpu_seconds);
 }
 
-/// What a run of the row is off, ladder by ladder, where it is worth telling.
+/// Contributions of the ladders to the error of a run, without small ones.
 std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     if (table.plan.reference.kind == ReferenceKind::given) return "";
     constexpr double told = 0.05;  // of the whole
@@ -96,14 +96,14 @@ std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     return words.empty() ? "" : words + ".";
 }
 
-/// What the mean of as many draws as are ever averaged is off.
+/// Error of the mean over the largest number of repeats that a mean may have.
 double error_of_means(const AccuracyTable& table, const AccuracyRow& row) {
     return statistics::promised_error(*row.bias, *row.value,
                                       *table.ladders[row.setting.ladder].reference,
                                       statistics::most_draws_of_a_mean);
 }
 
-/// The row whose means come nearest to what is asked; nothing: none can be offered.
+/// The row whose means come nearest to the requested error; nothing: none can be recommended.
 const AccuracyRow* nearest(const AccuracyTable& table) {
     const AccuracyRow* best = nullptr;
     for (const AccuracyRow& each : table.rows) {
@@ -114,7 +114,7 @@ const AccuracyRow* nearest(const AccuracyTable& table) {
     return best;
 }
 
-/// Ladders that tell nothing for want of their sizes.
+/// Ladders without an error because their sizes are missing.
 std::string sizes_to_give(const AccuracyTable& table) {
     std::string names;
     for (std::size_t i = 0; i < table.ladders.size(); ++i)

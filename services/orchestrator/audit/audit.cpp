@@ -24,7 +24,7 @@ class Auditor {
   public:
     Auditor(const DataPaths& data, Look look, bool in_service)
         : data_(data), look_(look), database_(data.database(), Access::read_only) {
-        database_.script("BEGIN");  // one state, although a service may write meanwhile
+        database_.script("BEGIN");  // one consistent state while a service writes
         audit_.in_service = in_service;
         audit_.version = version_of(database_);
     }

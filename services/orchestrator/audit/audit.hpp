@@ -29,7 +29,7 @@ struct Audit {
     std::int64_t outputs = 0;  ///< outputs of ended tasks
     std::int64_t files = 0;    ///< files that were sent
     bool in_service =
-        false;  ///< a service has the folder: what is younger than a minute is skipped
+        false;  ///< a service uses the folder: stray files younger than a minute are skipped
     std::vector<Finding> findings;
 };
 

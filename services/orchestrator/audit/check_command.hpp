@@ -13,7 +13,6 @@ struct CheckOptions {
     bool sizes = false;
     bool json = false;
 
-    /// Adds the subcommand.
     CLI::App* add_to(CLI::App& program);
 };
 

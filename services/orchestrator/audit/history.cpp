@@ -25,7 +25,7 @@ void History::take(const Event& event) {
     try {
         if (event.kind == "task") take_task_move(event);
         if (event.kind == "attempt") take_attempt_move(event);
-    } catch (const std::exception& error) {  // no such word, no such entry
+    } catch (const std::exception& error) {  // unknown word or missing entry
         complain(event, error.what());
     }
 }

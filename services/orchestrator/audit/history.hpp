@@ -13,12 +13,12 @@ namespace breach::orchestrator {
 
 class History {
   public:
-    /// In the order of their numbers.
+    /// Call in the order of the events' numbers.
     void take(const Event& event);
 
-    /// The task's state by the log; none: it has not moved.
+    /// The task's state according to the log; nothing: it has not moved.
     std::optional<TaskState> state_of(const std::string& task) const;
-    /// Violations of these rules, a sentence each.
+    /// Violations of these rules, one sentence each.
     const std::vector<std::string>& violations() const { return violations_; }
 
   private:

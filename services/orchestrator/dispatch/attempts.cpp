@@ -45,8 +45,8 @@ void Attempts::adopt() {
     }
 }
 
-/// Where the files of an attempt cannot be read, its progress gives the reason, the others go on, and
-/// it is observed again in the next round.
+/// If the files of an attempt cannot be read, its progress shows the reason, the others continue,
+/// and it is observed again in the next round.
 void Attempts::look() {
     const std::vector<int> changed = watch_.changes();
     stop_cancelled();
@@ -117,7 +117,7 @@ void Attempts::start(const std::vector<Task>& tasks) {
 
 LiveAttempt& Attempts::attach(const Task& task, std::int64_t number) {
     const AttemptFolder folder = data_.attempt(task, number);
-    std::error_code error;  // a folder that cannot be made shows when the attempt is started
+    std::error_code error;  // a missing folder shows when the attempt starts
     std::filesystem::create_directories(folder.root, error);
     std::filesystem::create_directories(data_.output(task), error);
     live_.push_back({.task = task,
@@ -129,7 +129,7 @@ LiveAttempt& Attempts::attach(const Task& task, std::int64_t number) {
     return live_.back();
 }
 
-/// False: it cannot be started, which is noted.
+/// False: the attempt cannot be started; stores why.
 bool Attempts::hand_over(LiveAttempt& live) {
     try {
         lay_out_scene(store_, data_, live.task.run);
@@ -187,7 +187,7 @@ void Attempts::observe(LiveAttempt& live) {
     }
 }
 
-/// Whole lines only: a torn last line is read when it is whole.
+/// Whole lines only: an incomplete last line is read later.
 void Attempts::read_lines(LiveAttempt& live) {
     std::ifstream stream(live.folder.lines(), std::ios::binary);
     if (!stream) return;
@@ -204,7 +204,7 @@ void Attempts::read_lines(LiveAttempt& live) {
     }
 }
 
-/// Once.
+/// Stores the event once.
 void Attempts::note(LiveAttempt& live, AttemptEvent event, bool LiveAttempt::*noted) {
     if (live.*noted) return;
     store_.write([&](Transaction& transaction) {
@@ -213,7 +213,7 @@ void Attempts::note(LiveAttempt& live, AttemptEvent event, bool LiveAttempt::*no
     live.*noted = true;
 }
 
-/// Of those that run, in one commit.
+/// Notes the starts of all running attempts in one commit.
 void Attempts::note_starts(const std::vector<LiveAttempt*>& started) {
     if (started.empty()) return;
     store_.write([&](Transaction& transaction) {
@@ -266,7 +266,7 @@ void Attempts::note_exit(LiveAttempt& live) {
 
 void Attempts::note_loss(LiveAttempt& live, const std::string& why) {
     const std::string& task = live.task.id;
-    AttemptEnd end;  // it cost what it had used when it was last heard of
+    AttemptEnd end;  // cost according to the last heartbeat
     if (const auto beat = read_heartbeat(live.folder)) end.cpu_seconds = beat->cpu_seconds;
     executor_.clear_away(live.folder, attempt_id(task, live.number));
     store_.write([&](Transaction& transaction) {
@@ -294,7 +294,7 @@ void Attempts::retry_or_give_up(Transaction& transaction, const LiveAttempt& liv
                                    {{"summary", fault.summary}, {"tries", tries}});
 }
 
-/// The attempt is over; its task is, unless it is tried again.
+/// The attempt is over; its task too, unless it is retried.
 void Attempts::settle(LiveAttempt& live) {
     live.over = true;
     const auto now = store_.task(live.task.id);

@@ -1,6 +1,5 @@
-// The attempts that may have a process: starts, watches, retries, stops and settles them. Every
-// decision is stored before it is acted upon, so that a restart only has to look at the store and at
-// the running processes.
+// The attempts that may have a process: starts, watches, retries, stops and settles them. Stores
+// every decision before it acts, so that a restart only needs the store and the running processes.
 #pragma once
 
 #include <chrono>
@@ -17,7 +16,8 @@ namespace breach::orchestrator {
 
 class Attempts {
   public:
-    /// settings: must outlive it. over: called with each task that has ended, for its outputs.
+    /// settings: must outlive this object. over: called with each task that is final or finalizing,
+    /// to handle its outputs.
     Attempts(Store& store, const DataFolder& data, Executor& executor, ProgressBoard& board,
              const DispatchSettings& settings, std::function<void(const Task&)> over)
         : store_(store),
@@ -31,13 +31,13 @@ class Attempts {
     void adopt();
     /// One commit before the processes are started and one after, for all of them.
     void start(const std::vector<Task>& tasks);
-    /// Looks at attempts with changed folders, and once a second at all.
+    /// Checks attempts whose folders changed; once a second, all attempts.
     void look();
-    /// Asks all to end because the service stops.
+    /// Asks all attempts to end, because the service stops.
     void stop_all();
 
     bool empty() const { return live_.empty(); }
-    /// The capacity left beside them.
+    /// Free capacity.
     Capacity capacity() const;
     /// Readable when one of their folders has changed.
     int descriptor() const { return watch_.descriptor(); }

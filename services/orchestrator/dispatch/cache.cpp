@@ -51,7 +51,7 @@ void Cache::serve(const Task& task) {
     try {
         look_up(task, found);
     } catch (const std::exception& error) {
-        spdlog::error("cache: {}: {}", task.id, error.what());  // the task simply runs
+        spdlog::error("cache: {}: {}", task.id, error.what());  // the task runs instead
     }
     examined_(std::move(found));
 }
@@ -67,7 +67,7 @@ void Cache::look_up(const Task& task, LookedUp& found) {
     for (const Task& earlier : answers) {
         const auto damage = damage_to(earlier);
         if (damage) {
-            if (store_.task(earlier.id)) refusal = damage;  // else its run was removed meanwhile
+            if (store_.task(earlier.id)) refusal = damage;  // else its run was removed
             continue;
         }
         if (!take(earlier, task)) continue;
@@ -81,8 +81,8 @@ void Cache::look_up(const Task& task, LookedUp& found) {
         [&](Transaction& transaction) { transaction.note_cache_refusal(task.id, *refusal); });
 }
 
-/// The run of `earlier` can be removed at any moment: what was placed counts only when the store, in
-/// the same transaction, still had it.
+/// The run of `earlier` may be removed at any moment: the placed files count only if the store
+/// still had it in the same transaction.
 bool Cache::take(const Task& earlier, const Task& task) const {
     bool taken = false;
     try {
@@ -91,14 +91,14 @@ bool Cache::take(const Task& earlier, const Task& task) const {
         store_.write(
             [&](Transaction& transaction) { taken = transaction.reuse_task(task.id, earlier); });
     } catch (const std::exception&) {
-        // Not known to be stored is not known not to be: the disk may have refused only the answer.
+        // After an error the commit may have succeeded all the same: ask the store.
         const auto now = store_.task(task.id);
         if (now && now->state == TaskState::ready) drop_placed_outputs(data_, task);
-        if (!store_.task(earlier.id)) return false;  // its files went while they were linked
+        if (!store_.task(earlier.id)) return false;  // its files vanished while they were linked
         throw;
     }
     if (taken) {
-        std::error_code error;  // what stays there is looked at only before a first attempt
+        std::error_code error;  // a leftover is checked only before a first attempt
         fs::remove(data_.reused(task), error);
     } else {
         drop_placed_outputs(data_, task);
@@ -116,10 +116,10 @@ std::optional<std::string> Cache::damage_to(const Task& earlier) const {
 
 void Cache::place_outputs(const Task& earlier, const Task& task) const {
     const fs::path folder = data_.output(task);
-    // A task that broke down can be tried again, which writes into its files.
+    // A retry of a broken-down task writes into its files, so they cannot be shared.
     const bool may_be_written_to = earlier.state == TaskState::failed;
     fs::create_directories(folder);
-    drop_placed_outputs(data_, task);  // of a service that was killed: another candidate's
+    drop_placed_outputs(data_, task);  // leftovers of a killed service, from another candidate
     const std::vector<Artifact> artifacts = store_.artifacts_of(earlier.id);
     json names = json::array();
     for (const Artifact& each : artifacts) names.push_back(each.name);
@@ -131,7 +131,7 @@ void Cache::place_outputs(const Task& earlier, const Task& task) const {
         fs::remove(to);
         std::error_code error;
         if (!may_be_written_to) fs::create_hard_link(from, to, error);
-        if (may_be_written_to || error) fs::copy_file(from, to);  // error: no links there
+        if (may_be_written_to || error) fs::copy_file(from, to);  // error: the disk has no links
         sync_folder(to.parent_path());
     }
 }

@@ -1,8 +1,8 @@
-// The cache: a ready task takes the result of an equal earlier task instead of running. Equal tasks have the
-// same recipe and the same SHA-256 of the input file; the result is the output of a task that succeeded (a FEM
-// whose mesh entangled did), or its breakdown (exit code 70). Every file of the result is hashed again before
-// it is served: a missing or altered one is refused, and the task runs. A thread of its own searches and
-// hashes.
+// The cache: a ready task takes the result of an equal earlier task instead of running. Equal tasks
+// have the same recipe and the same SHA-256 of the input file. The result is the output of a task
+// that succeeded (including a FEM whose mesh entangled), or its breakdown (exit code 70). Every
+// file is hashed again before reuse; if one is missing or altered, the task runs. A separate thread
+// searches and hashes.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,6 @@ namespace breach::orchestrator {
 /// between: a task must not write into them, as they may be links to another run's.
 void drop_placed_outputs(const DataFolder& data, const Task& task);
 
-/// Result of one look-up.
 struct LookedUp {
     std::string task;
     std::string input_sha256;

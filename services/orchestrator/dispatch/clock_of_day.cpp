@@ -6,7 +6,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr auto least_setting = std::chrono::seconds(1);  // less is a clock that is kept right
+constexpr auto least_setting = std::chrono::seconds(1);  // smaller steps are normal corrections
 
 template <class Clock>
 milliseconds reading_of() {

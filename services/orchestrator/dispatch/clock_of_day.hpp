@@ -1,4 +1,4 @@
-// The machine's clock of the day, which may be set while the service runs.
+// The wall clock of the machine, which someone may set while the service runs.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,8 @@
 
 namespace breach::orchestrator {
 
-/// Both clocks at one moment. Use one reading per moment: between two readings the clock may be set.
+/// Both clocks at one moment. Use one reading per moment: the clock may be set between two
+/// readings.
 struct ClockReading {
     std::chrono::milliseconds of_day;  ///< since 1970
     std::chrono::milliseconds monotonic;
@@ -20,13 +21,13 @@ class ClockOfDay {
     explicit ClockOfDay(ClockReading now = ClockReading::now())
         : ahead_(now.of_day - now.monotonic), true_since_(now.of_day) {}
 
-    /// [s] since that moment [ms since 1970]. Nothing: the clock was set after it, so that the difference is no duration; or it is
-    /// before this object was made, when the clock was not watched.
+    /// Seconds since that moment [ms since 1970]. Nothing: the clock was set since then, or the
+    /// moment is before this object existed, when nobody watched the clock.
     std::optional<double> seconds_since(std::int64_t moment,
                                         ClockReading now = ClockReading::now());
 
   private:
-    std::chrono::milliseconds ahead_;  ///< of the monotonic clock
+    std::chrono::milliseconds ahead_;  ///< wall clock minus monotonic clock
     std::chrono::milliseconds true_since_;
 };
 

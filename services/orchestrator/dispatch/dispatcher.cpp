@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
-constexpr auto shortest_round = std::chrono::milliseconds(5);  // changes come in crowds
+constexpr auto shortest_round = std::chrono::milliseconds(5);  // changes come in bursts
 
 }  // namespace
 
@@ -61,9 +61,8 @@ void Dispatcher::serve(const std::stop_token& stop) {
             start_ready_tasks();
             wait_for_something();
         } catch (const std::exception& error) {
-            // A full disk or the like: nothing was half-stored, but what was stored may not have
-            // been acted upon, nor noted in memory. So look again as after a start, when it may be
-            // better.
+            // For example a full disk: the store is consistent, but stored changes may not have
+            // been acted upon. Reconcile again, as after a start.
             spdlog::error("dispatcher: {}", error.what());
             reconciled = false;
             std::this_thread::sleep_for(pause_after_trouble);
@@ -76,16 +75,16 @@ void Dispatcher::serve(const std::stop_token& stop) {
     }
 }
 
-/// What the store says was going on, held against what is; after a start, and after trouble.
+/// Compares the store with the processes that exist; after a start, and after an error.
 void Dispatcher::reconcile(const std::stop_token& stop) {
     attempts_.adopt();
-    registered_.take();  // all parents are looked at below
+    registered_.take();  // all parents are checked below
     constexpr auto all = static_cast<std::size_t>(1) << 30;
     for (Task& task : store_.tasks_in(TaskState::finalizing, all)) registrar_.add(std::move(task));
     settle_all_children(store_, data_, stop);
 }
 
-/// What is not got through, because an exception ends it, is got through by the next reconciling.
+/// If an exception interrupts it, the next reconciliation does the rest.
 void Dispatcher::look_around(const std::stop_token& stop) {
     for (const std::string& task : registered_.take()) settle_children(store_, data_, task);
     for (const std::string& task : ready_.answered()) settle_children(store_, data_, task);

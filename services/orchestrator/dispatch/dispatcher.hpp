@@ -22,14 +22,14 @@ class Dispatcher {
     Dispatcher(const Dispatcher&) = delete;
     Dispatcher& operator=(const Dispatcher&) = delete;
 
-    /// Stops the running attempts with their checkpoints saved; the next start continues them.
+    /// Stops the running attempts after they saved checkpoints; the next start continues them.
     void stop();
     /// Starts a new round: a run was submitted or cancelled.
     void wake();
-    /// Checks every blocked task again: some were set back.
+    /// Checks every blocked task again, after an order or new tasks.
     void settle_all();
     const DispatchSettings& settings() const { return settings_; }
-    /// The executor's queue; nothing: it has none of its own.
+    /// The executor's queue; nothing: it has none.
     std::optional<std::vector<QueuedJob>> jobs() const { return executor_.jobs(); }
     const Histogram& queue_wait() const { return attempts_.queue_wait(); }
     const Histogram& snapshot_to_start() const { return attempts_.snapshot_to_start(); }
@@ -47,7 +47,7 @@ class Dispatcher {
     Executor& executor_;
     DispatchSettings settings_;
     Notifier notifier_;                // before those whose threads notify it: destroyed after them
-    Mailbox<std::string> registered_;  ///< tasks that the registrar has finished with
+    Mailbox<std::string> registered_;  ///< tasks that the registrar has handled
     Registrar registrar_;
     Attempts attempts_;
     ReadyTasks ready_;

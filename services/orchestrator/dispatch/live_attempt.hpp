@@ -16,18 +16,18 @@ struct LiveAttempt {
     int attempt_watch;
     int output_watch;
     std::streamoff lines_read = 0;
-    bool submission_noted = false;  ///< stored in the attempt's row that the executor took it
-    bool start_noted = false;       ///< stored in the task's row that it has a process
+    bool submission_noted = false;  ///< the attempt's row says that the executor took it
+    bool start_noted = false;       ///< the task's row says that it has a process
     bool begun = false;
     bool outputs_changed = true;  ///< a new file may release a child
     bool asked_to_stop = false;
     bool over = false;
 };
 
-/// A checkpoint that was refused (damaged, or of an earlier version) is not tried twice.
+/// A refused checkpoint (damaged, or of another version) is not tried twice.
 bool may_resume(const Store& store, const std::string& task, std::int64_t number);
 
-/// Writes the run's scene, and beside it the files that it names by their content.
+/// Writes the run's scene, and beside it links to the uploaded files that it names.
 void lay_out_scene(const Store& store, const DataFolder& data, const std::string& run);
 
 Order order_for(const LiveAttempt& live, const Store& store, const DataFolder& data,

@@ -10,7 +10,7 @@
 
 namespace breach::orchestrator {
 
-/// Wakes the dispatcher's thread out of its poll; any thread may call it.
+/// Wakes the dispatcher's thread from its poll; callable from any thread.
 class Notifier {
   public:
     Notifier() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}

@@ -23,7 +23,7 @@ class ProgressBoard {
 
   private:
     mutable std::mutex mutex_;
-    std::map<std::string, Progress> tasks_;  ///< by task id; ids of a run lie side by side
+    std::map<std::string, Progress> tasks_;  ///< by task id; the ids of a run are adjacent
 };
 
 }  // namespace breach::orchestrator

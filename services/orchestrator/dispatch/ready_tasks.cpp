@@ -11,7 +11,7 @@ ReadyTasks::ReadyTasks(Store& store, const DataFolder& data, const Notifier& not
       cache_(store, data, [this](LookedUp found) { looked_up_.put(std::move(found)); }) {}
 
 std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
-    constexpr std::size_t look_ahead = 8;  // the cache needs no slot
+    constexpr std::size_t look_ahead = 8;  // for the cache, which needs no slot
     std::vector<Task> chosen;
     bool held_back = false;
     const std::size_t most =
@@ -24,7 +24,7 @@ std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
             ++wait_for_equals_;
             continue;
         }
-        if (leave_to_the_cache(task)) continue;  // an equal one may just have ended
+        if (leave_to_the_cache(task)) continue;  // an equal task may have just ended
         held_back = !capacity.has_room_for(task);
         if (held_back) continue;
         capacity.take(task);
@@ -36,7 +36,7 @@ std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
 
 bool ReadyTasks::leave_to_the_cache(const Task& task) {
     if (in_the_cache_.contains(task.id)) return true;
-    if (!task.recipe) return false;  // a breakdown that is tried again has lost it
+    if (!task.recipe) return false;  // a retried breakdown has no recipe
     const auto looked_up = not_cached_.find(task.id);
     const bool asks = looked_up == not_cached_.end()
                           ? cache_.may_answer(task)
@@ -47,15 +47,14 @@ bool ReadyTasks::leave_to_the_cache(const Task& task) {
     return true;
 }
 
-/// What is being computed now, for another run or another variant, is not computed a second time
-/// beside it.
+/// Never computes the same task twice at the same time for different runs or variants.
 bool ReadyTasks::waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const {
     const auto may_be_equal = [&](const Task& other) {
         const bool same_input = other.parent == task.parent && other.input == task.input;
         return task.recipe && other.recipe == task.recipe && (other.run != task.run || same_input);
     };
     if (std::ranges::any_of(chosen, may_be_equal)) {
-        notifier_.notify();  // once that has been started the store knows
+        notifier_.notify();  // check again once the store knows its start
         return true;
     }
     return store_.equal_in_flight(task).has_value();

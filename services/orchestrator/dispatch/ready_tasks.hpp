@@ -1,5 +1,5 @@
-// Selects the ready tasks to start now: those that fit, and that neither the cache nor an equal task
-// in progress will answer.
+// Selects the ready tasks to start now: those that fit, without those that the cache or an equal
+// task in progress will answer.
 #pragma once
 
 #include <set>
@@ -15,10 +15,10 @@ class ReadyTasks {
     /// notifier: notified when the cache has looked a task up.
     ReadyTasks(Store& store, const DataFolder& data, const Notifier& notifier);
 
-    /// In order of priority and age; the first that does not fit holds back those behind it, so that
-    /// small tasks cannot keep a large one waiting permanently.
+    /// In order of priority and age. The first task that does not fit holds back those behind it,
+    /// so that small tasks cannot keep a large one waiting permanently.
     std::vector<Task> to_start(Capacity capacity);
-    /// Tasks that the cache has answered since the last call, or that were moved on meanwhile.
+    /// Tasks that the cache looked up since the last call and that are no longer ready.
     std::vector<std::string> answered();
 
   private:
@@ -27,10 +27,10 @@ class ReadyTasks {
 
     Store& store_;
     const Notifier& notifier_;
-    Mailbox<LookedUp> looked_up_;                 ///< what the cache has finished with
-    std::set<std::string> in_the_cache_;          ///< tasks that it looks up now
+    Mailbox<LookedUp> looked_up_;                 ///< finished look-ups of the cache
+    std::set<std::string> in_the_cache_;          ///< tasks that the cache is looking up
     std::map<std::string, LookedUp> not_cached_;  ///< tasks without an earlier result
-    std::size_t wait_for_equals_ = 0;             ///< in the last round
+    std::size_t wait_for_equals_ = 0;             ///< number of tasks, in the last round
     Cache cache_;                                 // last: its thread stops before what it uses
 };
 

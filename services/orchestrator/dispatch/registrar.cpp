@@ -30,7 +30,7 @@ std::vector<Artifact> hashed_outputs(const Task& task, const std::filesystem::pa
     return found;
 }
 
-/// The facts of result.json; its plan and provenance stay in the file.
+/// The facts of result.json, without plan and provenance.
 json facts_of(const std::filesystem::path& file) {
     std::ifstream stream(file);
     json result = json::parse(stream);
@@ -55,7 +55,7 @@ Handled Registrar::serve(const Task& task) {
     try {
         finalize(task);
     } catch (const std::exception& error) {
-        // The next time it goes by what the store says by then.
+        // The next try uses the state of the store at that time.
         spdlog::error("{}: {}; trying again", task.id, error.what());
         return Handled::again_later;
     }
@@ -63,13 +63,13 @@ Handled Registrar::serve(const Task& task) {
     return Handled::done;
 }
 
-/// What the task read; the key of the cache needs it. Empty: it reads no file.
+/// The hash of the task's input file, part of the cache's key. Empty: no input file.
 std::string Registrar::input_sha256(const Task& task) const {
     if (task.input.empty()) return {};
     return exchange::sha256_of_file(data_.input(task, store_.task(*task.parent).value()));
 }
 
-/// The outputs of a task that failed or was stopped can be looked at, too.
+/// Registers the outputs of failed and stopped tasks as well.
 void Registrar::keep_remains(const Task& task) {
     std::vector<Artifact> artifacts;
     std::string input;
@@ -89,7 +89,7 @@ void Registrar::finalize(const Task& task) {
     if (!now) return;  // its run was removed
     const TaskState state = now->state;
     if (state == TaskState::failed || state == TaskState::cancelled) return keep_remains(task);
-    if (state != TaskState::finalizing) return;  // handed in twice, or tried again meanwhile
+    if (state != TaskState::finalizing) return;  // handed in twice, or retried
     const std::filesystem::path output = data_.output(task);
     json result;
     std::vector<Artifact> artifacts;

@@ -11,8 +11,8 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// Why a child's time was not reached; nothing: the parent did not end regularly before it.
-/// A FEM whose mesh entangles has done its work, and so has a run without what lies beyond.
+/// Why the FEM never reached the child's time; nothing: it did not end regularly before. A FEM
+/// whose mesh entangles has succeeded, and so has a run without the later times.
 std::optional<std::string> why_not_reached(const Task& parent, const BlockedTask& child) {
     if (parent.not_reached && parent.fault) return parent.fault->summary;
     if (!has_output(parent.state) || !parent.result || !child.transfer_time) return std::nullopt;
@@ -21,8 +21,8 @@ std::optional<std::string> why_not_reached(const Task& parent, const BlockedTask
            " s, before " + words::text_of(*child.transfer_time) + " s";
 }
 
-/// What is placed and not taken may go again before its task runs (dispatch/cache.cpp): nothing of
-/// it counts.
+/// Ignores outputs that the cache is placing: it may remove them before the task runs
+/// (dispatch/cache.cpp).
 std::set<std::string> outputs_of(const DataFolder& data, const Task& task) {
     const auto is_being_placed = [&] {
         return task.state == TaskState::ready && std::filesystem::exists(data.reused(task));
@@ -52,8 +52,8 @@ void settle_children(Store& store, const DataFolder& data, const std::string& pa
     const std::vector<BlockedTask> children = store.blocked_children(parent_id);
     if (children.empty()) return;
     const std::optional<Task> parent = store.task(parent_id);
-    if (!parent) return;  // removed meanwhile
-    // Snapshots of a mesh that entangled later are good: the file decides, not the FEM's end.
+    if (!parent) return;  // removed
+    // The file decides, not the FEM's end: snapshots before the mesh entangled are good.
     const std::set<std::string> files = outputs_of(data, *parent);
     std::vector<BlockedTask> released;
     std::vector<BlockedTask> skipped;

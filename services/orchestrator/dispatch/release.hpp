@@ -1,4 +1,4 @@
-// Releases tasks that waited for a parent, for a file of it, or for the time of a retry.
+// Releases tasks that waited for a parent, for a parent's file, or for a retry time.
 #pragma once
 
 #include <stop_token>

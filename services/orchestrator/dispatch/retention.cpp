@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto between_looks = std::chrono::seconds(60);
-constexpr std::int64_t pages_at_once = 2000;  // 8 MB: others' changes wait for no more
-constexpr double file_grace_days = 1.0;       // from sending a file to naming it in a study
+constexpr std::int64_t pages_at_once = 2000;  // 8 MB: bounds the wait of other writers
+constexpr double file_grace_days = 1.0;       // between the upload and a study that names it
 
 }  // namespace
 
@@ -59,8 +59,8 @@ void Retention::look(const std::stop_token& stop) {
     shrink_database(stop);
 }
 
-/// breachline-backup copies the database first and the files after it. A killed backup does not
-/// block removals permanently.
+/// breachline-backup copies the database first, then the files. A killed backup blocks removals for
+/// a day at most.
 bool Retention::is_being_backed_up() const {
     std::error_code error;
     const auto since = fs::last_write_time(data_.root() / "backup-under-way", error);
@@ -86,7 +86,7 @@ void Retention::remove_folders(const std::stop_token& stop) {
 bool Retention::remove(const Run& run, const std::string& why) {
     const Removal outcome =
         store_.write([&](Transaction& transaction) { return transaction.remove_run(run.id, why); });
-    if (outcome != Removal::done) return false;  // pinned or tried again meanwhile
+    if (outcome != Removal::done) return false;  // pinned or retried
     spdlog::info("{} ({}): is removed, {}", run.id, run.name, why);
     return true;
 }
@@ -136,7 +136,7 @@ void Retention::shrink_database(const std::stop_token& stop) {
     for (std::int64_t left = store_.free_pages(); left > 0 && !stop.stop_requested();) {
         store_.write([&](Transaction& transaction) { transaction.shrink(pages_at_once); });
         const std::int64_t now = store_.free_pages();
-        if (now >= left) return;  // a database that cannot be made to shrink
+        if (now >= left) return;  // the database does not shrink
         left = now;
     }
 }

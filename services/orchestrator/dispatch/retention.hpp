@@ -1,7 +1,6 @@
-// Frees disk space: deletes the folders of runs that were removed from the store, removes runs
-// beyond the age or size that the service keeps, uploaded files that nothing names, and the
-// database's free pages. A thread of its own; every order is stored before it is executed, so that
-// a restart continues it.
+// Frees disk space, on a thread of its own. Deletes folders of removed runs, runs beyond the kept
+// age or size, uploaded files that no run names, and free pages of the database. Every removal is
+// stored before it is executed, so that a restart continues it.
 #pragma once
 
 #include <condition_variable>
@@ -23,10 +22,10 @@ class Retention {
   public:
     Retention(Store& store, const DataFolder& data, RetentionSettings settings);
 
-    /// Something was removed.
+    /// Call after a removal.
     void wake();
     const RetentionSettings& settings() const { return settings_; }
-    /// Of the database with its log.
+    /// Size of the database with its write-ahead log.
     std::int64_t database_bytes() const;
 
   private:

@@ -18,7 +18,7 @@ Verdict judge(const ExitRecord& record, bool resumed) {
         case ExitCode::try_again:
             return Verdict::retryable;
         case ExitCode::interrupted:
-        case ExitCode::terminated:  // a checkpoint was saved, so that going on costs little
+        case ExitCode::terminated:  // resumes from the checkpoint at little cost
             return asked ? Verdict::interrupted : Verdict::retryable;
         case ExitCode::bad_input:
             return resumed ? Verdict::retryable : Verdict::badly;

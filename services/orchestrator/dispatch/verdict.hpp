@@ -1,4 +1,4 @@
-// Consequence of an attempt's end for its task, from the exit record and whether the attempt
+// Maps the end of an attempt to a verdict on its task, from the exit record and whether the attempt
 // resumed from a checkpoint.
 #pragma once
 
@@ -10,7 +10,7 @@ namespace breach::orchestrator {
 
 enum class Verdict {
     well,         ///< outputs are there
-    badly,        ///< a repeat would fail the same way
+    badly,        ///< a retry would fail the same way
     retryable,    ///< due to the machine or the moment: killed, out of memory, "try again", or a
                   ///< checkpoint that cannot be resumed
     interrupted,  ///< stopped because the service stops

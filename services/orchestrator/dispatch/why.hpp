@@ -7,11 +7,11 @@ namespace breach::orchestrator {
 
 /// {"reason":"scene part changed","differs":["/mpm/cfl"],"compared_with":"<task>"}. Reasons:
 ///
-///     has not run                    it waits, or never will
-///     waits for an equal task        which is being computed for another run
-///     taken from an earlier task     it did not run; compared_with is that task
-///     reuse is switched off          by the study, or the result does not follow from the scene
-///     first of its kind              no earlier task of this phase; stands alone
+///     has not run                    it waits, or will never run
+///     waits for an equal task        that is being computed for another run
+///     taken from an earlier task     it did not run; compared_with is the earlier task
+///     reuse is switched off          by the study, or the result depends on more than the scene
+///     first of its kind              no earlier task of this phase; compared_with is null
 ///     scene part changed             differs: pointers into the scene
 ///     cache version changed          the phase's numerics are newer
 ///     input changed                  same scene part, another input file

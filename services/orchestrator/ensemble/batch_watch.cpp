@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* name_of_trigger = "until (samples)";  // no study can name one so
+constexpr const char* name_of_trigger = "until (samples)";  // not a name that a study can use
 
 std::string condition_of(const Until& until) {
     const auto number = [](double value) { return json(value).dump(); };
@@ -25,7 +25,7 @@ std::string condition_of(const Until& until) {
            " <= " + number(until.half_width) + " of it";
 }
 
-/// Of the samples that have the number.
+/// Results of the samples that have the quantity.
 std::vector<double> results_of(const Store& store, const std::string& run,
                                const std::string& quantity) {
     const auto ensemble = ensemble_of(store, run);
@@ -147,7 +147,7 @@ bool BatchWatch::draw_on(const Trigger& trigger, const json& study) {
     return extend(trigger, study, wanted);
 }
 
-/// The next value that the inverse search asks for.
+/// Adds the next value of the inverse search.
 bool BatchWatch::search_on(const Trigger& trigger) {
     const auto ensemble = ensemble_of(store_, trigger.run);
     const json scene = json::parse(still(store_.scene_of(trigger.run)));

@@ -1,10 +1,11 @@
-// Adds variants to uncertainty studies: to inverse studies the next value of the parameter, until the target is met
-// (ensemble/inverse_search.hpp); to those with "until" more samples, a batch at a time, until the percentile is accurate
-// enough or all requested samples exist. Runs on the dispatcher's thread.
+// Adds variants to uncertainty studies, on the dispatcher's thread. An inverse study gets the next
+// value of the parameter until the target is met (ensemble/inverse_search.hpp). A study with
+// "until" gets batches of samples until the percentile is accurate enough or all requested samples
+// exist.
 //
-// In the store it is a trigger, a criterion on results (its spec has a "percentile" or a "target") attached to the run's first task: while it
-// is armed the run is not over, and cancelling disarms it. Its decisions are a function of the stored results: after a kill -9 they are the
-// same.
+// The store keeps this as a trigger on the run's first task, with a "percentile" or a "target" in
+// its spec. While it is armed the run is not over; cancelling disarms it. Decisions depend on the
+// stored results only, so that a restart repeats them.
 #pragma once
 
 #include <map>
@@ -25,8 +26,8 @@ class BatchWatch {
         : store_(store), data_(data), numerics_(numerics) {}
 
     /// Checks the runs whose samples have all ended; true: tasks were added. Cheap when nothing was
-    /// stored since the last look. A run that cannot continue (a full disk) delays no other, and is
-    /// looked at again.
+    /// stored since the last call. A run that cannot continue (a full disk) delays no other and is
+    /// tried again.
     bool look();
 
   private:
@@ -42,7 +43,7 @@ class BatchWatch {
     const DataFolder& data_;
     const Numerics& numerics_;
     std::int64_t seen_event_ = -1;                 ///< all events up to this one are settled
-    std::map<std::string, std::string> troubles_;  ///< of the last look, by run
+    std::map<std::string, std::string> troubles_;  ///< of the last call, by run
 };
 
 }  // namespace breach::orchestrator

@@ -19,7 +19,7 @@ constexpr const char* safety_liquefied = "factor_of_safety_liquefied";
 constexpr std::array<const char*, 6> answers{"runout_beyond_toe", "runout", "runout_largest",
                                              "area_beyond_toe",   safety,   safety_liquefied};
 
-/// Of a row's state, which is that of a task, "questionable" or "not_reached".
+/// state: of a row of results.
 Fate fate_of(const std::string& state) {
     if (state == "succeeded" || state == "questionable") return Fate::done;
     constexpr std::array ended{"failed", "skipped", "cancelled", "not_reached"};
@@ -37,7 +37,7 @@ const ResultColumn& column_named(std::string_view name) {
 
 std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) {
     const auto study = store.study_of(run);
-    auto about = store.run(run);  // which may be removed at any moment
+    auto about = store.run(run);  // it may be removed at any moment
     if (!study || !study->contains("uncertainty") || !about) return std::nullopt;
     Ensemble ensemble{std::move(*about), study->at("uncertainty"), {}};
     std::map<std::string, ResultRow> rows;

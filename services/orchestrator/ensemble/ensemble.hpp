@@ -1,5 +1,5 @@
 // The results of an uncertainty study so far: each sample with its sampled values and its result.
-// Read from the store each time, so that it is up to date.
+// Read from the store at each call.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,10 +16,10 @@ enum class Fate { done, failed, no_transfer, open };
 
 struct SampleRow {
     std::string name;      ///< of its variant, "s0001"
-    std::string state;     ///< that of its row of the results; "queued": it has none yet
-    Fate fate;             ///< failed: it ended without a result, for any reason; no_transfer:
-                           ///< its FEM ended before what the transfer waits for
-    std::string reason;    ///< why it has no result
+    std::string state;     ///< state of its row of results; "queued": no row yet
+    Fate fate;             ///< failed: ended without a result, for any reason; no_transfer: the FEM
+                           ///< ended before the transfer
+    std::string reason;    ///< why there is no result
     nlohmann::json drawn;  ///< by parameter: a number, an option's name, a lattice's number
     std::optional<ResultRow> row;
     /// Independent of its runout, so that samples without one are included.
@@ -35,21 +35,20 @@ struct Ensemble {
 /// Nothing: the run does not exist, or its study has no samples.
 std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run);
 
-/// Results with statistics: numbers of the table of results that are results of the study, not
-/// indicators of its error, and that at least one sample has.
+/// Result columns with statistics: numbers, not indicators of error, that at least one sample has.
 std::vector<const ResultColumn*> quantities_of(const Ensemble& ensemble);
-/// The quantity shown first: the study's, else the first.
+/// The quantity shown first: the study's, else the first of quantities_of.
 std::string first_quantity(const Ensemble& ensemble);
 
-/// A sample's number; nothing: it has none.
+/// The sample's value of the quantity; nothing: it has none.
 std::optional<double> result_of(const SampleRow& sample, std::string_view quantity);
 
-/// Whether its soil still moved at the end, so that this quantity can only grow.
+/// Whether the soil still moved at the end, so that the quantity is a lower bound.
 bool is_lower_bound(const SampleRow& sample, std::string_view quantity);
 
 /// The samples with their values and results as a table of its own, one row each.
 struct SampleTable {
-    std::vector<std::string> names;  ///< that the columns point to
+    std::vector<std::string> names;  ///< owns the texts that `columns` points to
     std::vector<ResultColumn> columns;
     std::vector<ResultRow> rows;
 };

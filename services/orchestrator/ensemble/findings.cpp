@@ -47,11 +47,11 @@ json parameters_of(const json& entry) {
     return list;
 }
 
-/// Those samples that have a number for one quantity.
+/// The samples that have one quantity.
 struct Measured {
     std::vector<double> results;
     std::vector<const SampleRow*> samples;
-    std::optional<double> least_bound;  ///< least result of a sample that still moved
+    std::optional<double> least_bound;  ///< least result of a sample with moving soil
 };
 
 Measured measured(const Ensemble& ensemble, std::string_view quantity) {
@@ -67,7 +67,7 @@ Measured measured(const Ensemble& ensemble, std::string_view quantity) {
     return found;
 }
 
-/// Options are numbered as their names sort.
+/// Numbers options in the order of their names.
 statistics::Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& samples) {
     statistics::Drawn drawn{
         .name = parameter.at("name"),
@@ -137,8 +137,8 @@ json exceedance_of(const std::vector<double>& results) {
     return list;
 }
 
-/// The lattice is the method's own scatter: it has a share of the variance, but is no parameter that
-/// others are freed from, or that a surrogate could know.
+/// The lattice is scatter of the method: it gets a share of the variance, but it is not a parameter
+/// that others are corrected for or that a surrogate could use.
 void add_importance(json& into, const json& parameters, const Measured& measured) {
     std::vector<statistics::Drawn> physical;
     json importance = json::array();
@@ -226,7 +226,7 @@ json rows_of(const Ensemble& ensemble) {
     return rows;
 }
 
-/// What the study is to come to: how near its percentile is known now.
+/// The entry "until", with the present accuracy of its percentile.
 json until_of(const Ensemble& ensemble) {
     const json until = ensemble.entry.value("until", json());
     if (!until.is_object()) return nullptr;

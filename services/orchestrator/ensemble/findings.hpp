@@ -1,5 +1,5 @@
-// Statistics of an uncertainty study's results: percentiles, exceedance, importance and tornado of
-// each, and the same in sentences.
+// Statistics of an uncertainty study's results (percentiles, exceedance, importance, tornado), also
+// in sentences.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// An inverse study so far: the values that were run, and what follows from them.
+// State of an inverse study: the values computed so far, and the advice for the next value.
 #pragma once
 
 #include "services/orchestrator/ensemble/ensemble.hpp"

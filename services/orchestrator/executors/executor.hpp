@@ -33,17 +33,17 @@ struct QueuedJob {
 class Executor {
   public:
     virtual ~Executor() = default;
-    /// Takes the order; returns at once. The attempt's row is stored already. Throws IoError when
-    /// it cannot be started.
+    /// Takes the order and returns at once; the attempt's row is stored already. Throws IoError
+    /// when the attempt cannot be started.
     virtual void submit(const AttemptFolder& folder, const Order& order) = 0;
-    /// The present state; right after a restart too. Silence of a scheduler is never "gone".
+    /// The present state, also right after a restart. A scheduler's silence is never "gone".
     virtual Vitals probe(const AttemptFolder& folder) = 0;
     /// Asks the whole process tree to end; returns at once.
     virtual void stop(const AttemptFolder& folder, StopReason reason) = 0;
-    /// For an attempt that was given up: no process of it may continue, or start.
+    /// Ensures that no process of an abandoned attempt continues or starts.
     virtual void clear_away(const AttemptFolder& folder, const std::string& attempt) = 0;
     virtual AtStop at_stop() const = 0;
-    /// As the cluster listed them last; nothing: it has no queue. From any thread.
+    /// The cluster's last listing; nothing: there is no queue. Callable from any thread.
     virtual std::optional<std::vector<QueuedJob>> jobs() { return std::nullopt; }
 };
 

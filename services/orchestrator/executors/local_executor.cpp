@@ -16,7 +16,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr int lock_descriptor = 3;  // in the supervisor and everything below it
+constexpr int lock_descriptor = 3;  // in the supervisor and its descendants
 
 struct FileActions {
     posix_spawn_file_actions_t value{};
@@ -56,7 +56,7 @@ LocalExecutor::LocalExecutor(std::filesystem::path self) : self_(std::move(self)
 void LocalExecutor::submit(const AttemptFolder& folder, const Order& order) {
     reap();
     std::filesystem::create_directories(folder.root);
-    // Taken here and inherited: there is no moment in which the attempt is started but not locked.
+    // The supervisor inherits this lock, so that the attempt is never started without a lock.
     const auto lock = FileLock::try_take(folder.lock());
     if (!lock)
         throw fault::IoError(folder.lock().string() + ": is held; the attempt was started before");
@@ -96,7 +96,7 @@ Vitals LocalExecutor::probe(const AttemptFolder& folder) {
     reap();
     if (std::filesystem::exists(folder.exit_record())) return {Life::ended};
     if (is_held(folder.lock())) return {Life::alive};
-    // It may have ended between the two looks.
+    // It may have ended after the probe of its lock.
     if (std::filesystem::exists(folder.exit_record())) return {Life::ended};
     return {Life::gone, "its process vanished without an exit record"};
 }
@@ -112,7 +112,7 @@ void LocalExecutor::clear_away(const AttemptFolder&, const std::string& attempt)
 void LocalExecutor::reap() {
     std::erase_if(supervisors_, [this](const Supervisor& each) {
         if (waitpid(each.pid, nullptr, WNOHANG) == 0) return false;
-        // A supervisor that was killed leaves nobody to end what its phase had started.
+        // A killed supervisor leaves its phase's processes running.
         std::error_code error;
         if (!std::filesystem::exists(each.folder.exit_record(), error))
             clear_away(each.folder, each.attempt);

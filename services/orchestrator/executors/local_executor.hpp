@@ -30,7 +30,7 @@ class LocalExecutor final : public Executor {
     void reap();
 
     std::filesystem::path self_;
-    /// Our children, to be reaped; the pids do not decide whether an attempt is alive
+    /// Child processes to reap; whether an attempt is alive does not depend on their pids
     std::vector<Supervisor> supervisors_;
 };
 

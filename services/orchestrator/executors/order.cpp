@@ -47,8 +47,8 @@ void write_order(const AttemptFolder& folder, const Order& order) {
                         {"arguments", order.arguments}, {"grace_seconds", order.grace_seconds},
                         {"cores", order.cores},         {"memory_MB", order.memory_mb},
                         {"priority", order.priority}};
-    // Not forced onto the disk: when the machine goes down before the supervisor has read it, the
-    // attempt is lost with it, and the wait for the disk would delay every start.
+    // No flush to the disk: it would delay every start, and a machine that crashes before the
+    // supervisor reads the order loses the attempt anyway.
     std::ofstream stream(folder.order(), std::ios::binary);
     stream << document.dump(2) << "\n";
     if (!stream.flush())
@@ -101,7 +101,7 @@ void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat) {
                         {"cpu_seconds", beat.cpu_seconds},
                         {"memory_MB", beat.memory_mb}};
     const std::string text = document.dump();
-    // Else it is no JSON, and says nothing.
+    // If this fails, readers ignore the text.
     [[maybe_unused]] const bool whole =
         pwrite(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size()) &&
         ftruncate(file, static_cast<off_t>(text.size())) == 0;

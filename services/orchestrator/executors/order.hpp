@@ -1,5 +1,5 @@
-// Messages between the service and the supervisor of an attempt: the order (before) and the exit
-// record (after), both files in the attempt's folder, so that neither side needs the other to be
+// Messages between the service and an attempt's supervisor: the order (before) and the exit record
+// (after). Both are files in the attempt's folder, so that neither side needs the other to be
 // alive.
 #pragma once
 
@@ -20,12 +20,13 @@ struct Order {
     std::vector<std::string> arguments;  ///< without the program
     double grace_seconds;                ///< between TERM and KILL
     std::int64_t cores = 1;
-    std::int64_t memory_mb = 0;  ///< 0: not asked for
+    std::int64_t memory_mb = 0;  ///< 0: none requested
     std::int64_t priority = 0;   ///< higher goes first
 };
 
-/// Why an attempt must end. `revoked`: it was given up, and a later attempt may run already. `signal`: not the service but
-/// another party stopped it, such as Slurm at a time limit or a machine that shuts down.
+/// Why an attempt must end. revoked: it was abandoned, and a later attempt may run already. signal:
+/// not the service but another party stopped it, such as Slurm at a time limit or a machine that
+/// shuts down.
 enum class StopReason { cancel, shutdown, revoked, signal };
 std::string_view name_of(StopReason reason);
 
@@ -49,19 +50,18 @@ struct Heartbeat {
 /// The environment variable that marks every process of an attempt.
 constexpr const char* attempt_mark = "BREACHLINE_ATTEMPT";
 
-/// Removes files of an attempt of the same number that the store does not know (it was restored
-/// from a backup): its end would be mistaken for that of the new attempt.
+/// Removes files of an attempt with the same number that the store does not know, because it was
+/// restored from a backup. Its exit record would be mistaken for that of the new attempt.
 void remove_remains(const AttemptFolder& folder);
 
 void write_order(const AttemptFolder& folder, const Order& order);
-/// In an order of an earlier version, cores, memory and priority have their defaults.
 Order read_order(const AttemptFolder& folder);
 
 void write_exit_record(const AttemptFolder& folder, const ExitRecord& record);
 /// Nothing until there is one.
 std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder);
 
-/// Its time shows that the attempt is alive even if its text cannot be written (a full disk).
+/// The file's time shows that the attempt is alive even if the disk is full.
 void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat);
 /// Nothing: there is none, or its text was being written.
 std::optional<Heartbeat> read_heartbeat(const AttemptFolder& folder);

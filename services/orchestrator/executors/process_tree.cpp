@@ -33,12 +33,12 @@ std::vector<pid_t> all_processes() {
     return found;
 }
 
-/// What stands behind the name in /proc/PID/stat; nothing when it is gone.
+/// The fields after the name in /proc/PID/stat; nothing: the process is gone.
 std::istringstream stat_of(pid_t pid) {
     std::ifstream stream("/proc/" + std::to_string(pid) + "/stat");
     std::string line;
     std::getline(stream, line);
-    const std::size_t after_name = line.rfind(')');  // the name may hold anything, even ")"
+    const std::size_t after_name = line.rfind(')');  // the name may contain ")"
     return std::istringstream(after_name == std::string::npos ? "" : line.substr(after_name + 1));
 }
 
@@ -70,7 +70,7 @@ std::vector<pid_t> descendants(pid_t root) {
 }
 
 Usage usage_of(pid_t pid) {
-    constexpr int before_utime = 11;  // of what stands behind the name (proc(5))
+    constexpr int before_utime = 11;  // fields after the name (proc(5))
     constexpr int before_rss = 8;     // between stime and rss
     std::istringstream fields = stat_of(pid);
     std::string skipped;
@@ -97,11 +97,11 @@ namespace {
 
 struct Marked {
     std::vector<pid_t> processes;
-    bool unsure = false;  ///< one could not be asked
+    bool unsure = false;  ///< a process could not be examined
 };
 
-/// A program that is just being replaced by another (exec) shows no environment, a thread of the
-/// kernel never does and has no program.
+/// A process in the middle of exec shows no environment but has a program; a kernel thread has
+/// neither.
 bool is_between_programs(pid_t pid) {
     std::error_code error;
     const auto program =
@@ -115,7 +115,7 @@ Marked marked_processes(const std::string& attempt) {
     for (const pid_t pid : all_processes()) {
         std::ifstream stream("/proc/" + std::to_string(pid) + "/environ", std::ios::binary);
         std::string entry;
-        bool has_any = !stream.is_open();  // another user's, or gone
+        bool has_any = !stream.is_open();  // not readable: another user's, or gone
         while (std::getline(stream, entry, '\0')) {
             has_any = true;
             if (entry != mark) continue;
@@ -130,10 +130,10 @@ Marked marked_processes(const std::string& attempt) {
 }  // namespace
 
 void kill_marked_processes(const std::string& attempt) {
-    constexpr int most_waits = 100;  // for one that is run without any environment
+    constexpr int most_waits = 100;  // limit for a process without any environment
     constexpr auto wait = std::chrono::milliseconds(1);
     std::set<pid_t> killed{getpid()};
-    // Who is killed may have forked after the look that found it: looked again until nobody is new.
+    // A process may fork before it is killed: repeat until there are no new ones.
     int waits = 0;
     for (bool again = true; again;) {
         again = false;

@@ -1,5 +1,4 @@
-// The processes of this machine from /proc: our descendants, and those with an attempt's
-// mark.
+// Processes of this machine from /proc: our descendants, and those with an attempt's mark.
 #pragma once
 
 #include <sys/types.h>

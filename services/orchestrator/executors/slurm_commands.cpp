@@ -16,7 +16,7 @@ namespace {
 constexpr const char* squeue_format = "%F %K %T %j %r";
 constexpr std::int64_t highest_priority = 100;
 
-/// A word for /bin/sh that means itself.
+/// Quotes a word for /bin/sh.
 std::string quoted(const std::string& text) {
     std::string word = "'";
     for (const char each : text) {
@@ -28,7 +28,7 @@ std::string quoted(const std::string& text) {
     return word + "'";
 }
 
-/// The job: each task of the array (or the single one) becomes the supervisor of its attempt.
+/// The job's script: each task of the array (or the only one) becomes its attempt's supervisor.
 std::string script_of(const Batch& batch, const std::string& self) {
     std::ostringstream script;
     script << "#!/bin/sh\ncase ${SLURM_ARRAY_TASK_ID:-0} in\n";
@@ -37,15 +37,15 @@ std::string script_of(const Batch& batch, const std::string& self) {
         script << i << ") attempt=" << quoted(batch.attempts[i])
                << " folder=" << quoted(folder.root.string()) << " ;;\n";
     }
-    // The shell stays, to end what a killed supervisor would leave behind: Slurm does not reach
-    // processes that have left the job's tree. TERM must not end it before the supervisor, and where Slurm
-    // holds jobs in control groups it reaches the shell alone, which passes it on.
+    // The shell stays to end processes that a killed supervisor leaves behind: Slurm does not reach
+    // processes outside the job's tree. TERM must not end the shell before the supervisor. In
+    // control groups Slurm signals the shell only, which passes TERM on.
     script << "*) exit 64 ;;\nesac\nchild=\ntrap '[ -z \"$child\" ] || kill -TERM $child' TERM\n"
            << "export " << attempt_mark << "=\"$attempt\"\n"
            << "exec >>\"$folder/log.txt\" 2>&1 </dev/null\n"
            << quoted(self)
            << " supervise --take-lock \"$folder\" &\nchild=$!\n"
-           // A signal ends a wait before the child does.
+           // A signal ends `wait` before the child ends.
            << "while wait $child; code=$?; kill -0 $child 2>/dev/null; do :; done\n"
            << "[ $code -eq 0 ] ||\n"
            << quoted(self) << " supervise --end-strays \"$folder\"\n";
@@ -56,7 +56,7 @@ bool is_passing_trouble(const std::string& said) {
     constexpr std::array signs{
         "nable to contact", "timed out",    "onnection refused", "uthentication",  "temporarily",
         "Zero Bytes",       "ommunication", "ocket timed",       "not responding", "unavailable",
-        "is in backup",     "try again",    "SubmitJob"};  // as many are queued as may be, for now
+        "is in backup",     "try again",    "SubmitJob"};  // the queue is full for now
     return std::ranges::any_of(
         signs, [&](const char* sign) { return said.find(sign) != std::string::npos; });
 }
@@ -118,7 +118,7 @@ std::optional<std::map<JobName, ListedJob>> SlurmCommands::list() const {
 }
 
 void SlurmCommands::cancel(const JobName& job, const std::string& number) const {
-    // The name too: the number may be another job's by now.
+    // By name as well: another job may have the number by now.
     command::run({"scancel", "--quiet", "--name=" + job.name, number}, "", longest_);
 }
 
@@ -135,7 +135,7 @@ std::optional<std::pair<JobName, ListedJob>> job_in(const std::string& line) {
     if (parsed.ec == std::errc{}) {
         listed.number.append(1, '_').append(index);
     } else {
-        job.index = 0;  // "N/A": no array
+        job.index = 0;  // "N/A": not an array
     }
     return std::pair{job, listed};
 }

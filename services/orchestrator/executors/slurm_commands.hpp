@@ -1,4 +1,4 @@
-// Commands to Slurm and parsing of its answers: sbatch, squeue and scancel by command line, the
+// Sends commands to Slurm and parses its answers: sbatch, squeue and scancel by command line, the
 // interface that every version and every site has.
 #pragma once
 
@@ -12,8 +12,9 @@
 
 namespace breach::orchestrator {
 
-/// Identity of a job: its name is ours and unique, Slurm's numbers are not (a controller that lost
-/// its memory assigns them again). Attempts that were submitted together are tasks of one array.
+/// Identity of a job. We choose the name, which is unique; Slurm's numbers are not (a controller
+/// that lost its state assigns them again). Attempts that were submitted together are tasks of one
+/// array.
 struct JobName {
     std::string name;
     std::int64_t index = 0;
@@ -54,9 +55,9 @@ class SlurmCommands {
                   std::chrono::milliseconds longest);
 
     Submitted submit(const Batch& batch) const;
-    /// All jobs of this user, in any state; nothing when Slurm does not answer.
+    /// All jobs of this user, in any state; nothing: Slurm does not answer.
     std::optional<std::map<JobName, ListedJob>> list() const;
-    /// No fault if the job is over already; a missing answer shows at the next look.
+    /// No error if the job is over; without an answer the next listing still shows the job.
     void cancel(const JobName& job, const std::string& number) const;
 
   private:

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t largest_array = 100;  // its script goes through one pipe
+constexpr std::size_t largest_array = 100;  // limits the script's size
 constexpr auto gathering = std::chrono::milliseconds(30);
 constexpr auto soon = std::chrono::seconds(1);
 constexpr auto margin_after_grace = std::chrono::seconds(5);
@@ -38,7 +38,7 @@ bool runs(const std::string& state) {
            state == "STAGE_OUT";
 }
 
-/// Written before sbatch is called: even after a crash the job can be found by its name.
+/// Written before sbatch is called, so that the job can be found by its name even after a crash.
 void write_job_name(const AttemptFolder& folder, const JobName& job) {
     exchange::publish_text(folder.slurm_job(),
                            json{{"name", job.name}, {"index", job.index}}.dump() + "\n");
@@ -64,7 +64,7 @@ std::string option_of(const std::vector<std::string>& options, const std::string
     return value;
 }
 
-/// The limits that a job had, and how to raise them. state: Slurm's word for how it ended.
+/// The limits of a job, and how to raise them. state: Slurm's word for its end.
 std::string limits_in_words(const std::string& state, const Order& order,
                             const std::vector<std::string>& options) {
     const std::string asked =
@@ -112,7 +112,7 @@ std::optional<std::vector<QueuedJob>> SlurmExecutor::jobs() {
     return list;
 }
 
-// ---------------------------------------------------------------- asked by the dispatcher
+// ---------------------------------------------------------------- calls by the dispatcher
 
 void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
     std::filesystem::create_directories(folder.root);
@@ -140,13 +140,13 @@ Vitals SlurmExecutor::probe(const AttemptFolder& folder) {
         return {Life::alive};
     }
     const Vitals vitals = vitals_of(*job);
-    // Between the first look and now.
+    // It may have ended since the first look.
     if (vitals.life == Life::gone && std::filesystem::exists(folder.exit_record()))
         return {Life::ended};
     return vitals;
 }
 
-/// After a restart nothing is known but what the attempt's folder says.
+/// After a restart the attempt's folder is the only source.
 SlurmExecutor::Job* SlurmExecutor::find_or_adopt(const AttemptFolder& folder) {
     const auto known = jobs_.find(folder.root);
     if (known != jobs_.end()) return &known->second;
@@ -157,9 +157,9 @@ SlurmExecutor::Job* SlurmExecutor::find_or_adopt(const AttemptFolder& folder) {
         job.name = *name;
         job.order = read_order(folder);
     } catch (const std::exception&) {
-        return nullptr;  // the machine went down before they were on the disk: never submitted
+        return nullptr;  // they were lost with the machine: never submitted
     }
-    // Without a sign that it began, its sbatch may never have been called.
+    // Without a heartbeat its sbatch may never have been called.
     const bool began = std::filesystem::exists(folder.heartbeat());
     job.stage = began ? Stage::submitted : Stage::doubtful;
     job.since = Clock::now();
@@ -167,21 +167,21 @@ SlurmExecutor::Job* SlurmExecutor::find_or_adopt(const AttemptFolder& folder) {
     return &jobs_.emplace(folder.root, std::move(job)).first->second;
 }
 
-/// A sign of life that needs no locks across machines and no common clock: the file's time moves.
+/// A sign of life without locks across machines or a common clock: the file's time changes.
 bool SlurmExecutor::Job::heart_beats() {
     constexpr auto fresh = std::chrono::seconds(10);
     std::error_code error;
     const auto time = std::filesystem::last_write_time(folder.heartbeat(), error);
     if (error) return false;
     if (heartbeat != time) {
-        // The first time seen may be an old one: it proves nothing yet.
+        // The first time read may be old and proves nothing.
         if (heartbeat) heart_beat_at = Clock::now();
         heartbeat = time;
     }
     return heart_beat_at != Clock::time_point{} && Clock::now() - heart_beat_at < fresh;
 }
 
-/// Why a job that was handed over is not in the queue.
+/// Why a submitted job is not in the queue yet.
 std::string SlurmExecutor::Job::what_keeps() const {
     const auto seconds =
         std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - since).count();
@@ -211,14 +211,14 @@ Vitals SlurmExecutor::vitals_of(Job& job) const {
         case Stage::submitted:
             break;
     }
-    const bool waits = job.state.empty() || waits_its_turn(job.state);  // empty: not looked at yet
+    const bool waits = job.state.empty() || waits_its_turn(job.state);  // empty: not listed yet
     if (waits || !answers_) {
         job.silent_since.reset();
         if (!answers_) return {Life::queued, "squeue does not answer; the job is waited for"};
         return {Life::queued, "in Slurm's queue: " + (job.state.empty() ? "taken" : job.state)};
     }
     if (!job.silent_since) job.silent_since = Clock::now();
-    // Cancelled before it began: nothing of it can come any more.
+    // Cancelled before its start: no process can follow.
     const bool never_began = job.state == "CANCELLED" && !job.heartbeat;
     if (!never_began && Clock::now() - *job.silent_since < grace()) return {Life::queued};
     return {Life::gone, "Slurm says " + job.state + ", and the job left no exit record; " +
@@ -242,7 +242,7 @@ void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) 
     try {
         write_stop(folder, StopReason::revoked);
     } catch (const std::exception& error) {
-        spdlog::warn("{}: {}", folder.root.string(), error.what());  // scancel must do
+        spdlog::warn("{}: {}", folder.root.string(), error.what());  // scancel must stop it
     }
     const std::lock_guard lock(mutex_);
     const auto known = jobs_.find(folder.root);
@@ -271,7 +271,7 @@ void SlurmExecutor::serve(const std::stop_token& stop) {
         if (stop.stop_requested()) return;
         try {
             recover_the_unanswered();
-            std::this_thread::sleep_for(gathering);  // those that are handed over together
+            std::this_thread::sleep_for(gathering);  // collects jobs that are submitted together
             submit_what_waits();
             if (Clock::now() >= next_look || must_be_found()) {
                 look_at_the_queue();
@@ -285,7 +285,7 @@ void SlurmExecutor::serve(const std::stop_token& stop) {
     }
 }
 
-/// Something is to be cancelled, and its number is not known yet.
+/// Whether a job must be cancelled and its number is not known yet.
 bool SlurmExecutor::must_be_found() {
     const std::lock_guard lock(mutex_);
     return std::ranges::any_of(jobs_, [](const auto& entry) {
@@ -295,8 +295,8 @@ bool SlurmExecutor::must_be_found() {
 }
 
 void SlurmExecutor::submit_what_waits() {
-    // Equal resources and priority may go as one array; asked again, as a smaller one: of jobs that a
-    // user may have in the queue there may be room for some.
+    // Jobs with equal resources and priority become one array. Repeated requests use smaller
+    // arrays, because a user's limit of queued jobs may have room for some only.
     struct Like {
         std::int64_t cores, memory_mb, priority;
         int asked;
@@ -322,10 +322,9 @@ void SlurmExecutor::submit_what_waits() {
     }
 }
 
-/// One call of sbatch. Between its opening and its closing the jobs are in `asking`, the lock is
-/// free, and a job may change: a quick one has ended and is forgotten, another is stopped. So the
-/// closing looks at the present state of each job; recover_the_unanswered finds what a round leaves
-/// that never reaches its closing.
+/// One call of sbatch. Between open_round and close_round the jobs are in `asking` and the lock is
+/// free. A job may change meanwhile: a quick one has ended, another is stopped. So close_round
+/// looks at the present state of each job; recover_the_unanswered handles rounds that never closed.
 void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& roots) {
     const Batch batch = open_round(roots);
     if (batch.folders.empty()) return;
@@ -335,7 +334,7 @@ void SlurmExecutor::submit_together(const std::vector<std::filesystem::path>& ro
     close_round(batch, answer);
 }
 
-/// Those of them that still wait (one may have been stopped meanwhile) are asked for from now on.
+/// Marks the jobs that still wait as `asking`; a job may have been stopped meanwhile.
 Batch SlurmExecutor::open_round(const std::vector<std::filesystem::path>& roots) {
     Batch batch{
         .name = {}, .folders = {}, .attempts = {}, .like = {}, .throttle = settings_.throttle};
@@ -345,8 +344,8 @@ Batch SlurmExecutor::open_round(const std::vector<std::filesystem::path>& roots)
         if (known == jobs_.end() || known->second.stage != Stage::waiting) continue;
         Job& job = known->second;
         if (batch.name.empty()) {
-            // Asked again after a doubtful answer: a new name, because the batch may be another.
-            // Should the first job turn up after all, the attempt's lock lets only one of the two
+            // A repeated request after a doubtful answer gets a new name, because the batch may
+            // differ. If the first job appears as well, the attempt's lock lets only one of them
             // run.
             batch.name = "breachline-" + job.order.attempt;
             if (job.asked > 0) batch.name += "_" + std::to_string(job.asked + 1);
@@ -368,7 +367,7 @@ Submitted SlurmExecutor::ask(const Batch& batch) const {
             write_job_name(batch.folders[i], {batch.name, static_cast<std::int64_t>(i)});
         pass_failpoint("sbatch_before");
         return slurm_.submit(batch);
-    } catch (const fault::IoError& error) {  // sbatch could not be started: there is no job
+    } catch (const fault::IoError& error) {  // no sbatch: there is no job
         return {Reply::refused, error.what()};
     } catch (const std::exception& error) {
         return {Reply::doubtful, error.what()};
@@ -398,8 +397,8 @@ void SlurmExecutor::close_round(const Batch& batch, const Submitted& answer) {
     }
 }
 
-/// Only the clerk opens rounds, and between two of its turns none is open: a job that is still
-/// in `asking` then has lost its answer. The queue must say whether the job exists.
+/// Only the clerk opens rounds, and none is open here: a job still in `asking` has lost its answer.
+/// The queue will show whether it exists.
 void SlurmExecutor::recover_the_unanswered() {
     const std::lock_guard lock(mutex_);
     for (auto& [root, job] : jobs_) {
@@ -427,7 +426,7 @@ void SlurmExecutor::look_at_the_queue() {
     for (auto& [root, job] : jobs_) take_in(job, *listed, asked);
 }
 
-/// `asked`: when the list was asked for; what was submitted later cannot be in it.
+/// `asked`: time of the request for the list; later submissions cannot be in it.
 void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed,
                             Clock::time_point asked) {
     if (job.stage == Stage::waiting || job.stage == Stage::asking || job.stage == Stage::refused)
@@ -451,7 +450,7 @@ void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed
     job.number.clear();
 }
 
-/// In the queue: at once. Running: its supervisor is asked first; if that fails, Slurm stops it.
+/// A queued job at once. A running job when its supervisor did not react in time.
 bool SlurmExecutor::Job::is_due_for_scancel() const {
     if (!unwanted_since || number.empty()) return false;
     if (waits_its_turn(state)) return true;
@@ -460,7 +459,7 @@ bool SlurmExecutor::Job::is_due_for_scancel() const {
     return given_up || Clock::now() - *unwanted_since > patience;
 }
 
-/// True: something was cancelled.
+/// True: cancelled something.
 bool SlurmExecutor::cancel_the_unwanted() {
     std::vector<std::pair<JobName, std::string>> unwanted;
     {

@@ -63,8 +63,8 @@ class SlurmExecutor final : public Executor {
         std::string why = {};       ///< why it was refused, or is uncertain
         int asked = 0;              ///< how often sbatch was called for it
         Clock::time_point since{};  ///< of this stage
-        /// Since when there is no sign of life: not listed, or listed as over or as running, and
-        /// neither lock nor heartbeat.
+        /// Start of the silence: no lock, no heartbeat, and not listed, or listed as over or as
+        /// running.
         std::optional<Clock::time_point> silent_since = {};
         std::optional<std::filesystem::file_time_type> heartbeat = {};
         Clock::time_point heart_beat_at{};
@@ -88,7 +88,7 @@ class SlurmExecutor final : public Executor {
     void take_in(Job& job, const std::map<JobName, ListedJob>& listed, Clock::time_point asked);
     bool must_be_found();
     bool cancel_the_unwanted();
-    /// With the lock held: requests a look before the next regular one.
+    /// Requests a look before the next regular one; call with the lock held.
     void press();
     Job* find_or_adopt(const AttemptFolder& folder);
     Vitals vitals_of(Job& job) const;

@@ -35,7 +35,7 @@ constexpr int cannot_execute = 127;
 constexpr auto pause = std::chrono::milliseconds(20);
 constexpr auto heartbeat_interval = std::chrono::seconds(2);
 
-/// Held by every process of the attempt until the last one ends.
+/// Every process of the attempt inherits the lock and holds it until the last one ends.
 FileLock held_by_all_below(FileLock lock) {
     fcntl(lock.descriptor(), F_SETFD, 0);
     return lock;
@@ -45,7 +45,7 @@ class Supervision {
   public:
     explicit Supervision(AttemptFolder folder)
         : folder_(std::move(folder)), order_(read_order(folder_)), began_(Clock::now()) {
-        prctl(PR_SET_CHILD_SUBREAPER, 1);  // whoever double-forks away comes back to us
+        prctl(PR_SET_CHILD_SUBREAPER, 1);  // adopt daemonised descendants
         sigemptyset(&signals_);
         for (const int signal : {SIGCHLD, SIGTERM, SIGINT, SIGHUP}) sigaddset(&signals_, signal);
         sigprocmask(SIG_BLOCK, &signals_, nullptr);
@@ -71,8 +71,8 @@ class Supervision {
     }
 
   private:
-    /// One phase of a task at a time, even if an earlier attempt was believed to have ended. False:
-    /// asked to stop before it began.
+    /// Ensures one phase of a task at a time, even if an earlier attempt was believed to be over.
+    /// False: a stop was requested before.
     bool wait_for_fence() {
         while (true) {
             beat();
@@ -86,13 +86,13 @@ class Supervision {
         }
     }
 
-    /// Nothing was started. Of an attempt that was given up nobody wants a record.
+    /// For a phase that was not started. An abandoned attempt gets no record.
     void give_back() {
         if (record_.stopped != StopReason::revoked) record_exit();
     }
 
-    /// For a service on another machine, where locks may not be seen; and so that what a lost
-    /// attempt has cost is known.
+    /// Heartbeat for a service on another machine, where locks may be invisible; it also records
+    /// the cost of an attempt that is lost.
     void beat() {
         if (Clock::now() < next_beat_) return;
         next_beat_ = Clock::now() + heartbeat_interval;
@@ -112,7 +112,7 @@ class Supervision {
         phase_ended_ = true;
     }
 
-    /// Between fork and exec: own process group, dies with the supervisor, lines into their file.
+    /// Between fork and exec: own process group, dies with the supervisor, output into its files.
     [[noreturn]] void become_the_phase() {
         setpgid(0, 0);
         prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -129,7 +129,7 @@ class Supervision {
         _exit(cannot_execute);
     }
 
-    /// The service says why; a signal alone does not.
+    /// The stop file has the reason; a signal alone has none.
     std::optional<StopReason> asked_to_stop() const {
         const auto reason = read_stop(folder_);
         if (reason || !asked_by_signal_) return reason;
@@ -144,12 +144,12 @@ class Supervision {
                                           std::chrono::duration<double>(order_.grace_seconds));
     }
 
-    /// TERM once to the phase's group, KILL to everything below us when the grace is over.
+    /// Sends TERM once to the phase's group, and KILL to all descendants after the grace time.
     void press() {
         if (!record_.stopped) return;
         if (!termed_) {
             kill(-phase_, SIGTERM);
-            kill(-phase_, SIGCONT);  // a stopped process can end only when it goes on
+            kill(-phase_, SIGCONT);  // a stopped process must continue to end
             termed_ = true;
         } else if (Clock::now() >= kill_at_) {
             for (const pid_t each : descendants(getpid())) kill(each, SIGKILL);
@@ -183,7 +183,7 @@ class Supervision {
         return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
     }
 
-    /// The phase is gone; what it left running must not outlive the attempt.
+    /// Ends everything that the phase left running.
     void kill_the_rest() {
         while (true) {
             for (const pid_t each : descendants(getpid())) kill(each, SIGKILL);
@@ -194,8 +194,8 @@ class Supervision {
         }
     }
 
-    /// A full disk must not lose the exit: the lock stays held until the record is down. A folder
-    /// that was deleted wants no record.
+    /// A full disk must not lose the exit record: retries with the lock held. A deleted folder gets
+    /// no record.
     void record_exit() {
         record_.attempt = order_.attempt;
         record_.wall_seconds = std::chrono::duration<double>(Clock::now() - began_).count();

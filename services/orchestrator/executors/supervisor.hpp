@@ -7,8 +7,8 @@
 
 namespace breach::orchestrator {
 
-/// Owner of the attempt's lock: the service, which passed its descriptor on, or nobody yet (on a
-/// cluster's node, where a repeated job must find the attempt taken).
+/// Origin of the attempt's lock: inherited from the service as a descriptor, or taken by the
+/// supervisor (on a cluster's node, where a repeated job must find the attempt locked).
 enum class AttemptLock { inherited, to_be_taken };
 
 /// Runs the attempt in `folder`. Returns the supervisor's own exit code, not the phase's. Does

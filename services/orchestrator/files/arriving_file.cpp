@@ -27,7 +27,8 @@ struct stat status_of(const FileLock& lock) {
     return status;
 }
 
-/// The lock's file still has this path: it was not moved to its place, or removed, before the lock was taken.
+/// Whether the locked file still has this path: it may have been moved or removed before the lock
+/// was taken.
 bool is_at(const fs::path& path, const FileLock& lock) {
     struct stat named {};
     return stat(path.c_str(), &named) == 0 && named.st_ino == status_of(lock).st_ino;

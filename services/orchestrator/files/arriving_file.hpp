@@ -1,5 +1,5 @@
-// A file during its upload. If it was announced by its content, an interrupted upload keeps the bytes so far and
-// can be resumed; others are deleted with their request.
+// A file during its upload. If its sender announced the SHA-256, the received bytes survive an
+// interruption and the upload can be resumed. Other files are deleted with their request.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,8 @@ class ArrivingFile {
   public:
     /// path: of a file that is not there yet.
     static ArrivingFile of_one_request(std::filesystem::path path);
-    /// folder: where such files are kept, for a day after their last byte. Nothing: it is being uploaded right now.
+    /// folder: keeps such files for a day after their last byte. Nothing: the file is being
+    /// uploaded right now.
     static std::optional<ArrivingFile> resumable(const std::filesystem::path& folder,
                                                  const std::string& name);
     ArrivingFile(ArrivingFile&&) = default;
@@ -25,7 +26,7 @@ class ArrivingFile {
     void begin_anew();
     /// Throws IoError.
     void append(const char* data, std::size_t size);
-    /// Without this the file is deleted: its bytes are useless without the rest.
+    /// Without this call the destructor deletes the file.
     void keep_until_resumed() { kept_ = true; }
     /// Flushes to the disk. Throws IoError.
     void sync();
@@ -38,7 +39,7 @@ class ArrivingFile {
     bool kept_ = false;
 };
 
-/// Bytes so far of the file with this beginning of its name.
+/// Bytes received so far of the file with this SHA-256.
 std::int64_t arrived_bytes(const std::filesystem::path& folder, const std::string& sha256);
 
 }  // namespace breach::orchestrator

@@ -22,7 +22,7 @@ std::filesystem::path made(const std::filesystem::path& root) {
 }
 
 FileLock owned(const DataPaths& data) {
-    // A service that was killed while it started a supervisor leaves the lock to it for a moment.
+    // A supervisor holds a killed service's lock until its exec.
     constexpr auto pause = std::chrono::milliseconds(50);
     for (int i = 0; i < 20; ++i) {
         auto lock = FileLock::try_take(data.instance_lock());
@@ -39,7 +39,7 @@ FileLock owned(const DataPaths& data) {
 
 DataFolder::DataFolder(const std::filesystem::path& root)
     : DataPaths(made(root)), lock_(owned(*this)) {
-    // What a service that was killed had under way for a moment.
+    // Leftovers of a killed service.
     std::error_code error;
     for (const auto& entry : std::filesystem::directory_iterator(scratch(), error))
         std::filesystem::remove_all(entry.path(), error);

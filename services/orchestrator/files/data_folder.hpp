@@ -5,9 +5,9 @@
 //     <data>/runs/<run>/scene.json     the completed scene
 //     <data>/runs/<run>/<label>/output            what the phase writes; all attempts share it
 //                                      (checkpoints)
-//     <data>/runs/<run>/<label>/reused            names of files that the cache is placing in output
-//     <data>/runs/<run>/files/         links to those of <data>/files that its scene names
-//     <data>/files/<sha256>.<ending>   what was sent, by its content
+//     <data>/runs/<run>/<label>/reused            names of files that the cache is placing there
+//     <data>/runs/<run>/files/         links to the files in <data>/files that its scene names
+//     <data>/files/<sha256>.<ending>   uploaded files, by their content
 //     <data>/runs/<run>/<label>/attempts/fence    held by the one attempt whose phase may run
 //     <data>/runs/<run>/<label>/attempts/<n>/     order.json lock heartbeat stdout.jsonl log.txt
 //                                      exit.json [stop] [slurm.json]
@@ -35,7 +35,7 @@ struct AttemptFolder {
     std::filesystem::path fence() const { return root.parent_path() / "fence"; }
 };
 
-/// The paths alone; creates and locks nothing.
+/// The paths only; creates and locks nothing.
 class DataPaths {
   public:
     explicit DataPaths(std::filesystem::path root) : root_(std::move(root)) {}
@@ -55,7 +55,7 @@ class DataPaths {
     std::filesystem::path input(const Task& task, const Task& parent) const;
     AttemptFolder attempt(const Task& task, std::int64_t number) const;
     std::filesystem::path scratch() const { return root_ / "scratch"; }
-    /// Files that are being sent (arriving_file.hpp).
+    /// Files being uploaded (arriving_file.hpp).
     std::filesystem::path arriving() const { return root_ / "arriving"; }
     std::filesystem::path instance_lock() const { return root_ / "instance.lock"; }
 

@@ -15,11 +15,11 @@ namespace {
 constexpr std::size_t most_named = 10;
 
 std::int64_t bytes_of(const struct stat& info) {
-    constexpr std::int64_t block = 512;  // of st_blocks, for any block size of the disk
+    constexpr std::int64_t block = 512;  // unit of st_blocks on every disk
     return block * static_cast<std::int64_t>(info.st_blocks);
 }
 
-/// Everything below the folder, folders too.
+/// Visits everything below the folder, including folders.
 void for_each_below(const fs::path& folder, const std::function<void(const struct stat&)>& visit) {
     std::error_code error;
     fs::recursive_directory_iterator entry(folder, error);
@@ -53,7 +53,7 @@ DiskUse::DiskUse(const fs::path& runs, const fs::path& files) {
         of_run_[run];
         for_each_below(entry.path(), [&](const struct stat& info) {
             const Key key{info.st_dev, info.st_ino};
-            // A folder's number of names is that of the folders in it: it belongs to one run.
+            // The link count of a folder counts its subfolders: a folder belongs to one run.
             const std::uint64_t names = S_ISDIR(info.st_mode) ? 1 : info.st_nlink;
             auto [found, is_new] = contents_.try_emplace(key, Content{bytes_of(info), names, {}});
             if (is_new && !sent.contains(key)) bytes_of_runs_ += found->second.bytes;

@@ -17,7 +17,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// What one of the variables asks for, and how often its place was reached.
+/// The setting of one variable, and how often its failpoint was reached.
 class FailpointSetting {
   public:
     explicit FailpointSetting(const char* variable) {
@@ -29,7 +29,7 @@ class FailpointSetting {
         if (std::getline(parts, time, ':')) time_ = std::atoi(time.c_str());
         std::getline(parts, file_);
     }
-    /// It is this place's turn.
+    /// Whether this pass is the n-th.
     bool is_due(std::string_view place) {
         return !name_.empty() && name_ == place && ++times_ == time_;
     }

@@ -1,12 +1,12 @@
-// Points, by name, at which a test may kill or disturb this process: before and after every write of
-// a state, and between steps of one operation.
+// Named points at which a test may kill or disturb this process: before and after every write of a
+// state, and between the steps of an operation.
 //
 //     BREACHLINE_FAILPOINT=name[:n[:file]]   kill -9 when `name` is reached for the n-th time
 //     BREACHLINE_TROUBLE=name[:n[:file]]     throws IoError there, as a full disk would
 //     BREACHLINE_HOLD=name[:n[:file]]        waits there for as long as `file` exists
 //
-// With a file, the first two happen once only, in the process that can remove the file. Without the
-// variables nothing happens. Names that are not in the list do not compile.
+// With a file, the first two happen only once, in the process that can remove the file. Without the
+// variables nothing happens. Unknown names do not compile.
 #pragma once
 
 #include <algorithm>

@@ -13,7 +13,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// All of the file, for one open file description: as flock() has it, but others can ask about it.
+/// The whole file, for one open file description: like flock(), but others can query it.
 struct flock whole_file() {
     struct flock range {};
     range.l_type = F_WRLCK;

@@ -27,8 +27,8 @@ std::string kind_of(const std::string& phase) {
     return known ? known->frames : phases::mpm.frames;
 }
 
-/// The number at the end of "snapshot_0.500000.vtkhdf". Files without one (phases::files::final_state) repeat a
-/// numbered frame.
+/// The number at the end of "snapshot_0.500000.vtkhdf". Files without one
+/// (phases::files::final_state) repeat a numbered frame.
 std::optional<double> time_in(const std::string& name) {
     static const std::regex number(R"(_([0-9]+(\.[0-9]+)?)\.vtkhdf$)");
     std::smatch found;
@@ -36,14 +36,14 @@ std::optional<double> time_in(const std::string& name) {
     return std::stod(found[1]);
 }
 
-/// The transfer's only frame: the material points at the beginning of their own clock.
+/// The transfer's only frame: the material points at time zero.
 bool is_transferred(const std::string& name) { return name == phases::files::particles; }
 
 struct Cloud {
     double time = 0.0;
     std::vector<std::string> regions, materials;
     std::vector<float> x, y, region;
-    /// Empty when the file has none.
+    /// Empty: not in the file.
     std::vector<float> speed, epsilon_q, epsilon_q_plastic, r_u, pore_pressure;
     std::vector<float> u_x, u_y, displacement, sigma_v;  ///< of a mesh only
     std::vector<std::uint32_t> quads;
@@ -66,7 +66,7 @@ void append(std::string& bytes, const std::vector<Number>& numbers) {
 
 using Fields = std::vector<std::pair<std::string, const std::vector<float>*>>;
 
-/// Those that the file has, and of them those that are wanted.
+/// Fields of the file, without those that are not wanted.
 Fields fields_of(const Cloud& cloud, const std::vector<std::string>& wanted) {
     Fields fields{{"x", &cloud.x},
                   {"y", &cloud.y},
@@ -132,15 +132,15 @@ Cloud particles_of(const std::filesystem::path& file, std::size_t stride) {
 
 constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
 
-/// u and r_u = (u - u_0) / sigma'_v0 of the nodes, where the snapshot has them. Dry soil and ground
-/// without effective stress before the shaking have no r_u: not a number, which no zero may stand for.
+/// u and r_u = (u - u_0) / sigma'_v0 of the nodes, if the snapshot has them. Dry soil and soil
+/// without effective stress before the shaking have no r_u: NaN, not zero.
 void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh) {
     for (const double u : mesh.pore_pressure) cloud.pore_pressure.push_back(static_cast<float>(u));
     const std::vector<double> excess = exchange::nodal_excess_pressure(mesh);
     if (excess.empty()) return;
     cloud.r_u.assign(excess.size(), no_value);
     for (const auto& quad : mesh.quads) {
-        // As nodal_excess_pressure has it: an element without u_0 at a corner is dry.
+        // Like nodal_excess_pressure: an element without u_0 at its corners is dry.
         const bool wet = std::ranges::any_of(
             quad, [&](std::int32_t i) { return mesh.pore_pressure_0[i] != 0.0; });
         for (const std::int32_t i : quad)
@@ -149,7 +149,7 @@ void add_water(Cloud& cloud, const exchange::MeshSnapshot& mesh) {
     }
 }
 
-/// At each node the mean over the elements around it of the means of their Gauss points.
+/// Mean of each element's Gauss points, averaged over the elements around each node.
 template <class Value>
 std::vector<float> nodal_means(const exchange::MeshSnapshot& mesh, const Value& value_at) {
     const auto per_element = static_cast<std::size_t>(mesh.gauss_per_element);
@@ -169,7 +169,7 @@ std::vector<float> nodal_means(const exchange::MeshSnapshot& mesh, const Value& 
     return means;
 }
 
-/// Nodes at their displaced places; a node's region is that of the last element that touches it.
+/// Nodes in their displaced positions; a node has the region of the last element around it.
 Cloud nodes_of(const std::filesystem::path& file) {
     const auto mesh = exchange::read_mesh_snapshot(file).snapshot;
     const std::size_t n_nodes = mesh.position_0.size();

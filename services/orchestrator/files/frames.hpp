@@ -37,9 +37,9 @@ struct NoSuchField : std::runtime_error {
 class FrameReader {
   public:
     /// One JSON line padded with spaces to a multiple of 4 bytes, then little-endian float32
-    /// arrays, then the quads of a mesh as uint32 (rest_contract: frames/{name}/points). Every
-    /// stride-th particle; a mesh is never thinned. wanted: fields beside x and y; empty: all. Throws
-    /// IoError (the file vanished), BadInput (it is damaged) or NoSuchField.
+    /// arrays, then the quads of a mesh as uint32. Takes every stride-th particle; a mesh is never
+    /// thinned. wanted: fields besides x and y; empty: all. Throws IoError (the file vanished),
+    /// BadInput (it is damaged) or NoSuchField.
     std::string points(const std::filesystem::path& file, const std::string& phase,
                        std::size_t stride, const std::vector<std::string>& wanted = {});
 

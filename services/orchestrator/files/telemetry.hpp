@@ -15,7 +15,8 @@ struct TelemetryRequest {
     std::int64_t stride = 1;          ///< every stride-th line, counted from line 0
 };
 
-/// {"lines":[...],"next":LINE}: `next` is where to continue; a torn last line waits.
+/// {"lines":[...],"next":LINE}: `next` is where to continue; an incomplete last line is left for
+/// later.
 nlohmann::json read_telemetry(const std::filesystem::path& file, const TelemetryRequest& request);
 
 }  // namespace breach::orchestrator

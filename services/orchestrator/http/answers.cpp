@@ -22,12 +22,12 @@ json as_json(const Attempt& attempt) {
             {"cpu_seconds", or_null(attempt.cpu_seconds)}};
 }
 
-/// What the task's result says of it; null when there is no result, or an earlier version made it.
+/// An entry of the task's result; null: no result, or no such entry.
 json of_result(const Task& task, const char* key) {
     return task.result && task.result->is_object() ? task.result->value(key, json()) : json();
 }
 
-/// By code: the results that carry it, of the phase with the most.
+/// Number of results with each flag, of the phase with the most.
 std::map<std::string, std::int64_t> flag_counts(const findings::Facts& facts) {
     std::map<std::string, std::int64_t> counts;
     for (const findings::Raised& each : facts.raised)
@@ -150,7 +150,7 @@ json as_json(const Event& event) {
 
 namespace {
 
-/// As json::dump writes it, at a fraction of its cost for what a table mostly holds.
+/// The same text as json::dump, but much faster for plain values.
 void append_value(std::string& text, const json& value) {
     const auto is_plain = [](unsigned char c) {
         return c >= 0x20 && c < 0x7f && c != '"' && c != '\\';
@@ -170,7 +170,7 @@ void append_value(std::string& text, const json& value) {
 }  // namespace
 
 std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns) {
-    std::vector<std::string> before;  // each value: its column's name
+    std::vector<std::string> before;  // "name": before the value of each column
     for (const ResultColumn& each : columns)
         before.push_back((before.empty() ? "{" : ",") + json(each.name).dump() + ":");
     std::string text = "[";

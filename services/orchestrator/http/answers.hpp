@@ -22,11 +22,10 @@ nlohmann::json warnings_json(const std::vector<fault::Flag>& flags);
 
 using Columns = std::span<const ResultColumn>;
 
-/// [{"runout": ...}, ...]: by the names of the columns. Text directly, as tables may be long.
+/// [{"runout": ...}, ...], keyed by column name. Written as text directly, as tables may be long.
 std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns);
 /// Description of the columns of a table of results: [{name, kind, unit, title, meaning}].
 nlohmann::json described(Columns columns);
-/// JSON schema of one of these rows.
 nlohmann::json schema_of_rows(Columns columns);
 
 /// RFC 4180, one line per transfer time, the names of the JSON answer in the first line.

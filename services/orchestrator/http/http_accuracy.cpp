@@ -17,7 +17,7 @@ void reply_of_run(Call& call, const Run& run, json body) {
     reply(call.response, body);
 }
 
-/// As the study asks, or with the asked error of the request.
+/// With the study's requested error, or the request's.
 AccuracyTable wanted_table(const Service& service, const Call& call, const Run& run) {
     const auto asked = call.number("asked_error");
     if (asked && !(*asked > 0.0 && *asked <= 1.0))
@@ -29,7 +29,6 @@ AccuracyTable wanted_table(const Service& service, const Call& call, const Run& 
     return std::move(*table);
 }
 
-/// The table of an accuracy study, as far as the run has come.
 void accuracy(const Service& service, Call& call) {
     call.allow_parameters({"asked_error"});
     const Run run = wanted_run(service, call.parts[0]);
@@ -41,7 +40,7 @@ std::optional<std::size_t> count_in(const Call& call, const std::string& name, s
     return static_cast<std::size_t>(call.whole_number(name, 1, 1, most));
 }
 
-/// A run of new draws of the recommended setting, or of the one that is named.
+/// Starts a run with new repeats of the recommended or the named setting.
 void draw_check(Service& service, Call& call) {
     call.allow_parameters({"repeats", "ladder", "step", "mean_of", "asked_error"});
     const Run run = wanted_run(service, call.parts[0]);
@@ -57,7 +56,7 @@ void draw_check(Service& service, Call& call) {
     reply(call.response, as_json(wanted_run(service, check), service.store, service.board), 202);
 }
 
-/// What the draws of such a run make of the promise, as far as it has come.
+/// The result of a blind check so far.
 void show_check(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_run(service, call.parts[0]);

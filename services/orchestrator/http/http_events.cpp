@@ -11,7 +11,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr int most_streams = 200;  // each holds a thread of the server
+constexpr int most_streams = 200;  // each needs a thread of the server
 constexpr int most_waiters = 32;
 constexpr std::size_t largest_batch = 500;
 constexpr std::int64_t longest_wait_seconds = 60;
@@ -22,7 +22,7 @@ constexpr auto sign_of_life = std::chrono::seconds(15);
 std::atomic<int> streams = 0;
 std::atomic<int> waiters = 0;
 
-/// A seat among a bounded number, given back when it goes.
+/// One of a limited number of streams; released by the destructor.
 class Seat {
   public:
     Seat(std::atomic<int>& taken, int most, httplib::Response& response) : taken_(taken) {
@@ -40,7 +40,7 @@ class Seat {
     std::atomic<int>& taken_;
 };
 
-/// Waits in slices, so that a stopping server is not held up.
+/// Waits in slices, so that a stopping server ends soon.
 bool wait_for_event(const Store& store, std::int64_t after, Clock::time_point until,
                     const std::atomic<bool>& stopping) {
     while (!stopping && Clock::now() < until) {
@@ -68,7 +68,7 @@ void long_poll(const Service& service, Call& call, const std::atomic<bool>& stop
     reply(call.response, {{"events", list}, {"next", next}});
 }
 
-/// Where a stream begins: after what the client has seen, else now.
+/// First event of a stream: after Last-Event-ID, else the next.
 std::int64_t stream_start(const Service& service, const Call& call) {
     const std::string seen = call.request.get_header_value("Last-Event-ID");
     std::int64_t seq = 0;
@@ -90,7 +90,7 @@ bool write(httplib::DataSink& sink, const std::string& text) {
 
 bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& sink,
                      const std::atomic<bool>& stopping) {
-    if (stopping || !sink.is_writable()) return false;  // its place is another's
+    if (stopping || !sink.is_writable()) return false;  // release its place
     std::string text;
     if (service.store.wait_for_event(stream.after, look_at_stopping)) {
         for (const Event& each : service.store.events_after(stream.after, largest_batch)) {
@@ -100,7 +100,7 @@ bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& 
                     as_json(each).dump(-1, ' ', false, json::error_handler_t::replace) + "\n\n";
         }
     } else if (Clock::now() - stream.spoke > sign_of_life) {
-        text = ": still here\n\n";  // a client that went away shows when it is written to
+        text = ": still here\n\n";  // a write shows whether the client is gone
     }
     if (text.empty()) return true;
     stream.spoke = Clock::now();
@@ -108,13 +108,13 @@ bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& 
 }
 
 void server_sent(const Service& service, Call& call, const std::atomic<bool>& stopping) {
-    // An aggregate, whose seat cannot be moved.
+    // An aggregate: its seat cannot be moved.
     auto stream =
         // NOLINTNEXTLINE(modernize-make-shared)
         std::shared_ptr<Stream>(new Stream{Seat(streams, most_streams, call.response),
                                            stream_start(service, call), call.parameter("run")});
     call.response.set_header("Cache-Control", "no-store");
-    call.response.set_header("X-Accel-Buffering", "no");  // nginx would hold events back
+    call.response.set_header("X-Accel-Buffering", "no");  // nginx would buffer events
     call.response.set_chunked_content_provider(
         "text/event-stream", [&service, &stopping, stream, greeted = false](
                                  std::size_t, httplib::DataSink& sink) mutable {
@@ -125,7 +125,7 @@ void server_sent(const Service& service, Call& call, const std::atomic<bool>& st
             try {
                 return continue_stream(service, *stream, sink, stopping);
             } catch (const StoreError&) {
-                return false;  // the client comes again
+                return false;  // the client reconnects
             }
         });
 }

@@ -9,7 +9,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The study with its scene inside, as POST /v1/runs takes it; nothing when a file does not fit.
+/// The study with its scene, as POST /v1/runs accepts it; nothing: the file is not a study.
 std::optional<json> example_in(const std::filesystem::path& file) {
     json study = json::parse(whole_text(file), nullptr, false);
     if (!study.is_object() || !study.contains("name")) return std::nullopt;

@@ -20,7 +20,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The endings by which files are read; anything else is two columns of text.
+/// Known file types; any other file is read as two columns of text.
 constexpr std::array<std::string_view, 5> endings{".at2", ".vt2", ".dt2", ".csv", ".msh"};
 constexpr const char* other_ending = ".txt";
 
@@ -30,7 +30,7 @@ std::string ending_of(const std::string& name) {
     return std::ranges::find(endings, ending) != endings.end() ? ending : other_ending;
 }
 
-/// As its sender calls it: to be shown, never a path.
+/// The sender's name of the file, for display only, never a path.
 std::string sent_name(const Call& call) {
     constexpr std::size_t longest = 200;
     std::string name = fs::path(call.parameter("name").value_or("")).filename();
@@ -48,7 +48,7 @@ Problem disk_refused(const std::string& why) {
     return {503, "/problems/storage", "The disk refused", "nothing was stored: " + why};
 }
 
-/// What arrives goes behind what is there. `kept`: for one that goes on another time.
+/// Appends the body to the file. `kept`: an interrupted upload may be resumed.
 void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
     constexpr std::size_t dropped = std::size_t{64} << 20;
     auto bytes = static_cast<std::size_t>(file.bytes());
@@ -60,7 +60,7 @@ void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
         } catch (const fault::IoError& error) {
             refused = error.what();
         }
-        return bytes <= most + dropped;  // so that its sender hears why
+        return bytes <= most + dropped;  // read on, so that the sender gets the answer
     });
     if (bytes > most)
         throw Problem{413, "/problems/too-large", "Content too large",
@@ -73,7 +73,7 @@ void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
                            : "the file did not arrive whole; send it again");
 }
 
-/// sha256: as its sender announces it; empty: it does not.
+/// sha256: announced by the sender; empty: not announced.
 ArrivingFile arriving_file(const Service& service, const std::string& sha256,
                            const std::string& ending, std::int64_t from) {
     if (sha256.empty()) {
@@ -93,8 +93,8 @@ ArrivingFile arriving_file(const Service& service, const std::string& sha256,
         std::to_string(file->bytes()) + " bytes of it have arrived, so from must be that, or 0"};
 }
 
-/// What the file is, by those who will read it, and what they would warn of. Throws BadInput with the
-/// sender's name of it.
+/// Identifies the file with the reader for its type, and returns the reader's warnings. Throws
+/// BadInput with the sender's name of the file.
 std::vector<fault::Flag> recognise(const fs::path& path, StoredFile& file) {
     try {
         if (path.extension() == ".msh") {
@@ -119,7 +119,7 @@ std::vector<fault::Flag> recognise(const fs::path& path, StoredFile& file) {
     }
 }
 
-/// Of a motion that was taken earlier; what was read then may be refused now.
+/// Warnings of a stored motion, which the present reader may refuse.
 std::vector<fault::Flag> warnings_again(const fs::path& path) {
     try {
         return motion::warnings_about(motion::read_motion(path), "");
@@ -152,7 +152,7 @@ void keep(Service& service, const ArrivingFile& arriving, const StoredFile& file
     });
 }
 
-/// 201 when it is on the disk; 200 when it was there.
+/// 201: stored; 200: it existed.
 void upload(Service& service, Call& call) {
     call.allow_parameters({"name", "sha256", "from"});
     if (call.request.get_header_value("Content-Type") != "application/octet-stream")
@@ -202,8 +202,8 @@ StoredFile wanted_file(const Service& service, const std::string& sha256) {
     return std::move(*file);
 }
 
-/// HEAD says whether it need not be sent, and keeps it from being forgotten meanwhile; of one that is not here whole, how
-/// much is.
+/// HEAD tells whether the upload can be skipped, and postpones the file's removal; for an
+/// incomplete upload it returns the number of bytes received.
 void show_file(Service& service, Call& call) {
     call.allow_parameters({});
     if (const auto bytes = arrived_bytes(service.data.arriving(), call.parts[0]); bytes > 0)

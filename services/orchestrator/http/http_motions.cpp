@@ -12,7 +12,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Nothing: the FEM has not ended, or nothing shook it.
+/// Nothing: the FEM has not ended, or has no motion.
 std::optional<findings::Shaken> shaken_by(const Task& fem) {
     if (!has_output(fem.state) || !fem.result) return std::nullopt;
     const json& result = *fem.result;
@@ -52,7 +52,7 @@ std::vector<findings::Shaken> shaken_in(const Store& store, const std::string& r
     return all;
 }
 
-/// What a study of several motions says, as far as the run has come.
+/// Findings of a study of several motions so far.
 void motions(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_run(service, call.parts[0]);

@@ -21,7 +21,7 @@ json width_entry(const std::string& text) {
     return json::parse("[" + text + "]", nullptr, false);
 }
 
-/// Of the request, else of the scene that the runout was made from.
+/// From the request, else from the scene of the runout.
 std::optional<outflow::BreachWidth> wanted_width(const Call& call,
                                                  const std::filesystem::path& output) {
     if (const auto text = call.parameter("breach_width"); text && !text->empty())
@@ -49,7 +49,7 @@ json body_of(const Task& task, const outflow::Hydrograph& hydrograph,
     return body;
 }
 
-/// What the runout's row of results says against its numbers.
+/// Flags of the runout's row of results.
 std::string caution_of(const Store& store, const Task& task) {
     for (const ResultRow& row : store.results(task.run)) {
         if (value_of(row, "mpm_task") != task.id) continue;
@@ -113,7 +113,7 @@ void hydrograph(Service& service, Call& call) {
                               "text/plain");
 }
 
-/// Percentiles of the envelopes of all runouts of a run that are there.
+/// Percentiles of the envelopes of the run's runouts so far.
 void envelopes(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_run(service, call.parts[0]);

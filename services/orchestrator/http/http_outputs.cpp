@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::int64_t largest_log_part = 1 << 20;
-constexpr std::int64_t largest_count = std::int64_t{1} << 53;  // whole in a JSON number
+constexpr std::int64_t largest_count = std::int64_t{1} << 53;  // exact in a JSON number
 
 Problem gone(const std::string& what) {
     return {410, "/problems/gone", "Gone", what + " is no longer on the disk as it was stored"};
@@ -43,7 +43,7 @@ void log(const Service& service, Call& call) {
     call.response.set_content(text, "text/plain; charset=utf-8");
 }
 
-/// Of a parameter that lists names by commas.
+/// Names in a comma-separated parameter.
 std::vector<std::string> names_in(const Call& call, const std::string& parameter) {
     std::vector<std::string> names;
     std::istringstream text(call.parameter(parameter).value_or(""));
@@ -84,7 +84,7 @@ void points(Service& service, Call& call) {
     const Task task = wanted_task(service, call.parts[0]);
     const std::string& name = call.parts[1];
     const auto file = service.data.output(task) / name;
-    std::error_code error;  // a name longer than a file's can be
+    std::error_code error;  // for example a name that is too long
     if (!is_frame_name(name) ||
         !std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)))
         throw not_found("frame " + name + " of task " + task.id);
@@ -100,11 +100,10 @@ void points(Service& service, Call& call) {
     }
 }
 
-/// At most one range, inside the file; httplib trusts what it parsed.
+/// At most one range, inside the file; httplib does not check it.
 void keep_valid_range(const httplib::Request& request, std::int64_t size) {
     if (request.ranges.empty()) return;
-    // The request is httplib's own mutable object; it reads the ranges again when it writes the
-    // answer.
+    // The request is httplib's own mutable object, from which it writes the answer.
     auto& ranges = const_cast<httplib::Request&>(request).ranges;
     auto [first, last] = ranges.front();
     if (last < 0) last = size - 1;

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uintmax_t least_free_bytes = 16 << 20;
 
-/// What a condition of a trigger may use and a telemetry line holds.
+/// The fields of telemetry, which conditions of triggers may use.
 json telemetry_table() {
     json fields = json::array();
     for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()})
@@ -43,7 +43,7 @@ const std::map<std::string, std::string> content_types{
     {".txt", "text/plain; charset=utf-8"},
 };
 
-/// No hidden names, no way up, nothing that a file system could read in its own way.
+/// Refuses hidden files, "..", and characters with a meaning to a file system.
 bool is_plain(const std::string& path) {
     const bool known_letters = std::ranges::all_of(path, [](unsigned char each) {
         return std::isalnum(each) != 0 || each == '/' || each == '.' || each == '-' || each == '_';
@@ -58,7 +58,7 @@ void send_file(const Service& service, Call& call, const std::string& name) {
     std::error_code error;
     const auto root = std::filesystem::canonical(service.web, error);
     const auto file =
-        std::filesystem::canonical(wanted, error);  // follows links: they must stay inside
+        std::filesystem::canonical(wanted, error);  // resolves links: they must stay inside
     const auto type = content_types.find(wanted.extension());
     const bool inside = !error && std::ranges::mismatch(root, file).in1 == root.end();
     if (!inside || type == content_types.end() || !std::filesystem::is_regular_file(file))
@@ -71,11 +71,10 @@ void send_file(const Service& service, Call& call, const std::string& name) {
     call.response.set_content(whole_text(file), type->second);
 }
 
-/// openapi.json; what a row of results holds is said by the table of its columns, what right an operation takes by
-/// the table of the routes.
+/// openapi.json, completed with the columns of results and the rights of the routes.
 using Description = nlohmann::ordered_json;
 
-/// "problems": statuses that are answered by a problem; any other may be, too.
+/// "problems": statuses answered by a problem; other statuses are possible.
 void add_problems(Description& operation) {
     const json problem{{"$ref", "#/components/responses/Problem"}};
     for (const auto& status : operation.value("problems", Description::array()))
@@ -91,7 +90,7 @@ void name_media_type(Description& body) {
     body.erase("json");
 }
 
-/// "{run}" of the path is a required parameter, before those that are listed.
+/// Adds "{run}" and the like of the path as required parameters, before the listed ones.
 void add_path_parameters(const std::string& path, Description& operation) {
     Description parameters = Description::array();
     for (std::size_t at = path.find('{'); at != std::string::npos; at = path.find('{', at + 1))
@@ -104,7 +103,7 @@ void add_path_parameters(const std::string& path, Description& operation) {
     if (!parameters.empty()) operation["parameters"] = std::move(parameters);
 }
 
-/// "extends": the properties of another schema come before its own.
+/// "extends": puts the properties of another schema before its own.
 void extend(Description& schemas, Description& schema) {
     if (!schema.contains("extends")) return;
     Description& base = schemas[schema["extends"].get<std::string>()];
@@ -115,7 +114,7 @@ void extend(Description& schemas, Description& schema) {
     schema = std::move(whole);
 }
 
-/// examples.json: real calls with their answers, each at its operation.
+/// Adds the examples of examples.json, real calls with their answers, to their operations.
 void add_examples(Description& paths) {
     for (const auto& call : Description::parse(examples_text())) {
         const auto word = [&](const char* entry) { return call.at(entry).get<std::string>(); };
@@ -135,7 +134,7 @@ std::string api_description(const Router& router) {
     auto document = Description::parse(openapi_text());
     Description& schemas = document["components"]["schemas"];
     for (auto& each : schemas) extend(schemas, each);
-    schemas.erase("Sweep");  // only extended
+    schemas.erase("Sweep");  // only a base for "extends"
     for (auto& [path, operations] : document["paths"].items()) {
         for (auto& [method, operation] : operations.items()) {
             for (auto& response : operation["responses"]) name_media_type(response);

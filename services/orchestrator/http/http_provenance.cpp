@@ -1,5 +1,5 @@
-// How a file came to be, up to the scene: PROV-JSON (W3C Member Submission, 24 April 2013), whose names
-// are those of PROV-DM. What the cache placed names the task that computed it.
+// Provenance of a file up to its scene, as PROV-JSON (W3C Member Submission, 24 April 2013) with
+// the names of PROV-DM. A file that the cache placed names the task that computed it.
 #include <fstream>
 #include <set>
 
@@ -24,7 +24,7 @@ class Chain {
         document_["prefix"] = {{"breach", name_space}};
     }
 
-    /// The file, the task that made it and all before that.
+    /// Adds the file, the task that made it, and everything before.
     void add_artifact(const Artifact& artifact) {
         const Task maker = wanted_task(service_, artifact.task);
         const std::string file = add_file(artifact.sha256, artifact.name, artifact.bytes);
@@ -56,10 +56,10 @@ class Chain {
         return id;
     }
 
-    /// The task's attempts as activities; the id of the last, which left the outputs.
+    /// Adds the task's attempts as activities; returns the id of the last, which made the outputs.
     std::string add_task(const Task& task) {
         const auto attempts = service_.store.attempts_of(task.id);
-        // A result that was taken from a run which is gone has no attempt here any more.
+        // The run that computed a reused result may be removed, with its attempts.
         const std::string last = name_of(
             "activity",
             attempts.empty() ? task.id : task.id + "/" + std::to_string(attempts.back().number));
@@ -138,7 +138,7 @@ class Chain {
             add_artifact(service_.store.maker_of(each.sha256).value_or(each));
             return;
         }
-        if (!task.input_sha256 || task.input_sha256->empty()) return;  // the parent runs still
+        if (!task.input_sha256 || task.input_sha256->empty()) return;  // the parent still runs
         use(activity, add_file(*task.input_sha256, task.input, 0), "input");
         document_["entity"][name_of("file", *task.input_sha256)].erase("breach:bytes");
         relate("wasGeneratedBy", {{"prov:entity", name_of("file", *task.input_sha256)},
@@ -153,7 +153,7 @@ class Chain {
         return found;
     }
 
-    /// The run's scene, the study that it stands in and, where it was a stored one, that.
+    /// Adds the run's scene, its study and, if there is one, the stored scene.
     std::string add_scene(const std::string& run) {
         const std::string text = service_.store.scene_of(run).value_or("{}");
         const std::string sha256 = exchange::sha256_of_text(text);
@@ -181,7 +181,7 @@ class Chain {
         return id;
     }
 
-    /// What the phase says of itself; an empty object where it left nothing.
+    /// The provenance in the phase's result.json; an empty object without a result.
     json result_of(const Task& task) const {
         std::ifstream stream(service_.data.output(task) / phases::files::result);
         const json result = json::parse(stream, nullptr, false);
@@ -191,7 +191,7 @@ class Chain {
     const Service& service_;
     json document_;
     std::map<std::string, std::vector<std::string>> sources_;  ///< of each activity in the document
-    std::set<std::string> runs_;                               ///< whose scenes are listed
+    std::set<std::string> runs_;                               ///< runs whose scenes are listed
     std::size_t relations_ = 0;
 };
 

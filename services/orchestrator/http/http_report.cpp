@@ -1,5 +1,5 @@
-// A run as the report that a person reads. The program `report` makes it of the folder that `breach export` would
-// write; the phases' files are linked into it, not copied.
+// The report of a run. The program `report` makes it from the folder that `breach export` would
+// write; the phases' files are linked, not copied.
 #include <memory>
 #include <mutex>
 
@@ -16,12 +16,12 @@ namespace {
 
 constexpr auto longest = std::chrono::minutes(5);
 
-/// Gone with it.
+/// A folder that the destructor removes.
 class ScratchFolder {
   public:
     ScratchFolder(const fs::path& scratch, const std::string& run)
         : path_(scratch / ("report-" + run)) {
-        fs::remove_all(path_);  // of a service that was killed
+        fs::remove_all(path_);  // leftover of a killed service
         fs::create_directories(path_);
     }
     ~ScratchFolder() {
@@ -61,7 +61,7 @@ class Folder {
     }
 
   private:
-    /// What the service answers to everybody; what refuses refuses the report.
+    /// The answer of this API; problems pass through.
     json answer(const std::string& part,
                 const std::vector<std::pair<std::string, std::string>>& parameters = {}) const {
         httplib::Request request;
@@ -77,7 +77,7 @@ class Folder {
         return body;
     }
 
-    /// Of a study of several motions; any other has none.
+    /// For a study of several motions only.
     void keep_motions() const {
         try {
             keep("motions.json", answer("/motions"));
@@ -109,7 +109,7 @@ class Folder {
     fs::path path_;
 };
 
-/// The program that was installed with this one.
+/// The program beside this one.
 fs::path report_program() { return fs::canonical("/proc/self/exe").parent_path() / "report"; }
 
 void send_report(const Router& router, const Service& service, Call& call) {
@@ -131,7 +131,7 @@ void send_report(const Router& router, const Service& service, Call& call) {
 }  // namespace
 
 void add_report_routes(Router& router, Service& service) {
-    const auto one_at_a_time = std::make_shared<std::mutex>();  // each takes a core and much memory
+    const auto one_at_a_time = std::make_shared<std::mutex>();  // each needs a core and much memory
     router.get("/v1/runs/{id}/report", [&router, &service, one_at_a_time](Call& call) {
         const std::lock_guard lock(*one_at_a_time);
         send_report(router, service, call);

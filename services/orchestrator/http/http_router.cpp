@@ -37,7 +37,7 @@ const std::string& read_method(const std::string& method) {
     return method == "HEAD" ? get : method;
 }
 
-/// A last segment "{rest...}" takes what remains of the path.
+/// A last segment "{rest...}" matches the rest of the path.
 bool matches(const std::vector<std::string>& pattern, const std::vector<std::string>& path,
              std::vector<std::string>& parts) {
     parts.clear();
@@ -90,7 +90,7 @@ void reply_with_text(httplib::Response& response, std::string body, int status) 
 }
 
 void Call::allow_parameters(const std::set<std::string>& names) const {
-    // A form's fields would pass for parameters; curl calls any body a form unless told otherwise.
+    // httplib would read a form as parameters, and curl declares any body a form by default.
     if (request.get_header_value("Content-Type").starts_with("application/x-www-form-urlencoded") &&
         !request.body.empty())
         json_body();
@@ -176,7 +176,7 @@ void Router::answer(const httplib::Request& request, httplib::Response& response
                     const Caller& caller, const httplib::ContentReader* body) const {
     Call call{request, response, caller, {}, body};
     answer_uncounted(call);
-    const int status = response.status < 0 ? 200 : response.status;  // httplib's "not set yet"
+    const int status = response.status < 0 ? 200 : response.status;  // httplib: -1 is not set yet
     ++answers_[static_cast<std::size_t>(std::clamp(status / 100, 0, 5))];
 }
 
@@ -198,7 +198,7 @@ void Router::answer_uncounted(Call& call) const {
         refuse(response,
                {503, "/problems/storage", "The database refused", "nothing was stored; try again"});
     } catch (const RemovedMeanwhile&) {
-        // A 404 would be wrong where another run was looked into beside this.
+        // Not 404: the removed run may not be the requested one.
         response.set_header("Retry-After", "1");
         refuse(response, {503, "/problems/removed-meanwhile", "Removed meanwhile",
                           "a run was removed while this was read; ask again"});

@@ -19,7 +19,7 @@
 
 namespace breach::orchestrator {
 
-/// The content of an answer other than 2xx; thrown by handlers, written by the router.
+/// The content of an answer other than 2xx; handlers throw it, the router writes it.
 struct Problem {
     int status;
     std::string type;  ///< stable, below /problems/
@@ -33,7 +33,6 @@ Problem bad_request(const std::string& detail);
 
 void refuse(httplib::Response& response, const Problem& problem);
 void reply(httplib::Response& response, const nlohmann::json& body, int status = 200);
-/// The same with a JSON text.
 void reply_with_text(httplib::Response& response, std::string body, int status = 200);
 
 /// One request, as its handler gets it.
@@ -42,7 +41,7 @@ struct Call {
     httplib::Response& response;
     const Caller& caller;            ///< requester: its token's name is stored with every event
     std::vector<std::string> parts;  ///< values of the template's {…}, decoded
-    /// For a path whose body is not kept in memory (HttpServer::answer): reads it, once.
+    /// Reads the body, once, where it is not kept in memory (HttpServer::answer).
     const httplib::ContentReader* body = nullptr;
 
     /// Unknown query parameters are 400, so that a misspelt filter is not silently ignored.

@@ -8,7 +8,6 @@
 
 namespace breach::orchestrator {
 
-/// All of those below.
 void add_all_routes(Router& router, Service& service, const std::atomic<bool>& stopping);
 
 /// Runs and tasks: submit, list, inspect, cancel, results.

@@ -32,7 +32,7 @@ json run_json(const Service& service, const std::string& id) {
     return as_json(wanted_run(service, id), service.store, service.board);
 }
 
-/// These tasks with their attempts and artifacts: three queries however many they are.
+/// The tasks with their attempts and artifacts: three queries for any number of tasks.
 json tasks_json(const Service& service, const std::vector<Task>& tasks) {
     json list = json::array();
     if (tasks.empty()) return list;
@@ -60,7 +60,7 @@ void submit(Service& service, Call& call) {
 
 constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
                                 "questionable", "partial", "failed",           "cancelled"};
-constexpr std::array sweep_states{"planning", "refining"};  // besides those
+constexpr std::array sweep_states{"planning", "refining"};  // in addition to those of runs
 
 void list_runs(const Service& service, Call& call, Ask ask) {
     call.allow_parameters({"limit", "cursor", "state", "name", "search"});
@@ -87,15 +87,15 @@ void list_runs(const Service& service, Call& call, Ask ask) {
     reply(call.response, {{filter.sweeps_only ? "sweeps" : "runs", list}, {"next", next}});
 }
 
-/// The text of an object that goes on: "{...," instead of "{...}".
+/// The text of an object to be continued: "{...," instead of "{...}".
 std::string opened(const json& object) {
     std::string text = object.dump(-1, ' ', false, json::error_handler_t::replace);
     text.back() = ',';
     return text;
 }
 
-/// The tasks of a large run, some at a time as the reader takes them: what is held in memory does
-/// not grow with the run. Each is as it was when it was read.
+/// Sends the tasks of a large run in parts as the reader takes them, so that memory does not grow
+/// with the run. Each task has its state at the time of reading.
 void send_with_tasks(const Service& service, Call& call, const json& head) {
     struct Walk {
         std::string text;       ///< to be sent before the next tasks
@@ -123,12 +123,12 @@ void send_with_tasks(const Service& service, Call& call, const json& head) {
                 return sink.write(part.data(), part.size());
             } catch (const std::exception& error) {
                 spdlog::error("{}: its tasks cannot be sent on: {}", id, error.what());
-                return false;  // the connection closes without the last chunk: no whole answer
+                return false;  // closes without the last chunk: the answer is visibly incomplete
             }
         });
 }
 
-/// tasks=0: without its tasks, whose number grows with the study.
+/// tasks=0: without the tasks, whose number grows with the study.
 void show_run(const Service& service, Call& call) {
     call.allow_parameters({"tasks"});
     const bool with_tasks = call.whole_number("tasks", 1, 0, 1) == 1;
@@ -148,7 +148,7 @@ void show_run(const Service& service, Call& call) {
     reply(call.response, body);
 }
 
-/// The same tasks in pages, for runs with thousands.
+/// The tasks in pages, for runs with thousands.
 void list_tasks(const Service& service, Call& call) {
     call.allow_parameters({"limit", "cursor"});
     wanted_run(service, call.parts[0]);
@@ -181,7 +181,7 @@ void command_run(Service& service, Call& call, Order order) {
     reply(call.response, run_json(service, call.parts[0]), 202);
 }
 
-/// Of the body, if it has no other; else null.
+/// The value of an entry, if the body has no other; else null.
 json only_entry(const Call& call, const char* name) {
     const json body = json::parse(call.json_body(), nullptr, false);
     return body.is_object() && body.size() == 1 ? body.value(name, json()) : json();
@@ -227,7 +227,7 @@ ResultFilter wanted_results(const Call& call) {
     return filter;
 }
 
-/// What a person who reads the CSV alone would miss: a line for each, without numbers.
+/// Adds a row without numbers for each variant without a transfer: the CSV would omit them.
 void add_without_transfer(const Store& store, const std::string& run,
                           std::vector<ResultRow>& rows) {
     for (const WithoutTransfer& each : store.without_transfer(run)) {
@@ -243,7 +243,7 @@ void add_without_transfer(const Store& store, const std::string& run,
     }
 }
 
-/// Of the study's own variants, not of their draws.
+/// Among the study's own variants, without repeats.
 json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
     std::vector<std::string> variants;
     for (const json& each : still(store.study_of(run)).value("variants", json::array()))
@@ -309,8 +309,8 @@ void results(const Service& service, Call& call) {
 
 // ---------------------------------------------------------------- sweeps
 
-/// A sweep is a run seen as a table: variants x transfer times. Both have the same id, and every
-/// run can be read so; the list holds those with several points.
+/// A sweep is a run as a table: variants x transfer times. Both have the same id. Every run can be
+/// read as a sweep; the list contains those with several points.
 json sweep_json(const Service& service, const Run& run) {
     const auto [points, done] = service.store.points_of(run.id);
     json body = as_json(run, service.store, service.board);
@@ -335,7 +335,7 @@ void submit_sweep(Service& service, Call& call) {
     reply(call.response, answer, 202);
 }
 
-/// Another budget, or none: null. What is spent already would stop it at once.
+/// Sets another budget, or none (null). Refuses a budget that is already spent.
 void change_budget(Service& service, const Call& call, const Run& run, const json& wanted) {
     std::optional<double> budget;
     if (!wanted.is_null()) {
@@ -351,7 +351,7 @@ void change_budget(Service& service, const Call& call, const Run& run, const jso
     service.dispatcher.wake();
 }
 
-/// More transfer times; 202 when they are stored. What was computed is not computed again.
+/// Adds transfer times; 202 when they are stored. Computed results stay.
 void extend_sweep(Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];

@@ -1,4 +1,4 @@
-// Stored scenes: kept under the SHA-256 of their completed text, found by it and by names.
+// Stored scenes, by the SHA-256 of their completed text and by name.
 #include "core/exchange/provenance.hpp"
 #include "core/scene/file_paths.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -38,7 +38,7 @@ FoundScene wanted_scene(const Service& service, const std::string& address) {
     return std::move(*found);
 }
 
-/// 201 when it is on the disk; 200 when the name stood for it already, or nothing new was asked for.
+/// 201: stored; 200: the scene, or the name with this scene, existed.
 void keep_scene(Service& service, Call& call) {
     call.allow_parameters({"name"});
     const auto name = call.parameter("name");

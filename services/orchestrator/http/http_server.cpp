@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t largest_body = 16 << 20;
 constexpr std::size_t most_headers = 64;
-constexpr std::size_t added_by_httplib = 4;    // REMOTE_ADDR and the like appear among the headers
-constexpr std::size_t most_connections = 256;  // each holds a thread, a stream of events for long
+constexpr std::size_t added_by_httplib = 4;    // REMOTE_ADDR and the like
+constexpr std::size_t most_connections = 256;  // each needs a thread, streams for long
 constexpr std::size_t most_requests_per_connection = 1000;
-constexpr auto longest_pause = std::chrono::seconds(10);  // of a client that sends or reads
+constexpr auto longest_pause = std::chrono::seconds(10);  // between a client's reads or writes
 constexpr int backlog = 512;
 
 bool is_loopback(const std::string& host) {
@@ -31,21 +31,21 @@ std::string without_port(const std::string& host) {
     return host.substr(0, colon);
 }
 
-/// What stands behind "Bearer " of the header; empty: nothing.
+/// The secret after "Bearer " in the header; empty: none.
 std::string secret_of(const httplib::Request& request) {
     constexpr std::string_view scheme = "Bearer ";
     const std::string given = request.get_header_value("Authorization");
     return given.starts_with(scheme) ? given.substr(scheme.size()) : std::string();
 }
 
-/// Two readings of where this request ends: nothing after it on the connection can be trusted.
+/// The request's length is ambiguous: bytes after it on the connection cannot be trusted.
 bool has_doubtful_end(const httplib::Request& request) {
     const auto lengths = request.get_header_value_count("Content-Length");
     const auto encodings = request.get_header_value_count("Transfer-Encoding");
     return lengths > 1 || encodings > 1 || (lengths > 0 && encodings > 0);
 }
 
-/// Writes the answer, a problem, and then fails on purpose, which makes httplib close the connection.
+/// Writes the answer and then fails on purpose, which makes httplib close the connection.
 void close_after(httplib::Response& response) {
     const std::string body = std::move(response.body);
     response.body.clear();
@@ -79,7 +79,7 @@ class Intake {
         reader_ = httplib::ContentReader(
             [this, body, form](httplib::ContentReceiver receive) {
                 asked_ = true;
-                // A form's parts are nothing that any path here takes.
+                // No path here uses the parts of a form.
                 const bool whole =
                     form ? (*body)([](const httplib::MultipartFormData&) { return true; },
                                    [](const char*, std::size_t) { return true; })
@@ -90,7 +90,8 @@ class Intake {
             nullptr);
     }
 
-    /// Throws 413, and keeps nothing then. What is too much is read and dropped for a while, so that its sender hears why.
+    /// Throws 413, without the text. Reads and drops some of the excess, so that the sender gets
+    /// the answer.
     void keep_in(std::string& text) {
         if (!left_) return;
         std::size_t bytes = 0;
@@ -117,7 +118,7 @@ class Intake {
 
   private:
     static constexpr std::size_t most_dropped = 4 * largest_body;
-    bool left_ = false;          ///< something may still come
+    bool left_ = false;          ///< there may be unread bytes
     std::size_t announced_ = 0;  ///< Content-Length [bytes]
     bool asked_ = false;
     httplib::ContentReader reader_{nullptr, nullptr};
@@ -157,8 +158,7 @@ class HttpServer::Implementation {
     }
     void stop() {
         stopping_ = true;
-        // httplib ignores a stop that comes before its loop has begun, and would then never stop
-        // serving.
+        // httplib ignores a stop before its loop begins, and would then never stop.
         constexpr auto moment = std::chrono::milliseconds(5);
         while (!ended_ && !server_.is_running()) std::this_thread::sleep_for(moment);
         server_.stop();
@@ -171,7 +171,7 @@ class HttpServer::Implementation {
         server_.set_read_timeout(longest_pause);
         server_.set_write_timeout(longest_pause);
         server_.set_tcp_nodelay(true);
-        // Not httplib's default, which lets a second service share the port.
+        // httplib's default lets a second service share the port.
         server_.set_socket_options([this](socket_t socket) {
             const int on = 1;
             setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
@@ -182,7 +182,7 @@ class HttpServer::Implementation {
     void set_handlers() {
         server_.set_pre_routing_handler(
             [this](const httplib::Request& request, httplib::Response& response) {
-                // Only artifacts come in parts; hundreds of ranges would multiply any other answer.
+                // Only artifacts and files allow ranges; many ranges would multiply other answers.
                 const bool parts = (request.path.starts_with("/v1/artifacts/") ||
                                     request.path.starts_with("/v1/files/")) &&
                                    request.ranges.size() == 1;
@@ -191,7 +191,7 @@ class HttpServer::Implementation {
                     refuse_and_close(response, bad_request("the request's length is given twice"));
                     return httplib::Server::HandlerResponse::Handled;
                 }
-                // A request that announces no body has none; httplib would wait for one.
+                // A request without Content-Length has no body; httplib would wait for one.
                 const bool bodiless = request.method == "GET" || request.method == "HEAD" ||
                                       request.method == "OPTIONS";
                 if (bodiless || request.has_header("Content-Length") ||
@@ -224,8 +224,8 @@ class HttpServer::Implementation {
         });
     }
 
-    /// A body is kept in memory only where it is small. One that is not read to its end would pass for
-    /// the connection's next request: the connection is closed then.
+    /// Keeps small bodies in memory only. An unread rest would be taken as the next request, so the
+    /// connection is closed.
     void answer(const httplib::Request& request, httplib::Response& response,
                 const httplib::ContentReader* body) const {
         Intake intake(request, body);
@@ -240,7 +240,7 @@ class HttpServer::Implementation {
         if (!intake.is_at_its_end()) close_after(response);
     }
 
-    /// Who asks. Throws the problem where that one may not.
+    /// Identifies the caller. Throws the problem if the caller lacks the right.
     Caller admitted(const httplib::Request& request, httplib::Response& response) const {
         if (request.headers.size() > most_headers + added_by_httplib)
             throw Problem{431, "/problems/too-many-headers", "Too many headers",
@@ -248,7 +248,7 @@ class HttpServer::Implementation {
         if (request.get_header_value("Range").find(',') != std::string::npos)
             throw Problem{416, "/problems/range", "Range not satisfiable", "one range at a time"};
         const std::string host = request.get_header_value("Host");
-        // A web page elsewhere could reach a service on loopback through its reader's browser.
+        // A web page elsewhere could reach a service on loopback through a user's browser.
         if (!callers_.needs_token() && !is_loopback(without_port(host)))
             throw Problem{421, "/problems/misdirected", "Misdirected request",
                           "without a token the service answers only as localhost"};
@@ -291,8 +291,8 @@ class HttpServer::Implementation {
                 settings_.host + ":" + std::to_string(settings_.port) +
                 ": cannot be bound; is the port in use? choose another with --port");
         }
-        // Debian's httplib listens with a backlog of 5: of fifty clients that connect at once, some would
-        // wait a second or give up.
+        // Debian's httplib listens with a backlog of 5: of fifty clients that connect at once, some
+        // would wait a second or give up.
         ::listen(listening_, backlog);
     }
 

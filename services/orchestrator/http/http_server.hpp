@@ -1,5 +1,5 @@
-// The service's HTTP server: sizes, hardening, tokens, routes. TLS, slow clients and rate limits are
-// left to nginx (docs/how-to/reverse_proxy.md). Only this folder uses cpp-httplib.
+// The service's HTTP server: sizes, hardening, tokens, routes. nginx handles TLS, slow clients and
+// rate limits (docs/how-to/reverse_proxy.md). Only this folder uses cpp-httplib.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ struct HttpSettings {
     std::string host = "127.0.0.1";
     int port = 0;  ///< 0: any free one
     std::string
-        token;  ///< of the admin; without it and without `tokens` none is needed, which only loopback allows
+        token;  ///< the admin's; neither this nor `tokens`: open to all, which only loopback allows
     std::filesystem::path tokens;  ///< file of named tokens (access/tokens.hpp); empty: none
 };
 

@@ -10,7 +10,7 @@ using nlohmann::json;
 
 namespace {
 
-/// 202 when nothing of the run can be asked for any more; its files go after that.
+/// 202 when the run is gone from the store; its files follow.
 void remove_run(Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];
@@ -51,7 +51,7 @@ json use_of(const Run& run, const RunUse& use) {
             {"shared_with", use.shared_with}};
 }
 
-/// Looks at every file: for a person who asks, not for a poll.
+/// Reads every file's size: slow, not for polling.
 void storage(const Service& service, Call& call) {
     call.allow_parameters({});
     const DiskUse use(service.data.runs(), service.data.files());

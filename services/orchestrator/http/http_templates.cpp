@@ -14,8 +14,8 @@ const templates::Template& wanted_template(const std::string& name) {
     throw not_found("template " + name);
 }
 
-/// The study as POST /v1/runs takes it: with its scene, whose motion is kept by the service. The order
-/// of entries is that of the files which `breach new` writes.
+/// The study as POST /v1/runs accepts it, with its scene; the service stores the motion. Entries
+/// have the order of the files of `breach new`.
 void make(Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& name = wanted_template(call.parts[0]).name;

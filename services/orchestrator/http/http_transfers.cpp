@@ -1,4 +1,3 @@
-// Transfers with what made them.
 #include <algorithm>
 #include <array>
 
@@ -15,7 +14,7 @@ namespace {
 
 constexpr std::array reasons{"at_time", "manual", "criterion", "window", "bisect"};
 
-/// What the trigger waited for, in one line: its condition with the threshold.
+/// The trigger's condition with its threshold, in one line.
 json condition_of(const TransferRow& row) {
     if (!row.spec) return nullptr;
     const json& spec = *row.spec;

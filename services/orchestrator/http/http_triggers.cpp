@@ -58,14 +58,14 @@ bool runs_now(const Task& fem) {
     return fem.state == TaskState::starting || fem.state == TaskState::running;
 }
 
-/// Simulated time of the last whole line.
+/// Simulated time of the last complete line.
 double reached(const DataFolder& data, const Task& fem) {
     const auto lines = telemetry::Tail(data.output(fem) / phases::files::telemetry).fresh();
     return lines.empty() ? 0.0 : lines.back().time;
 }
 
 TriggerPlan checked(const Service& service, const std::string& run, const std::string& body) {
-    // One entry of a study's list, checked by the same schema.
+    // Uses the schema of an entry in a study's list.
     json entries = json::array({scene::parse_json(body, "trigger")});
     std::vector<fault::Fault> faults =
         scene::complete_and_check(entries, scene::study_schema().at("properties").at("triggers"));
@@ -83,7 +83,7 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     return plan;
 }
 
-/// One FEM has one critical depth: that of another variant would tell of another dam.
+/// A shared FEM has several critical depths, and a trigger needs one.
 void check_fems(const Service& service, const std::string& run, const TriggerPlan& plan) {
     const RunSoFar so_far{.study = still(service.store.study_of(run)),
                           .scene = still(service.store.scene_of(run)),

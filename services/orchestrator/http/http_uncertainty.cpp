@@ -11,8 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What the samples of an uncertainty study say, as far as the run has come; the samples themselves
-/// as CSV or HDF5.
+/// Statistics of an uncertainty study so far, or its samples as CSV or HDF5.
 void uncertainty(const Service& service, Call& call) {
     call.allow_parameters({"format", "quantity"});
     const Run run = wanted_run(service, call.parts[0]);

@@ -1,4 +1,4 @@
-// What runs where: the slots, the attempts that occupy them, the queue, and Slurm's view of it.
+// Slots, the attempts that occupy them, the queue, and Slurm's view of it.
 #include <algorithm>
 
 #include "services/orchestrator/executors/order.hpp"
@@ -15,8 +15,8 @@ constexpr auto all = static_cast<std::size_t>(1) << 30;
 
 json memory_json(std::int64_t megabytes) { return megabytes > 0 ? json(megabytes) : json(nullptr); }
 
-/// A task that occupies its share, with the attempt that does. What only its supervisor can know is
-/// null until it has said it.
+/// A running task with its attempt. Values that only the supervisor knows are null until its first
+/// heartbeat.
 json worker_json(const Service& service, const Task& task, const Attempt& attempt,
                  const std::vector<QueuedJob>& jobs) {
     const AttemptFolder folder = service.data.attempt(task, attempt.number);
@@ -46,7 +46,7 @@ json worker_json(const Service& service, const Task& task, const Attempt& attemp
             {"message", progress.message}};
 }
 
-/// Jobs by Slurm's word for their state, and why those that wait do.
+/// Number of jobs by Slurm's state, and of waiting jobs by Slurm's reason.
 json jobs_json(const std::vector<QueuedJob>& jobs) {
     json states = json::object();
     json reasons = json::object();

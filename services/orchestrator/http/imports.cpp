@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The entries of a request, with a fault for each that is not of its kind.
+/// The entries of a request, with a fault for each that has the wrong type.
 class Entries {
   public:
     explicit Entries(const json& body) : body_(body) {}
@@ -47,7 +47,7 @@ class Entries {
     json object(const std::string& name) {
         return take<json>(name, &json::is_object, "an object").value_or(json());
     }
-    /// Throws BadInput with what was wrong, and with entries that nobody asked for.
+    /// Throws BadInput with all faults, including unknown entries.
     void finish() {
         for (const auto& [name, value] : body_.items())
             if (!known_.contains(name)) refuse(name, "is not known", "leave it out");

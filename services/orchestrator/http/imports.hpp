@@ -11,7 +11,7 @@ namespace breach::orchestrator {
 /// Stores the text of a motion; returns its name in scenes.
 using KeepMotion = std::function<std::string(const std::string& text)>;
 
-/// {scene, report, study}; a study only with an earthquake. Throws BadInput with every fault of the drawing, or of the request itself.
+/// {scene, report, study}; a study only with an earthquake. Throws BadInput with every fault.
 nlohmann::json imported(const std::string& body, const KeepMotion& keep_motion);
 /// The same as a picture, SVG: the scene, or the outlines with their faults in red. Throws BadInput
 /// where there is nothing to draw.

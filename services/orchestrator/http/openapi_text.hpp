@@ -1,5 +1,5 @@
-// The description of this API (OpenAPI 3.1) and its examples, openapi.json and examples.json beside this
-// file: built into the program.
+// The description of this API (OpenAPI 3.1) and its examples: openapi.json and examples.json, built
+// into the program.
 #pragma once
 
 #include <string>

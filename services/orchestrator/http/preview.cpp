@@ -29,7 +29,7 @@ struct Sent {
 Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(resolved_study(service.store, body).text, "document");
     if (is_study_document(document) && !document.value("scene", json()).is_object())
-        sent_study(document, service);  // refuses it
+        sent_study(document, service);  // throws its faults
     report::BaseScene base = report::base_scene_of(document);
     check::Checked checked = check_sent_scene(base.scene, base.overrides, files_of(service));
     checked.faults = seen_from_here(std::move(checked.faults));
@@ -45,7 +45,7 @@ fault::BadInput refusal_of(const report::Draft& draft, const std::vector<fault::
     return {is_study(draft) ? "study" : "scene", std::move(faults)};
 }
 
-/// What the answer to a submission of the document would report beyond the faults of its scene.
+/// Faults and warnings of a submission beyond those of the scene.
 struct Judged {
     std::vector<fault::Fault> faults;
     std::vector<fault::Flag> warnings;
@@ -74,8 +74,8 @@ std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::
     return costs;
 }
 
-/// How many tasks an uncertainty study makes, with all samples that it asks for: what samples share is
-/// counted once.
+/// Number of tasks of an uncertainty study with all requested samples; tasks that samples share
+/// count once.
 estimate::Repeats repeats_here(const Service& service, json document) {
     estimate::Repeats repeats = estimate::repeats_of(document);
     if (!document.is_object() || !document.contains("uncertainty")) return repeats;
@@ -83,13 +83,13 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
     const TaskGraph graph = plan_tasks(sent_study(std::move(document), service), service.numerics);
     for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
-    if (!repeats.tasks.contains(phases::mpm.program))  // where a trigger fires
+    if (!repeats.tasks.contains(phases::mpm.program))  // for triggers
         for (const TaskPlan& each : graph.one_more_transfer)
             if (each.phase != phases::fem.program) ++repeats.tasks[each.phase];
     return repeats;
 }
 
-/// Whether what is expected stays below the study's budget: said beforehand.
+/// Compares the expected cost with the study's budget.
 void hold_against(double budget, json& cost) {
     const double low = cost["cpu_seconds"][0];
     const double high = cost["cpu_seconds"][1];
@@ -107,7 +107,7 @@ void hold_against(double budget, json& cost) {
 }
 
 report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) {
-    constexpr double most_elements = 2e5;  // a request is no place for hours of gmsh
+    constexpr double most_elements = 2e5;  // larger meshes take gmsh too long for a request
     for (const estimate::PhaseCost& each : estimate::cost_of(draft.scene))
         if (each.phase == phases::fem.program && each.counts.at(0).second > most_elements)
             throw fault::BadInput("scene",
@@ -141,7 +141,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
     std::vector<fault::Flag> warnings = draft.scene.warnings;
-    if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or its refusal
+    if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or throws its faults
     if (!draft.faults.empty()) throw refusal_of(draft, {});
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
     if (document.is_object() && document.contains("budget"))

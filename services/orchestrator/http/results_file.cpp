@@ -20,7 +20,7 @@ double as_real(const json& value) {
     return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-/// One line of a column of texts.
+/// A value as one line of a column of text.
 std::string as_line(const json& value) {
     std::string line = value.is_null()    ? ""
                        : value.is_array() ? codes_of(value)

@@ -6,8 +6,8 @@
 
 namespace breach::orchestrator {
 
-/// The bytes of the file. Unknown numbers are NaN; yes and no are 1 and 0, unknown is -1; columns of text are one text
-/// with a line per row. `scratch`: a folder for temporary files. Throws IoError.
+/// The bytes of the file. Unknown numbers are NaN; yes and no are 1 and 0, unknown is -1; a column
+/// of text is one text with a line per row. `scratch`: folder for temporary files. Throws IoError.
 std::string as_hdf5(const ResultTable& table, const std::string& run, const std::string& scene,
                     FrameReader& hdf5, const std::filesystem::path& scratch);
 

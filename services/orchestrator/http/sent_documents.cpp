@@ -16,7 +16,7 @@ using nlohmann::json;
 
 namespace {
 
-/// By its format; without one, by parts that the other kind cannot have.
+/// Decides by the format; without one, by parts that only this kind has.
 bool is_a(const std::string& kind, const json& document, const char* part) {
     if (!document.is_object()) return false;
     const json format = document.value("format", json());

@@ -1,5 +1,5 @@
-// Reads uploaded studies and scenes, with checks for the HTTP layer: the sender may have confused the
-// two, and files are on this machine, not on the sender's.
+// Reads uploaded studies and scenes, with checks for the HTTP layer: the sender may have confused
+// the two, and files are on this machine, not on the sender's.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ Study sent_study(nlohmann::json document, const Service& service);
 /// read_whole_scene.
 WholeScene sent_scene(const std::string& body, const Service& service);
 
-/// The faults, with a remedy for a missing file that also fits a sender on another machine.
+/// The faults, where a missing file gets a remedy that also suits a sender on another machine.
 std::vector<fault::Fault> seen_from_here(std::vector<fault::Fault> faults);
 
 }  // namespace breach::orchestrator

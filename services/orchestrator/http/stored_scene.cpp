@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::string_view by_content = "sha256/";
 
-/// "NAME@3" -> 3; nothing: no version is asked for. 0: there is no such version.
+/// "NAME@3" -> 3; nothing: no version given; 0: not a version.
 std::optional<std::int64_t> version_in(const std::string& address) {
     const std::size_t at = address.find('@');
     if (at == std::string::npos) return std::nullopt;

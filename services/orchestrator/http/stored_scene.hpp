@@ -23,7 +23,7 @@ struct FoundScene {
 /// address: one of the three above, or the 64 digits alone. Nothing: there is no such scene.
 std::optional<FoundScene> find_scene(const Store& store, const std::string& address);
 
-/// A name under which a scene may be stored; digits of a hash are no name.
+/// Whether a scene may be stored under this name; the digits of a hash are not a name.
 bool is_scene_name(const std::string& text);
 
 /// A study and the stored scene it was made from.

@@ -13,7 +13,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// What the program prints until it ends.
+/// The output of PROGRAM SCENE --plan.
 std::string answer_of(const std::filesystem::path& program, const std::filesystem::path& scene) {
     const command::Result result =
         command::run({program.string(), scene.string(), "--plan"}, "", command::longest_answer);

@@ -7,7 +7,7 @@
 
 namespace breach::orchestrator {
 
-// SQL CHECKs the same words.
+// SQL CHECKs contain the same words.
 static constexpr auto words_of(TaskState) {
     using enum TaskState;
     return words::in_order<TaskState>({{blocked, "blocked"},
@@ -74,7 +74,7 @@ using E = TaskEvent;
 using A = AttemptState;
 using B = AttemptEvent;
 
-// An exit record can be found in `starting` too: the service died before it noted the start.
+// `starting` has exits too: the service may die before it notes the start.
 constexpr std::array task_table{
     TaskRule{T::blocked, E::release, T::ready},
     TaskRule{T::blocked, E::skip, T::skipped},
@@ -109,7 +109,7 @@ constexpr std::array task_table{
     TaskRule{T::retry_wait, E::wait_over, T::ready},
     TaskRule{T::retry_wait, E::cancel, T::cancelled},
 
-    // Cancelled between the stored intent and the start: the start is still noted, then it is
+    // Cancelled between the stored intent and the start: the start is noted, then the process is
     // stopped.
     TaskRule{T::cancelling, E::start, T::cancelling},
     TaskRule{T::cancelling, E::stopped, T::cancelled},

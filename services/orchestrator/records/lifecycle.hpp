@@ -11,15 +11,15 @@
 
 namespace breach::orchestrator {
 
-/// Each state: who moves it on, and its treatment after a restart of the service.
+/// States: who moves a task on, and what a restart of the service does.
 ///
 ///     blocked      waits for a parent's output; the dispatcher releases or skips it.
 ///                  Restart: looks again for the file or the parent's end.
 ///     ready        waits for a slot; the dispatcher claims it. Restart: nothing to do.
 ///     cached       final: an equal task had been done before.
 ///     starting     its attempt's row is stored, its process is perhaps started.
-///                  Restart: asks the attempt's lock.
-///     running      its process is known to run. Restart: asks the lock and the exit record.
+///                  Restart: checks the attempt's lock.
+///     running      its process is known to run. Restart: checks the lock and the exit record.
 ///     finalizing   its process ended well, its outputs are being hashed. Restart: hashes again.
 ///     succeeded    final.
 ///     failed       final, until a user's redo.
@@ -99,9 +99,9 @@ std::span<const AttemptEvent> all_attempt_events();
 std::optional<TaskState> next(TaskState from, TaskEvent event);
 std::optional<AttemptState> next(AttemptState from, AttemptEvent event);
 
-/// It is over: only a user's redo moves it any more.
+/// Only a user's redo moves it any more.
 bool is_final(TaskState state);
-/// Its output is there: computed, or taken from an equal task.
+/// Its output exists: computed, or taken from an equal task.
 bool has_output(TaskState state);
 /// The attempt may still have a process.
 bool is_live(AttemptState state);

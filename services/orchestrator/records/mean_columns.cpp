@@ -8,7 +8,7 @@ namespace {
 
 using enum ColumnKind;
 
-/// Columns with names that are made here.
+/// Columns with generated names.
 class MeanColumns {
   public:
     MeanColumns() {
@@ -46,7 +46,7 @@ class MeanColumns {
     void add(const ResultColumn& column) { columns_.push_back(column); }
     const char* text(std::string made) { return texts_.emplace_back(std::move(made)).c_str(); }
 
-    std::deque<std::string> texts_;  // whose addresses stay
+    std::deque<std::string> texts_;  // a deque: addresses stay valid
     std::vector<ResultColumn> columns_;
 };
 

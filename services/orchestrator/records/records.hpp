@@ -41,7 +41,7 @@ struct Resources {
 struct TaskPlan {
     std::string phase;                    ///< executable: "fem_solver", ...
     std::string label;                    ///< unique in the run; its folder's name
-    std::optional<double> transfer_time;  ///< t_T [s]; of a transfer without: left open
+    std::optional<double> transfer_time;  ///< t_T [s]; nothing where a trigger will decide it
     std::optional<std::size_t> parent;  ///< index in the plan of the task whose output is the input
     Release release = Release::at_once;
     std::string input;                   ///< file name in the parent's output folder; empty: none
@@ -200,7 +200,7 @@ struct RunFilter {
     /// A part of its name, title or id; not case-sensitive for ASCII letters.
     std::optional<std::string> search{};
     std::optional<std::pair<std::string, std::string>> before;  ///< (created, id)
-    /// With their states as sweeps: while they go on also planning (triggers will decide the
+    /// Only sweeps, with two more states while they run: planning (triggers will decide the
     /// transfer times) and refining (a bisection adds points after the first results).
     bool sweeps_only = false;
 };
@@ -290,7 +290,7 @@ struct StoredFile {
 /// Result of a request to remove a run or a file.
 enum class Removal { done, unknown, going_on, pinned, needed };
 
-/// A firing and how long it took from the line that met its trigger [ms].
+/// A firing, and delays since the telemetry line that met its trigger [ms].
 struct FiringRow {
     Firing firing;
     std::int64_t fired_ms;                 ///< to the stored firing
@@ -315,7 +315,7 @@ struct TransferRow {
     std::optional<nlohmann::json> crossed;    ///< values on the line that met it
     std::optional<std::int64_t> fem_step;     ///< of that line
     std::optional<std::int64_t> snapshot_ms;  ///< from that line to the snapshot
-    std::optional<std::int64_t> start_ms;     ///< from the snapshot, as it was seen, to the start
+    std::optional<std::int64_t> start_ms;     ///< from when the snapshot was seen to the start
     nlohmann::json runouts;                   ///< [{task, variant, state, runout}] of its MPM tasks
     std::optional<std::string> started;
     std::optional<std::string> same_as;
@@ -344,13 +344,13 @@ struct WithoutTransfer {
     std::string reason;  ///< the triggers', or the FEM's
 };
 
-/// What a bisection knows of one transfer: of the first variant, on each of its lattices.
+/// A bisection's knowledge of one transfer, from the first variant on each of its lattices.
 struct Sample {
     double transfer_time;
-    bool ended;                   ///< all of them
-    std::vector<double> runouts;  ///< of the draws that have one
+    bool ended;                   ///< all of its runs
+    std::vector<double> runouts;  ///< of the repeats that have one
     std::size_t draws;            ///< number requested; 1: the study has no repeats
-    /// A run ended by a fault of the machine, so the runout is unknown: how.
+    /// How a fault of the machine ended a run, so that the runout is unknown.
     std::optional<std::string> lost_by = {};
 };
 

@@ -43,7 +43,6 @@ struct ResultTable {
     std::vector<ResultRow> rows;
 };
 
-/// The value of the column with this name.
 const nlohmann::json& value_of(const ResultRow& row, std::string_view name,
                                std::span<const ResultColumn> columns = result_columns());
 nlohmann::json& value_of(ResultRow& row, std::string_view name,
@@ -52,8 +51,8 @@ nlohmann::json& value_of(ResultRow& row, std::string_view name,
 /// "still_moving;implausible": the codes of a list of flags, each once.
 std::string codes_of(const nlohmann::json& flags);
 
-/// The states of a row: those of tasks, "questionable", and "not_reached": its FEM had regularly
-/// ended before.
+/// The states of a row: the states of tasks, "questionable", and "not_reached" (the FEM ended
+/// regularly before the transfer time).
 bool is_row_state(std::string_view word);
 
 }  // namespace breach::orchestrator

@@ -17,7 +17,7 @@ bool is_measured(const ResultColumn& column) {
            name.starts_with("factor_of_safety");
 }
 
-/// The measured numbers of each transfer time that has a runout.
+/// Measured numbers by transfer time, for those with a runout.
 using Course = std::map<json, json>;
 
 Course course_of(const std::vector<ResultRow>& rows, const std::string& variant) {

@@ -22,7 +22,7 @@ std::optional<double> time_left(const std::vector<PhaseLeft>& phases, double fra
     if (known) return work / std::max(1.0, running);
     constexpr double too_early = 0.02;
     if (waiting > 0.0 || running == 0.0 || fractions / running < too_early) return std::nullopt;
-    // Nothing but first tasks of their phases: as far as they say themselves.
+    // No phase has finished a task: use the reported progress.
     const double done = fractions / running;
     return running_for / running * (1.0 - done) / done;
 }

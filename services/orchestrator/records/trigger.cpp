@@ -57,7 +57,7 @@ constexpr auto trigger_table = [] {
 constexpr double default_within_share = 0.05;    // of the dynamic stages
 constexpr double default_window_shares = 100.0;  // snapshots over the dynamic stages
 
-/// The entries a kind must and may have, besides "kind" and "name".
+/// Entries that a kind must and may have, besides "kind" and "name".
 struct KindRule {
     std::string_view kind;
     std::vector<std::string> needs;
@@ -127,7 +127,7 @@ void check_condition(const json& spec, const char* key, const std::string& point
     }
 }
 
-/// What was left out, so that the stored trigger says all it means.
+/// Fills in the defaults, so that the stored trigger is complete.
 json completed(json spec, double span) {
     const std::string kind = spec["kind"];
     const auto otherwise = [&](const char* key, const json& value) {

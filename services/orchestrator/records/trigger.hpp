@@ -80,7 +80,7 @@ struct Between {
     criteria::Pick pick;
 };
 struct Bisect {
-    double share;      ///< of the largest runout that still counts as plateau [-]
+    double share;      ///< of the largest runout: runouts above it belong to the plateau [-]
     double tolerance;  ///< of the edges [s]
     double from, to;   ///< range to search [s]
     int seeds;         ///< transfers before the first halving
@@ -88,16 +88,16 @@ struct Bisect {
 };
 using Work = std::variant<Manual, When, Between, Bisect>;
 
-/// From a checked spec.
+/// The spec is checked already.
 Work work_of(const TriggerPlan& plan);
 
 /// Names for conditions: the columns of core/telemetry.
 const std::vector<std::string>& telemetry_fields();
 
 struct CheckedTriggers {
-    std::vector<TriggerPlan> live;        ///< to be watched
-    std::vector<nlohmann::json> at_time;  ///< "times" of the at-time ones: a list or a range
-    double snapshot_interval = 0.0;       ///< that the live ones need; 0: they ask the FEM [s]
+    std::vector<TriggerPlan> live;        ///< triggers to watch
+    std::vector<nlohmann::json> at_time;  ///< "times" of the at_time triggers: a list or a range
+    double snapshot_interval = 0.0;       ///< for live triggers; 0: they request snapshots [s]
 };
 
 /// Checks entries that fit the schema; `span`: the dynamic stages' length [s]. Faults are added

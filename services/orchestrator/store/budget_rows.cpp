@@ -1,4 +1,4 @@
-// What runs may spend, and what those that have spent it still lack.
+// Budgets of runs, and the cost of the tasks that exhausted runs still lack.
 #include <cmath>
 #include <map>
 
@@ -29,10 +29,9 @@ namespace {
 
 struct MissingTasks {
     std::int64_t waiting = 0;
-    double mean = 0.0;  ///< of those of the phase that have ended [CPU s]; 0: none has
+    double mean = 0.0;  ///< of the phase's ended tasks [CPU s]; 0: none has ended
 };
 
-/// Of one run, by phase.
 std::map<std::string, MissingTasks> missing_in(Connection& database, const std::string& run) {
     std::map<std::string, MissingTasks> missing;
     database.query(
@@ -47,7 +46,7 @@ FROM tasks WHERE run=?1 GROUP BY phase HAVING sum(finished IS NULL)>0)",
     return missing;
 }
 
-/// Upwards to two digits: as a budget to ask for.
+/// Rounds up to two digits, as a proposal for a budget.
 double rounded_up(double value) {
     const double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
     return std::ceil(value / step) * step;

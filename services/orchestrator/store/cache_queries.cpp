@@ -1,11 +1,11 @@
-// What the cache asks the store.
+// Queries of the cache.
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
 
-/// As the index tasks_by_recipe has it: written otherwise, the index would not serve.
+/// Must equal the condition of the index tasks_by_recipe, or SQLite does not use the index.
 const std::string is_an_answer =
     "(state IN ('succeeded', 'cached') OR (state='failed' AND fault_exit=70))";
 
@@ -19,8 +19,8 @@ Recipe recipe_from(const Row& row) {
 }  // namespace
 
 bool Store::has_candidate(const Task& task) const {
-    // Another snapshot of the same FEM is not worth hashing this one for. By the index of answers:
-    // that of all tasks of the recipe would be read through when thousands wait.
+    // Another snapshot of the same FEM is no reason to hash this one. The index contains answers
+    // only: an index of all tasks of the recipe would be slow when thousands wait.
     return reader()->finds("SELECT 1 FROM tasks INDEXED BY tasks_by_recipe WHERE recipe=?1 AND " +
                                is_an_answer +
                                " AND (parent IS NULL OR parent<>?2 OR input=?3) LIMIT 1",
@@ -35,13 +35,13 @@ std::vector<Task> Store::answers_to(const std::string& recipe, const std::string
                              is_an_answer + " ORDER BY id DESC LIMIT ?",
                          {recipe, input_sha256, static_cast<std::int64_t>(most)}))
         if (auto answer = task(id))
-            found.push_back(std::move(*answer));  // else its run was removed meanwhile
+            found.push_back(std::move(*answer));  // else its run was removed
     return found;
 }
 
 std::optional<std::string> Store::equal_in_flight(const Task& task) const {
     if (!task.recipe) return std::nullopt;
-    // Inputs are equal if they are one file of one task, computed or taken over; nothing is hashed.
+    // Inputs are equal if they are one file of one task, computed or reused; no hashing.
     return reader()->text(
         R"(SELECT other.id FROM tasks AS other INDEXED BY tasks_by_state
 LEFT JOIN tasks AS theirs ON theirs.id=other.parent LEFT JOIN tasks AS mine ON mine.id=?1

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int busy_timeout_ms = 10000;
 
-/// Gives the statement back reusable however the reading of its rows ends.
+/// Resets the statement even when reading its rows throws.
 struct Rewind {
     sqlite3_stmt* statement;
     ~Rewind() { sqlite3_reset(statement); }
@@ -78,10 +78,10 @@ std::optional<nlohmann::json> Row::optional_document(std::string_view column) co
 
 namespace {
 
-/// What a savepoint could have to put back stays in memory up to this size, and goes to a temporary
-/// file beyond it. With `temp_store=MEMORY` it would be a list of 1 kB pieces that every statement
-/// walks along: a retry of 10,000 tasks held all writers up for 20 s. SQLite writes at most 128 kB
-/// at once and takes more for a full disk.
+/// Keeps the journal of savepoints in memory up to this size, beyond it in a temporary file. With
+/// `temp_store=MEMORY` it would be a list of 1 kB pieces that every statement traverses: a retry of
+/// 10,000 tasks blocked all writers for 20 s. SQLite writes at most 128 kB at once, and reports a
+/// larger size as a full disk.
 void set_memory_of_savepoints() {
     static const int once = sqlite3_config(SQLITE_CONFIG_STMTJRNL_SPILL, 126 * 1024);
     static_cast<void>(once);
@@ -103,10 +103,10 @@ Connection::Connection(const std::filesystem::path& file, Access access) {
     sqlite3_busy_timeout(database, busy_timeout_ms);
     script("PRAGMA foreign_keys=ON");
     if (access == Access::read_only) return;
-    // What a large removal wrote does not stay in the log's file. auto_vacuum first: it is only
-    // taken by a database without tables.
-    // What is written hits the same pages of a dozen indexes: they stay in memory (64 MB), and are
-    // copied from the log to the database once for many commits (every 16 MB).
+    // auto_vacuum first: it has no effect once there are tables. journal_size_limit: shrinks the
+    // log after a large removal. cache_size: 64 MB, as writes hit the same pages of a dozen
+    // indexes. wal_autocheckpoint: copies the log to the database every 16 MB, once for many
+    // commits.
     script(
         "PRAGMA auto_vacuum=INCREMENTAL; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; "
         "PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-65536; PRAGMA "

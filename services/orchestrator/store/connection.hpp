@@ -1,5 +1,4 @@
-// One SQLite connection and its prepared statements. Only the .cpp files of this folder know
-// sqlite3.h.
+// One SQLite connection and its prepared statements. Only this folder uses sqlite3.h.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@ struct sqlite3_stmt;
 
 namespace breach::orchestrator {
 
-/// The database refused (disk full, damaged, busy for too long). The message names the statement.
+/// SQLite failed (disk full, damaged, busy for too long). The message names the statement.
 class StoreError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
@@ -35,8 +34,8 @@ Value value_or_null(const std::optional<T>& value) {
     return *value;
 }
 
-/// The current row of a statement; columns by the names in the statement. Throws std::logic_error
-/// for a name that it lacks.
+/// The current row of a statement; columns by their names. Throws std::logic_error for an unknown
+/// name.
 class Row {
   public:
     std::string text(std::string_view column) const { return text_at(place_of(column)); }
@@ -77,8 +76,8 @@ class Row {
 
     std::unique_ptr<sqlite3_stmt, Close> statement_;
     std::vector<std::string> columns_;
-    /// Indices of the columns in the order in which the last row was read: the next row is read in
-    /// the same order.
+    /// Indices of the columns in the order in which the last row was read; the next row is usually
+    /// read in the same order.
     mutable std::vector<int> asked_;
     mutable std::size_t turn_ = 0;
 };

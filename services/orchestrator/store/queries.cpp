@@ -1,4 +1,4 @@
-// The reading half of the store.
+// The read operations of the store.
 #include <algorithm>
 #include <map>
 
@@ -15,13 +15,12 @@ using nlohmann::json;
 
 namespace {
 
-/// Every open state of a run or a sweep.
 bool is_open_state(const std::string& state) {
     return state == "queued" || state == "running" || state == "budget_exhausted" ||
            state == "planning" || state == "refining";
 }
 
-/// A bisect refines as soon as its seeds are placed, samples as soon as more are drawn than at first.
+/// Bisections refine once their seeds are placed, uncertainty studies once samples are added.
 std::string sweep_state() {
     return R"(CASE WHEN r.state NOT IN ('queued', 'running') THEN r.state
     WHEN NOT EXISTS (SELECT 1 FROM tasks AS t WHERE t.run=r.id AND )" +
@@ -115,7 +114,7 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
         sql += " AND shown=?";
         values.emplace_back(*filter.state);
     }
-    // The unfinished are few: found by their tasks, not by asking every run there ever was.
+    // Open runs are few: start from unfinished tasks instead of all runs.
     if (filter.state && is_open_state(*filter.state))
         sql += " AND r.id IN (SELECT run FROM tasks WHERE finished IS NULL)";
     if (filter.name) {
@@ -203,7 +202,7 @@ std::vector<Task> Store::tasks_of(const std::string& run) const {
 
 std::vector<Task> Store::tasks_of(const std::string& run, const std::string& after,
                                   std::size_t most) const {
-    // Ids begin with the run's, so that they are a range of the primary key.
+    // Ids of tasks begin with the run's id: a range of the primary key.
     return reader()->select(selected_tasks + "WHERE id>? AND id<? ORDER BY id LIMIT ?",
                             {after.empty() ? run + "-" : after, run + ".", as_value(most)},
                             task_from);
@@ -259,7 +258,7 @@ std::optional<std::int64_t> Store::ready_at(const std::string& task) const {
 }
 
 std::vector<std::string> Store::due_retries(std::int64_t now) const {
-    // One that is due later than any delay was set before the clock was: it has waited enough.
+    // A retry later than any delay was set before the clock was changed: it is due.
     return reader()->texts(
         "SELECT id FROM tasks WHERE state='retry_wait' AND (retry_at<=?1 OR retry_at>?1+?2)",
         {now, longest_retry_ms});
@@ -350,7 +349,7 @@ std::map<std::string, FactorsOfSafety> Store::factors_of_safety(const std::strin
 }
 
 std::vector<AccuracyRung> Store::accuracy_rungs(std::size_t most_runs) const {
-    // The condition on the study as the index runs_with_accuracy has it.
+    // The condition on the study must equal that of the index runs_with_accuracy.
     return reader()->select(
         R"(SELECT run, variant, id, recipe FROM tasks WHERE run IN (SELECT id FROM runs
     WHERE json_type(study, '$.accuracy')='object' ORDER BY id DESC LIMIT ?)
@@ -374,9 +373,8 @@ FROM tasks WHERE run=? AND )" +
     return *counts;
 }
 
-/// What waits in a cluster's queue does not run yet; what runs has run as long as its attempts did.
-/// The pace is of the last eight: a sweep goes from what stays to what flows, and its first say
-/// little of its last.
+/// A task in a cluster's queue does not count as running. The pace uses the last eight tasks: a
+/// sweep goes from stable to flowing cases, so that early ones are not representative.
 std::vector<PhaseLeft> Store::left_of(const std::string& run) const {
     return reader()->select(
         R"(SELECT sum(NOT runs) AS waiting, sum(runs) AS running,
@@ -414,7 +412,7 @@ json value_from(const Row& row, const ResultColumn& column) {
     return nullptr;
 }
 
-/// Reads such rows.
+/// Reads rows with these columns.
 auto result_from(std::span<const ResultColumn> columns) {
     return [columns](const Row& row) {
         ResultRow values;
@@ -432,7 +430,7 @@ std::vector<ResultRow> Store::results(const std::string& run, const ResultFilter
         sql += "run=?1 ORDER BY variant_place, transfer_time";
         values = {run};
     } else if (!filter.state && !filter.flag) {
-        // The page is found first, so that a long table is not worked out for a part of it.
+        // Selects the page before it computes the rows.
         sql += R"(mpm_task IN (SELECT tasks.id FROM tasks LEFT JOIN variants
     ON variants.run=tasks.run AND variants.name=tasks.variant WHERE tasks.run=?1 AND )" +
                makes_a_row("tasks") + R"(

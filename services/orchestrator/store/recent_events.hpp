@@ -1,4 +1,4 @@
-// The newest events as the writer committed them: hundreds of listeners can read an event without a database
+// The newest committed events, so that hundreds of listeners can read an event without a database
 // query each.
 #pragma once
 
@@ -12,11 +12,12 @@ namespace breach::orchestrator {
 
 class RecentEvents {
   public:
-    /// committed: in the order of their numbers, after all that came before.
+    /// committed: the next events in the order of their numbers.
     void add(std::vector<Event> committed);
-    /// To call when some of these events were removed from the database.
+    /// Call when some of these events were removed from the database.
     void forget() { kept_.clear(); }
-    /// At most so many of those after `seq`. Nothing: some of them may be older than those kept.
+    /// At most `most` of the events after `seq`. Nothing: some of them may be older than those
+    /// kept.
     std::optional<std::vector<Event>> after(std::int64_t seq, std::size_t most) const;
 
   private:

@@ -1,4 +1,4 @@
-// What is taken out of the store, and what that waits for.
+// Removal of runs, files and scenes from the store.
 #include <array>
 
 #include "core/fault/fault.hpp"
@@ -9,8 +9,8 @@ namespace breach::orchestrator {
 
 namespace {
 
-/// Children before parents. Tasks of other runs that took a result from here keep it: their files
-/// are links to the same bytes, or copies.
+/// Children before parents. Tasks of other runs that reused a result keep it: their files are links
+/// to the same bytes, or copies.
 constexpr std::array rows_of_run{
     "DELETE FROM firings WHERE trigger IN (SELECT id FROM triggers WHERE run=?)",
     "DELETE FROM triggers WHERE run=?",
@@ -42,7 +42,7 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
             "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", {run});
     if (goes_on) return Removal::going_on;
     for (const char* each : rows_of_run) database_.change(each, {run});
-    // Tasks that a trigger has still to make stand in the firing plan of their run.
+    // Tasks of future firings are in the firing plan of their run.
     database_.change(
         "DELETE FROM recipes WHERE NOT EXISTS (SELECT 1 FROM tasks WHERE recipe=hash) AND "
         "NOT EXISTS (SELECT 1 FROM firing_plans WHERE instr(tasks, hash) > 0)",

@@ -1,4 +1,5 @@
-// What a run's verdict follows from, gathered by queries that do not grow with lists of runs: services/findings judges it.
+// Collects the facts for a run's verdict, which services/findings judges. The number of queries
+// does not grow with the list of runs.
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
@@ -38,7 +39,7 @@ GROUP BY flags.run, severity, code, flags.phase ORDER BY flags.run, severity, co
         });
 }
 
-/// Samples are meant to fail in part: their probability is the answer, not a fault of the study.
+/// Excludes samples: some are expected to fail, and their share is the result.
 void add_unstable(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
         R"(SELECT tasks.run AS run, count(*) AS tasks,
@@ -68,7 +69,7 @@ JOIN tasks AS transfer ON transfer.parent = fem.id AND transfer.phase = 'transfe
     AND transfer.state IN ('succeeded', 'cached')
 GROUP BY fem.run)",
         {ids}, [&](const Row& row) {
-            if (row.integer("early") == 0) return;  // nor where nothing liquefied
+            if (row.integer("early") == 0) return;  // or nothing liquefied
             run_named(runs, row.text("run")).facts.early =
                 findings::Early{row.integer("early"), row.integer("transfers"), row.real("first"),
                                 row.real("liquefied")};
@@ -90,7 +91,8 @@ GROUP BY run, phase ORDER BY phase)",
         });
 }
 
-/// Of runs that are over: variants whose FEM ended before all their transfer times. Samples are counted as failed.
+/// For ended runs: variants whose FEM ended before all their transfer times. Excludes samples,
+/// which count as failed.
 void add_not_reached(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
         R"(SELECT run, variant, min(fault_summary) AS why FROM tasks JOIN runs ON runs.id = tasks.run
@@ -105,7 +107,8 @@ GROUP BY run, variant HAVING min(not_reached) ORDER BY run, min(tasks.id))",
         });
 }
 
-/// Of runs that are over. Looked for only where a FEM with expired triggers has no transfer: plans of many samples are long.
+/// For ended runs. Looks only where a FEM with expired triggers has no transfer: plans of many
+/// samples are long.
 void add_without_transfer(Connection& database, std::vector<Run>& runs) {
     for (Run& each : runs) {
         const bool some =
@@ -134,13 +137,13 @@ ORDER BY json_extract(result, '$.factor_of_safety') LIMIT 1)",
         });
 }
 
-/// draw_of: what the variant repeats; nothing: it is no repeat.
+/// draw_of: the repeated variant; nothing: not a repeat.
 struct Runout {
     GoverningResult result;
     std::optional<std::string> draw_of;
 };
 
-/// By an index alone (store/views.cpp): a run may have thousands.
+/// Uses an index only (store/views.cpp): a run may have thousands.
 std::vector<Runout> runouts_of(Connection& database, const std::string& run) {
     return database.select(
         R"(SELECT id, variant, transfer_time, json_extract(result, '$.runout') AS runout,
@@ -203,7 +206,7 @@ void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
     json list = json::array();
     for (Run& each : runs) {
         each.facts.state = each.state;
-        if (each.tasks_ended > 0) list.push_back(each.id);  // facts come with results
+        if (each.tasks_ended > 0) list.push_back(each.id);  // without results there are no facts
     }
     if (list.empty()) return;
     const std::string ids = list.dump();

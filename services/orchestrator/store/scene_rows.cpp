@@ -1,4 +1,4 @@
-// Scenes that were stored, their names, and the runs that were made of them.
+// Stored scenes, their names, and the runs made from them.
 #include "core/fault/fault.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/store/store.hpp"

@@ -12,7 +12,7 @@ namespace breach::orchestrator {
 /// The version of a database: 0 when it is empty.
 std::int64_t version_of(Connection& database);
 
-/// Why this program cannot read a database of that version, and what to do; nothing if it can.
+/// Why this program cannot read a database of that version, with a remedy; nothing if it can.
 std::optional<std::string> refusal_of(std::int64_t version);
 
 /// Creates the tables of an empty database, and the views if they differ from this program's, in

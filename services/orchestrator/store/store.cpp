@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t largest_group = 256;
 constexpr std::size_t most_idle_readers =
-    32;  // as many as ask at once on a busy day; each has some 100 kB
+    32;  // typical number of concurrent readers; each needs some 100 kB
 
 std::filesystem::path with_schema(const std::filesystem::path& file) {
     Connection database(file, Access::read_write);
@@ -83,7 +83,7 @@ void Store::commit(std::deque<Job>& jobs) {
         try {
             writing_.script("ROLLBACK");
         } catch (const StoreError&) {
-            // SQLite has already rolled back by itself (disk full, I/O error).
+            // SQLite has already rolled back (disk full, I/O error).
         }
         for (Job& job : jobs) job.done.set_exception(failure);
         return;

@@ -1,7 +1,7 @@
-// The memory of the service: one database file behind one interface. A single writer thread owns the
-// only writing connection and commits what has queued up together (group commit); readers use their
-// own read-only connections. SQLite 3.40 can corrupt when two connections write or checkpoint at
-// once, hence "single".
+// The service's database behind one interface. A single writer thread owns the only writing
+// connection and commits queued changes together (group commit); readers have read-only
+// connections. SQLite 3.40 can corrupt when two connections write or checkpoint at once, hence one
+// writer.
 #pragma once
 
 #include <atomic>
@@ -46,8 +46,8 @@ class Store {
     Store(const Store&) = delete;
     Store& operator=(const Store&) = delete;
 
-    /// Runs `change`, and returns its result when it is on the disk. Rethrows its exception, and
-    /// then keeps nothing of the change. Throws StoreError when the commit fails. by: Transaction.
+    /// Runs `change`, and returns its result when it is on the disk. Rethrows its exception after
+    /// undoing the whole change. Throws StoreError when the commit fails. by: see Transaction.
     template <class Change>
     auto write(const std::string& by, const Change& change) {
         using Made = std::invoke_result_t<const Change&, Transaction&>;
@@ -70,16 +70,17 @@ class Store {
     std::optional<Run> run(const std::string& id) const;
     /// The same with the state of a sweep (RunFilter::sweeps_only).
     std::optional<Run> sweep(const std::string& id) const;
-    /// Its tasks that have not ended, by phase, and the time that such tasks took.
+    /// Tasks of the run that have not ended, by phase, and how long recent tasks took.
     std::vector<PhaseLeft> left_of(const std::string& run) const;
-    /// How long at least one attempt of it ran, and how long none did, since it was created [s].
+    /// Time since the run's creation with at least one of its attempts running, and without any
+    /// [s].
     std::pair<double, double> computing_and_idle(const Run& run) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 
     std::optional<Task> task(const std::string& id) const;
-    /// Ready tasks in the order in which they start: by priority, then by age. Without those of
-    /// paused runs and of full queues (phases).
+    /// Ready tasks in the order in which they start: by priority, then by age. Leaves out paused
+    /// runs and full queues (phases).
     std::vector<Task> tasks_to_start(const std::vector<std::string>& full_queues,
                                      std::size_t most) const;
     /// Whether an earlier task with this recipe succeeded, so that its input may be the same.
@@ -98,10 +99,10 @@ class Store {
     std::map<std::string, std::int64_t> tasks_by_state() const;
     std::map<std::string, std::int64_t> attempts_by_state() const;
     std::vector<Task> tasks_of(const std::string& run) const;
-    /// The stability analysis of this variant or of all; else, for a FEM shared by variants with
-    /// several, the first.
+    /// The stability analysis of this variant, or of all variants; for a FEM shared by variants
+    /// with several analyses, the first one.
     std::optional<Task> stability_of(const std::string& run, const std::string& variant) const;
-    /// A page of them: those after the id `after`, in the order of their ids.
+    /// The tasks after the id `after`, in the order of their ids.
     std::vector<Task> tasks_of(const std::string& run, const std::string& after,
                                std::size_t most) const;
     /// For each phase up to `most` tasks that succeeded by computing, evenly spread over transfer
@@ -119,28 +120,29 @@ class Store {
 
     std::vector<Attempt> attempts_of(const std::string& task) const;
     std::vector<Artifact> artifacts_of(const std::string& task) const;
-    /// Of all tasks from the id `first` to the id `last`, by task.
+    /// Attempts and artifacts of the tasks from the id `first` to the id `last`, by task.
     std::map<std::string, std::vector<Attempt>> attempts_between(const std::string& first,
                                                                  const std::string& last) const;
     std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
                                                                    const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
-    /// The artifact at the task that computed it; if that is gone, at the first that took it.
+    /// The artifact of the task that computed it; if that task was removed, of the first that
+    /// reused it.
     std::optional<Artifact> maker_of(const std::string& sha256) const;
     /// Newest first.
     std::vector<TransferRow> transfers_of(const TransferFilter& filter, std::size_t most) const;
     /// In the study's order of variants, each ascending in the transfer time.
     std::vector<ResultRow> results(const std::string& run, const ResultFilter& filter = {}) const;
-    /// Of a study with repeats, their means in the same order: one value per mean_columns().
+    /// The means of a study with repeats, in the same order: one value per mean_columns().
     std::vector<ResultRow> means(const std::string& run) const;
-    /// By variant; "": of the analysis shared by all that have none of their own.
+    /// By variant; "": the analysis shared by all variants without their own.
     std::map<std::string, FactorsOfSafety> factors_of_safety(const std::string& run) const;
-    /// Of the newest accuracy studies, the newest first.
+    /// From the newest accuracy studies, the newest first.
     std::vector<AccuracyRung> accuracy_rungs(std::size_t most_runs) const;
     /// Points of a sweep, and how many of them have their runout.
     std::pair<std::int64_t, std::int64_t> points_of(const std::string& run) const;
 
-    /// Of FEMs that have begun.
+    /// Open triggers of FEMs that have begun.
     std::vector<Trigger> open_triggers() const;
     /// Whether the run stores the tasks of one more transfer from this FEM.
     bool plans_transfers_of(const Task& fem) const;
@@ -150,7 +152,8 @@ class Store {
     std::vector<FiringRow> firings_of(const std::string& run) const;
     /// In the order of the run's plan.
     std::vector<WithoutTransfer> without_transfer(const std::string& run) const;
-    /// A bisect's transfers, ascending in time; of several variants the first counts.
+    /// A bisection's transfers, ascending in time; where variants share a transfer, the first
+    /// variant counts.
     std::vector<Sample> samples_of(const std::string& trigger) const;
 
     /// Runs with deleted rows and folders that may still exist.
@@ -167,7 +170,7 @@ class Store {
 
     std::optional<StoredScene> scene(const std::string& sha256) const;
     std::vector<StoredScene> scenes(const SceneFilter& filter, std::size_t most) const;
-    /// Newest first; none: there is no such name.
+    /// Newest first; empty: the name does not exist.
     std::vector<SceneName> versions_of_scene(const std::string& name) const;
     std::optional<SceneSource> scene_source_of(const std::string& run) const;
 
@@ -177,8 +180,8 @@ class Store {
     /// Number of state changes per commit.
     const Histogram& commit_sizes() const { return commit_sizes_; }
     std::int64_t last_event() const { return last_event_; }
-    /// Waits until an event after `seq` is stored, the time is over or the store closes; true:
-    /// there is one.
+    /// Waits for an event after `seq`, until the time is over or the store closes; true: there is
+    /// an event.
     bool wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const;
 
   private:
@@ -198,7 +201,7 @@ class Store {
     };
     using Reader = std::unique_ptr<Connection, GiveBack>;
     Reader reader() const;
-    /// With their facts; sql: selects such rows.
+    /// Complete runs with their facts; sql: selects the rows.
     std::vector<Run> whole_runs(const std::string& sql, const std::vector<Value>& values) const;
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
     static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);

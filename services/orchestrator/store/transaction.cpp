@@ -9,12 +9,12 @@ using nlohmann::json;
 
 namespace {
 
-/// Before anything has happened: only what waits for nothing may start.
+/// The initial state: only tasks that wait for nothing are ready.
 TaskState first_state(const TaskPlan& task) {
     return task.release == Release::at_once ? TaskState::ready : TaskState::blocked;
 }
 
-/// A log line in a detail may hold bytes that are not UTF-8.
+/// Replaces invalid UTF-8, which a log line in a detail may contain.
 std::string text_of(const json& document) {
     return document.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -23,7 +23,7 @@ const std::string is_a_run = "SELECT 1 FROM runs WHERE id=?";
 
 std::string run_of(const std::string& task) { return task.substr(0, task.find('-')); }
 
-/// In place of what it had.
+/// Replaces the task's artifacts.
 void keep_artifacts(Connection& database, const std::string& task,
                     const std::vector<Artifact>& artifacts) {
     database.change("DELETE FROM artifacts WHERE task=?", {task});
@@ -174,8 +174,8 @@ void Transaction::fail_task(const std::string& task, TaskEvent event, const Task
 }
 
 void Transaction::pass_over_task(const std::string& task, const std::string& why) {
-    if (!next(state_of(task), TaskEvent::skip)) return;  // cancelled meanwhile
-    // Before the move: the trigger that counts a run's failures looks at this column.
+    if (!next(state_of(task), TaskEvent::skip)) return;  // cancelled
+    // Before the move: the SQL trigger that counts failures reads this column.
     database_.change("UPDATE tasks SET not_reached=1, fault_summary=? WHERE id=?", {why, task});
     move_task(task, TaskEvent::skip, {{"summary", why}, {"not_reached", true}});
 }
@@ -193,7 +193,7 @@ void Transaction::keep_remains(const std::string& task, const std::vector<Artifa
                                const std::string& input_sha256) {
     const bool has_ended = database_.finds(
         "SELECT 1 FROM tasks WHERE id=? AND state IN ('failed', 'cancelled')", {task});
-    if (!has_ended) return;  // tried again, or its run was removed
+    if (!has_ended) return;  // retried, or its run was removed
     keep_artifacts(database_, task, artifacts);
     database_.change("UPDATE tasks SET input_sha256=? WHERE id=?", {input_sha256, task});
 }
@@ -245,7 +245,7 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     }
     const std::string now = utc_now();
     const Value finished = is_live(*to) ? Value(nullptr) : Value(now);
-    // Of one that began and ended between two looks.
+    // For an attempt that began and ended between two looks.
     Value started(nullptr);
     if (end.wall_seconds)
         started = utc_text(epoch_ms() - static_cast<std::int64_t>(1000.0 * *end.wall_seconds));
@@ -335,7 +335,7 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
                       {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
     for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
     for (const auto& [task, release] : tasks) {
-        // What broke down is wanted again, not answered by its like: it loses its recipe.
+        // A retried breakdown loses its recipe: the cache would answer with the same breakdown.
         database_.change(
             R"(UPDATE tasks SET tries=0, same_as=NULL, fault_exit=NULL, fault_summary=NULL,
     recipe=iif(fault_exit=70, NULL, recipe) WHERE id=?)",

@@ -10,14 +10,13 @@
 
 namespace breach::orchestrator {
 
-/// How an attempt ended, from its exit record.
 struct AttemptEnd {
     std::optional<std::int64_t> exit_code;
     std::optional<std::int64_t> signal;
     std::optional<double> wall_seconds;
     std::optional<double> cpu_seconds;
     std::string
-        reason;  ///< "cancel", "shutdown" when the service stopped it, "signal" when another party did; else empty
+        reason;  ///< "cancel", "shutdown" (by the service), "signal" (by another party); else empty
 };
 
 class Transaction {
@@ -49,8 +48,8 @@ class Transaction {
     void finish_task(const std::string& task, const nlohmann::json& result,
                      const std::vector<Artifact>& artifacts, const std::string& input_sha256 = {});
     /// The task takes the result of `earlier`, or its breakdown; the files are in its folder
-    /// already. False, without effect: it is not ready any more, or `earlier` was removed or tried
-    /// again meanwhile.
+    /// already. False, without effect: the task is no longer ready, or `earlier` was removed or
+    /// tried again meanwhile.
     bool reuse_task(const std::string& task, const Task& earlier);
     void note_cache_refusal(const std::string& task, const std::string& why);
     /// Stores the outputs of a task that ended badly. No effect if it was tried again meanwhile.
@@ -67,58 +66,58 @@ class Transaction {
 
     /// Cancels tasks not yet started and marks running ones as cancelling. False: no such run.
     bool cancel_run(const std::string& run, const std::string& why);
-    /// Adds tasks to an existing run; `study`: its document from now on.
+    /// Adds tasks to an existing run and replaces its study's document.
     void extend_run(const std::string& run, const Extension& extension);
-    /// Whether it is armed or holding.
+    /// Whether the trigger is armed or holding.
     bool is_open(const std::string& trigger) const;
     /// False: no such run.
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
-    /// For an existing run; nothing: no limit. Updates its study, too.
+    /// For an existing run; nothing: no limit. Updates the study, too.
     void set_budget(const std::string& run, std::optional<double> cpu_seconds);
     bool pin_run(const std::string& run);
     bool unpin_run(const std::string& run);
-    /// Changes the title shown in lists; the study keeps the title that it was sent with.
+    /// Changes the title shown in lists; the study keeps its original title.
     bool rename_run(const std::string& run, const std::string& title);
-    /// Deletes every row of a run that is over, at once: from then on lists, cache and artifacts do
-    /// not contain it. Its folder must be removed next (Store::removals, forget_removal). `why` is
-    /// for the event "remove", which remains.
+    /// Deletes every row of an ended run at once: lists, cache and artifacts no longer contain it.
+    /// Its folder must be removed next (Store::removals, forget_removal). The event "remove"
+    /// remains, with `why`.
     Removal remove_run(const std::string& run, const std::string& why);
     void forget_removal(const std::string& run);
 
-    /// `publish` gives the file its name in the folder. It is called here, as is `erase` below, so
-    /// that row and file change together.
+    /// `publish` gives the file its name in the folder. Like `erase` below it is called inside the
+    /// transaction, so that row and file change together.
     void keep_file(const StoredFile& file, const std::function<void()>& publish);
     /// Marks the file as used now, which postpones its removal.
     void touch_file(const std::string& sha256);
     /// needed: a run names it.
     Removal forget_file(const std::string& sha256, const std::function<void()>& erase);
-    /// Not if it was used after `before`, or a run names it.
+    /// Forgets the file unless it was used after `before` or a run names it.
     bool forget_unused_file(const std::string& sha256, const std::string& before,
                             const std::function<void()>& erase);
 
-    /// Stores the scene under its hash and, as a new version, under the name unless that already
-    /// refers to it. False: both existed.
+    /// Stores the scene under its hash and as a new version of the name, unless the name refers to
+    /// it already. False: both existed.
     bool keep_scene(const NewScene& scene, const std::optional<std::string>& name);
     /// needed: a name refers to it, or a run was made from it.
     Removal forget_scene(const std::string& sha256);
-    /// Removes all versions of the name, and their contents if nothing else needs them. needed: a run
-    /// was made from one of them by this name.
+    /// Removes all versions of the name, and scenes that nothing else needs. needed: a run was made
+    /// from one of them by this name.
     Removal forget_scene_name(const std::string& name);
 
     /// Gives up to so many free pages at the end of the database back to the disk.
     void shrink(std::int64_t pages);
     /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; tasks that were
-    /// not reached stay so. Re-arms triggers that the cancelling disarmed, and those that had
-    /// expired because of a task that now runs again (hangs_on); fired ones stay. Returns the
-    /// number of tasks; nothing: no such run.
+    /// not reached stay so. Re-arms triggers that the cancellation disarmed, and triggers that
+    /// expired because of a task that now runs again (hangs_on). Returns the number of tasks;
+    /// nothing: no such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 
-    /// On one FEM of the run; generates a name if it is empty. Returns its id.
+    /// Adds a trigger to one FEM of the run, with a generated name if it is empty. Returns its id.
     std::string add_trigger(const std::string& run, const std::string& fem_task,
                             const TriggerPlan& plan);
-    /// False, without effect: the table refuses (it was disarmed meanwhile, fired before).
+    /// False, without effect: the lifecycle forbids it (disarmed or fired meanwhile).
     bool move_trigger(const Trigger& trigger, TriggerEvent event, nlohmann::json detail = {});
     /// Stores the firing and its tasks. False, without effect: the trigger is not open any more, or
     /// fired at this time before.
@@ -127,7 +126,7 @@ class Transaction {
 
     /// Events of this transaction, oldest first.
     std::vector<Event> take_events() { return std::move(events_); }
-    /// Whether it has deleted earlier events.
+    /// Whether the transaction has deleted earlier events.
     bool removes_events() const { return removes_events_; }
 
   private:
@@ -145,7 +144,7 @@ class Transaction {
                   const char* event);
     void add_files(const NewRun& run);
     void add_scene_source(const NewRun& run);
-    /// Whether the run has spent its budget, so that none of its tasks is started.
+    /// Whether the run has spent its budget, so that none of its tasks starts.
     bool is_exhausted(const std::string& run) const;
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,

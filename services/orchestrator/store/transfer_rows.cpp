@@ -1,10 +1,11 @@
-// Transfers over one run or all: why each was made, how long it waited, what came of it.
+// Transfers of one run or all: why each was made, how long it waited, its runouts.
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {
 
-// A time of the study has no firing. The MPM tasks of a transfer are as many as variants share it. From
-// ready (its snapshot was seen) to the start of its last attempt; of one from the cache there is none.
+// A time of the study has no firing. A transfer has one MPM task per variant that shares it.
+// start_ms: from ready (the snapshot was seen) to the start of the last attempt; null for a result
+// from the cache.
 std::vector<TransferRow> Store::transfers_of(const TransferFilter& filter, std::size_t most) const {
     return reader()->select(
         R"(SELECT t.id AS id, t.run AS run, t.parent AS parent, t.transfer_time AS transfer_time,

@@ -1,4 +1,4 @@
-// Triggers and their firings in the store: the writing and the reading half.
+// Write and read operations on triggers and their firings.
 #include <algorithm>
 
 #include "core/fault/fault.hpp"
@@ -29,16 +29,16 @@ Trigger trigger_from(const Row& row) {
             .result = row.optional_document("result")};
 }
 
-/// The FEMs of the same variant, that one included: a run extended by times has several, and one
-/// transfer at each time, behind the first that has its snapshot.
+/// The FEMs of the same variant, including this one: a run extended by times has several. Each time
+/// has one transfer, from the first FEM with its snapshot.
 std::string fems_alike(const std::string& fem) {
     return R"((SELECT alike.id FROM tasks AS fem JOIN tasks AS alike ON alike.run=fem.run
     AND alike.phase=fem.phase AND alike.variant=fem.variant WHERE fem.id=)" +
            fem + ")";
 }
 
-/// Why a task with this state and fault was lost although its input is right; a retry may succeed.
-/// Nothing: it was not lost.
+/// Why a task was lost although its input is valid, so that a retry may succeed; nothing: it was
+/// not lost.
 std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> code,
                                    const std::optional<std::string>& summary) {
     if (state == TaskState::cancelled) return "cancelled";
@@ -48,8 +48,8 @@ std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> 
     return summary.value_or(std::string(name_of(state)));
 }
 
-/// What it decides by: its FEM, that one's stability analysis (as Store::stability_of has it), and for
-/// a bisect the runouts.
+/// Whether the trigger depends on these tasks: its FEM, the FEM's stability analysis (as in
+/// Store::stability_of), and for a bisection the runouts.
 bool hangs_on(Connection& database, const Trigger& trigger, const std::set<std::string>& tasks) {
     const auto has = [&](const std::string& task) { return tasks.contains(task); };
     if (has(trigger.fem_task)) return true;
@@ -91,7 +91,7 @@ void Transaction::add_triggers(const NewRun& run) {
     if (run.batches && !run.tasks.empty()) add_trigger(run.id, task_id(run.id, 0), *run.batches);
 }
 
-/// Their places in tables, and their tasks where triggers have fired already.
+/// Adds the samples' places in tables, and their tasks where triggers have already fired.
 void Transaction::add_samples(const std::string& run, const Extension& extension) {
     database_.change(
         R"(INSERT OR IGNORE INTO variants (run, name, place)
@@ -174,7 +174,7 @@ SELECT id,?,?,?,?,?,?,?,?,? FROM triggers WHERE id=? AND state IN ('armed', 'hol
     return true;
 }
 
-/// What is there already (an at-time transfer, another trigger on the same snapshot) is shared.
+/// Shares existing transfers (of a time of the study, or another trigger on the same snapshot).
 void Transaction::add_transfer(const std::string& run, const std::string& fem_task, double time) {
     const FemOfPlan fem =
         database_
@@ -185,7 +185,7 @@ void Transaction::add_transfer(const std::string& run, const std::string& fem_ta
                    })
             .value();
     const std::vector<TaskPlan> plan = firing_plan_of(database_, run);
-    std::vector<std::string> ids(plan.size());  // empty: of another variant's FEM
+    std::vector<std::string> ids(plan.size());  // empty: other variants' FEMs
     if (const auto place = place_of_fem(plan, fem.label, fem.variant)) ids[*place] = fem_task;
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (!plan[i].parent) continue;
@@ -198,7 +198,7 @@ void Transaction::add_transfer(const std::string& run, const std::string& fem_ta
             continue;
         }
         ids[i] = task_id(run, static_cast<std::size_t>(next_ordinal(run)));
-        // Its snapshot exists: a transfer has nothing to wait for.
+        // Its snapshot exists: the transfer is ready.
         const bool ready = task.release == Release::file_exists;
         insert_task(run, ids[i], task, parent, fem.priority,
                     ready ? TaskState::ready : TaskState::blocked);

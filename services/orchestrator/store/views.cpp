@@ -11,10 +11,9 @@ namespace breach::orchestrator {
 
 namespace {
 
-// A run with an open trigger is not over: it may still get tasks. A run has no runout, though
-// nothing failed, if its FEM reached no transfer time, if it consists of lem_tool alone,
-// or if none of its triggers fired.
-// A run that has spent its budget waits for more as soon as none of its tasks runs.
+// A run with an open trigger is not over: it may still get tasks. A run without a runout did not
+// fail if its FEM reached no transfer time, if it consists of lem_tool alone, or if no trigger
+// fired. A run that has spent its budget is exhausted once none of its tasks runs.
 const char* const run_summaries = R"sql(
 SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
@@ -43,7 +42,7 @@ FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
         AS spent_cpu_seconds
       FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
-/// When each trigger fired, and how long its snapshot and its transfer took to come.
+/// When each trigger fired, and the delays of its snapshot and its transfer.
 const char* const trigger_firings = R"sql(
 SELECT triggers.run AS run, triggers.id AS trigger, triggers.name AS name, triggers.kind AS kind,
     firings.transfer_time AS transfer_time, firings.wanted_time AS wanted_time,
@@ -63,12 +62,12 @@ struct Expression {
     std::string sql;
 };
 
-// The flags of a row are those of the MPM and of the two tasks before it: what is doubtful in the
-// FEM is doubtful in the runout.
+// A row has the flags of the MPM and of the two tasks before it: a questionable FEM makes the
+// runout questionable.
 const std::string tasks_of_row = "(mpm.id, transfer.id, transfer.parent)";
 const std::string is_questionable = "EXISTS (SELECT 1 FROM flags WHERE flags.task IN " +
                                     tasks_of_row + " AND flags.severity = 'questionable')";
-/// Of its variant's own stability analysis, or the one that serves all.
+/// From the variant's own stability analysis, or the shared one.
 std::string of_stability(const std::string& what) {
     return "(SELECT " + what + R"( FROM tasks AS lem
         WHERE lem.run = mpm.run AND lem.phase = ')" +
@@ -76,7 +75,7 @@ std::string of_stability(const std::string& what) {
         AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1))";
 }
 
-/// The columns that result.json does not have.
+/// Columns that result.json does not contain.
 const std::vector<Expression> own_columns{
     {"transfer_time", "mpm.transfer_time"},
     {"state",
@@ -102,14 +101,15 @@ const std::vector<Expression> own_columns{
         (SELECT code FROM flags WHERE task IN )" +
          tasks_of_row + " GROUP BY code ORDER BY min(severity), code)), '') END"},
 };
-/// What the service works out beside the database (services/findings, accuracy/runout_error.hpp): not in the view.
+/// Columns computed outside the database (services/findings, accuracy/runout_error.hpp): not in the
+/// view.
 const std::vector<std::string> worked_out{"lower_bound", "runout_error", "runout_error_from"};
 
 bool is_in_view(const ResultColumn& column) {
     return std::ranges::find(worked_out, column.name) == worked_out.end();
 }
 
-/// What the view has besides the columns of the table.
+/// Columns of the view that the table of results does not have.
 const std::vector<Expression> other_columns{
     {"run", "mpm.run"},
     {"variant_place", "coalesce(variants.place, 0)"},
@@ -136,8 +136,8 @@ std::string sql_of(const ResultColumn& column) {
     return own->sql;
 }
 
-/// One row per variant and transfer time: the runout, or why there is none. Of a static scene the
-/// points come from no transfer; of one with a stability analysis alone `mpm` is that.
+/// One row per variant and transfer time: the runout, or why there is none. A static scene has no
+/// transfer; without an MPM, `mpm` is the stability analysis.
 std::string sweep_results() {
     std::string columns;
     for (const Expression& each : other_columns)
@@ -155,8 +155,8 @@ std::string sweep_results() {
            makes_a_row("mpm");
 }
 
-// What a row of means has besides the means. A draw that waits or runs has no result yet; of one
-// that ended without a result the mean is without it, and says so.
+// Columns of the means besides the means themselves. A waiting or running repeat has no result yet.
+// The mean leaves out repeats that ended without a result, and counts them.
 const std::string is_open =
     "state NOT IN ('succeeded', 'questionable', 'failed', 'skipped', "
     "'not_reached', 'cancelled')";
@@ -177,7 +177,7 @@ const std::vector<Expression> columns_of_means{
      " '')"},
 };
 
-/// By name, with the statement that makes it.
+/// Views by name, with their statements.
 std::vector<Expression> views() {
     return {{"trigger_firings", std::string("CREATE VIEW trigger_firings AS") + trigger_firings},
             {"run_summaries", std::string("CREATE VIEW run_summaries AS") + run_summaries},
@@ -198,7 +198,7 @@ bool views_are_current(Connection& database) {
 }
 
 void make_views(Connection& database) {
-    // What lists of runs show of each (run_facts.cpp); made here, so that older databases get them, too.
+    // Indexes for the facts in lists of runs (run_facts.cpp).
     database.script(
         R"(CREATE INDEX IF NOT EXISTS tasks_by_runout ON tasks(run, json_extract(result, '$.runout'), variant,
     transfer_time, id) WHERE phase = 'mpm_solver' AND result IS NOT NULL;

@@ -15,18 +15,18 @@ using nlohmann::json;
 
 namespace {
 
-/// A FEM that has ended, and what its triggers came to.
+/// An ended FEM, and the outcome of its triggers.
 struct EndedFem {
     std::string task;
     std::string state;
     std::string reason;
-    bool came_through;  ///< it did not fail, and was not cancelled
+    bool came_through;  ///< neither failed nor cancelled
     bool stood;
     std::size_t open_triggers = 0;
     std::size_t triggers = 0;
 };
 
-/// By label. The triggers of one that failed say nothing beside its fault.
+/// By label. For a failed FEM its fault counts, not its triggers' reasons.
 std::map<std::string, EndedFem> ended_fems(Connection& database, const std::string& run) {
     std::map<std::string, EndedFem> found;
     std::map<std::string, EndedFem*> by_task;
@@ -69,7 +69,6 @@ bool may_get_transfers(const EndedFem& fem) {
     return fem.came_through && (fem.triggers == 0 || fem.open_triggers > 0);
 }
 
-/// Of one task of the plan.
 const std::string& label_of_fem(const std::vector<TaskPlan>& plan, const TaskPlan& task) {
     const TaskPlan* at = &task;
     while (at->parent) at = &plan[*at->parent];

@@ -49,7 +49,7 @@ Quantity read_quantity(const json& entry, const std::string& at, const json& sce
 
 // ---------------------------------------------------------------- ladders
 
-/// "=9" takes the pointer of the same place of the first rung.
+/// "=9" uses the pointer at the same place in the first rung.
 std::vector<std::string> whole(const std::vector<std::string>& step,
                                const std::vector<std::string>& first, const std::string& at,
                                std::vector<Fault>& faults) {
@@ -85,7 +85,7 @@ std::vector<std::vector<std::string>> read_steps(const json& ladder, const std::
     return steps;
 }
 
-/// The value of the rung's first override where it is a positive number.
+/// The value of the rung's first override, if it is a positive number.
 std::optional<double> first_value(const std::vector<std::string>& step) {
     const std::string text = step.front().substr(step.front().find('=') + 1);
     const json value = json::parse(text, nullptr, false);
@@ -93,7 +93,7 @@ std::optional<double> first_value(const std::vector<std::string>& step) {
     return value.get<double>();
 }
 
-/// Falling values are sizes; rising ones count what a length is cut into.
+/// Falling values are sizes; rising ones are numbers of divisions.
 std::vector<double> sizes_of(const std::vector<std::vector<std::string>>& steps) {
     std::vector<double> values;
     for (const auto& each : steps) {
@@ -213,7 +213,7 @@ std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladd
 
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {
     std::vector<Setting> settings;
-    std::map<json, std::size_t> first_with;  // place of the first setting that comes to a scene
+    std::map<json, std::size_t> first_with;  // index of the first setting with a scene
     const json base = changed(scene, plan.base);
     for (std::size_t i = 0; i < plan.ladders.size(); ++i) {
         for (std::size_t k = 0; k < plan.ladders[i].steps.size(); ++k) {
@@ -222,7 +222,7 @@ std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {
                 first_with.emplace(changed(scene, overrides_of(plan, i, k)), settings.size());
             const std::size_t first = same->second;
             setting.is_base = same->first == base;
-            // Equal rungs within a ladder are a mistake, which is reported elsewhere.
+            // Equal rungs within a ladder are a mistake, reported elsewhere.
             if (!is_new && settings[first].ladder != i) {
                 setting.variants = settings[first].variants;
             } else {
@@ -239,7 +239,7 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
     std::vector<VariantEntry> entries;
     for (const Setting& setting : settings_of(plan, scene)) {
         const std::string rung = name_of_rung(plan.ladders[setting.ladder], setting.step);
-        if (setting.variants.front() != rung) continue;  // that of another ladder
+        if (setting.variants.front() != rung) continue;  // shared with another ladder
         const std::string ladder = "/accuracy/ladders/" + std::to_string(setting.ladder);
         const auto overrides = overrides_of(plan, setting.ladder, setting.step);
         const json its_scene = changed(scene, overrides);

@@ -1,6 +1,6 @@
-// A study's entry "accuracy": ladders of settings, each rung repeated some times. They become
-// ordinary variants; which variant is which rung follows from the study alone. accuracy/ computes the
-// errors.
+// The entry "accuracy" of a study: ladders of settings, each rung computed in several repeats.
+// Rungs become ordinary variants; which variant belongs to which rung follows from the study alone.
+// accuracy/ computes the errors.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 
 namespace breach::orchestrator {
 
-/// A number with an error that an accuracy study measures.
+/// A result whose error an accuracy study measures.
 struct Quantity {
     std::string name;  ///< "runout", "crest_displacement", "factor_of_safety"
     Reach reach;
@@ -23,8 +23,8 @@ struct Quantity {
     std::optional<double> time;  ///< of the telemetry [s]
 };
 
-/// A number of the results; NAME@TIME of the FEM's telemetry; factor_of_safety. Nothing: there is no
-/// such number. scene: to know whether it has a FEM.
+/// From "runout" and the like, NAME@TIME of the FEM's telemetry, or "factor_of_safety". Nothing:
+/// there is no such quantity. scene: tells whether there is a FEM.
 std::optional<Quantity> quantity_named(const std::string& text, const nlohmann::json& scene);
 /// The quantity in the form of a study's entry.
 std::string text_of(const Quantity& quantity);
@@ -34,7 +34,7 @@ std::string names_of_results();
 struct Ladder {
     std::string name;
     std::vector<std::vector<std::string>> steps;  ///< overrides in full, coarse to fine
-    std::vector<double> sizes;  ///< of each rung, falling; empty: they are not known
+    std::vector<double> sizes;                    ///< size of each rung, falling; empty: unknown
 };
 
 enum class ReferenceKind { finest, richardson, given };
@@ -54,12 +54,12 @@ struct AccuracyPlan {
     double asked_error = 0.05;
 };
 
-/// A run of new repeats of a setting that an accuracy study has measured: it needs only the entry
+/// A run with new repeats of a setting that an accuracy study has measured. It needs only the entry
 /// "check" of its study, not the accuracy study.
 struct BlindCheckPlan {
     std::string of;  ///< the accuracy study's run; empty: not known
     Quantity quantity;
-    std::size_t mean_of = 1;   ///< so many draws are averaged
+    std::size_t mean_of = 1;   ///< number of repeats in a mean
     double reference = 1.0;    ///< in the unit of the quantity
     double asked_error = 0.0;  ///< relative
 };
@@ -74,11 +74,11 @@ struct Setting {
 };
 
 /// The entry, which the schema has accepted; faults have the study's pointers. `scene`: with the
-/// study's own overrides, to know whether it has a FEM.
+/// study's own overrides; tells whether there is a FEM.
 AccuracyPlan read_accuracy(const nlohmann::json& entry, const nlohmann::json& scene,
                            std::vector<fault::Fault>& faults);
 
-/// Changes of a rung to the study's scene: those of the base, and its own.
+/// Overrides of a rung: those of the base, then its own.
 std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
                                       std::size_t step);
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json& scene);

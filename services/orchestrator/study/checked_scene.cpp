@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Links and ".." are followed first. What is not there lies where its folder does.
+/// Resolves links and ".." first. A missing file counts by its folder.
 bool lies_in(const std::vector<fs::path>& folders, const std::string& file) {
     std::error_code error;
     const fs::path real = fs::weakly_canonical(file, error);
@@ -25,7 +25,7 @@ bool lies_in(const std::vector<fs::path>& folders, const std::string& file) {
     });
 }
 
-/// Of the files that the scene names, with these overrides, those that it may not.
+/// Faults of the files that the scene, with these overrides, names but may not.
 std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& overrides,
                                    const SentFiles& files) {
     std::vector<Fault> faults;
@@ -61,7 +61,7 @@ check::Checked check_sent_scene(const json& document, const std::vector<std::str
 check::Checked check_sent_scene(const json& document, const std::vector<std::string>& overrides,
                                 const SentFiles& files, check::Recordings& recordings) {
     const std::vector<Fault> faults = forbidden_files(document, overrides, files);
-    // A file that may not be named is replaced by one that does not exist, to reveal nothing of it.
+    // Replaces forbidden files by one that does not exist, to reveal nothing about them.
     std::vector<std::string> changes = overrides;
     for (const Fault& each : faults) changes.push_back(each.pointer + "=/.forbidden");
     check::Checked checked =

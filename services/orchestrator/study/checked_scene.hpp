@@ -14,14 +14,15 @@ namespace breach::orchestrator {
 
 /// The files that an uploaded scene may name.
 struct SentFiles {
-    /// Its `files` contains the files of references (core/scene/file_paths.hpp).
+    /// folder/files contains the targets of references (core/scene/file_paths.hpp).
     std::filesystem::path folder = "/";
-    /// Others must lie in one of these, links followed; nothing: wherever this process can read.
+    /// Other files must lie in one of these folders, links followed; nothing: any readable file.
     std::optional<std::vector<std::filesystem::path>> allowed = {};
 };
 
-/// check::checked_document, and a fault for each file that is not named by an absolute path (an uploaded scene
-/// has no folder) or lies outside the allowed folders and is not opened. Throws BadInput only for a non-object.
+/// check::checked_document, plus a fault for each file that is not named by an absolute path (an
+/// uploaded scene has no folder) or lies outside the allowed folders; such files are not opened.
+/// Throws BadInput only for a non-object.
 check::Checked check_sent_scene(const nlohmann::json& document,
                                 const std::vector<std::string>& overrides, const SentFiles& files,
                                 check::Recordings& recordings);

@@ -17,8 +17,8 @@ namespace {
 constexpr const char* point_shift = "/transfer/point_shift";
 constexpr const char* fill_shift = "/mpm/fill_shift";
 
-/// The k-th place of the R2 sequence (Roberts 2018), which fills the unit square evenly however far
-/// it is taken; the 0-th is the corner.
+/// The k-th point of the R2 sequence (Roberts 2018), which fills the unit square evenly for every
+/// length; point 0 is the corner.
 std::array<double, 2> place_of_draw(std::size_t draw) {
     constexpr std::array step{0.7548776662466927, 0.5698402909980532};
     const auto k = static_cast<double>(draw);
@@ -35,9 +35,9 @@ std::string override_of(const std::string& pointer, double value) {
     return pointer + "=" + words::text_of(value);
 }
 
-/// What may be left out of balance gets 5 % smaller from draw to draw, and steps are shorter by what is
-/// left of multiples of the golden section, 0 to 10 %: changes too small to be of the model. Where soil
-/// is about to fail the runs part ways. By the residuals alone they part too little: the crest of
+/// The force tolerance falls by 5 % from repeat to repeat, and time steps shrink by the fractional
+/// parts of multiples of the golden ratio, scaled to 0 to 10 %: numerical noise, no change of the
+/// model. Near failure the runs diverge. Tolerances alone have too little effect: the crest of
 /// docs/verification/mochikoshi_fem.md scatters three times as much with the steps.
 std::vector<std::string> fem_of_draw(std::size_t draw, const json& scene) {
     if (draw == 0 || !scene.contains("fem")) return {};
@@ -66,7 +66,7 @@ std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
     if (draw == 0) return {};
     const auto [a, b] = place_of_draw(draw);
     if (reach == Reach::filled_mpm) return {override_of(fill_shift, a, b)};
-    constexpr double largest_shift = 0.9;  // that the scene allows, to either side
+    constexpr double largest_shift = 0.9;  // allowed by the scene, to either side
     return {
         override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
 }

@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The FEM writes the scene's own snapshots and those that the transfers need.
+/// The FEM writes the scene's own snapshots and those for the transfers.
 json snapshot_times(const json& scene, const std::vector<double>& transfer_times) {
     auto times = scene.at("fem").at("snapshot_times").get<std::vector<double>>();
     times.insert(times.end(), transfer_times.begin(), transfer_times.end());
@@ -27,12 +27,12 @@ json snapshot_times(const json& scene, const std::vector<double>& transfer_times
 
 enum class Sharing { wanted, never };
 
-/// Tasks of several variants, equal ones as one.
+/// Tasks of several variants, with equal ones merged.
 class TaskList {
   public:
     explicit TaskList(const Study& study) : study_(study) {}
 
-    /// `beside`: what else must be equal to share it.
+    /// `beside`: what else must be equal for sharing.
     std::size_t add(TaskPlan task, const Variant& variant, Sharing sharing,
                     const std::string& beside = {}) {
         const Identity identity{task.recipe, task.parent, task.input, beside};
@@ -55,8 +55,8 @@ class TaskList {
 
     std::vector<TaskPlan> named() && {
         for (std::size_t i = 0; i < tasks_.size(); ++i) {
-            // Of a study that may get more samples, what all share now may not be all's later: labels
-            // then go by the first that uses the task.
+            // In a study that may get more samples, a task that all share now may not serve all
+            // later: its label then names the first variant that uses it.
             const bool for_all = users_[i] == study_.variants.size();
             const bool may_grow = study_.uncertainty.has_value();
             if (for_all && !may_grow) tasks_[i].variant.clear();
@@ -96,7 +96,7 @@ class Planner {
             plan_one_phase(variant, phases::lem.program);
     }
 
-    /// This phase alone; never one task for two variants: each has its row in the table of results.
+    /// This phase alone. Variants never share the task: each has its row in the table of results.
     void plan_one_phase(const Variant& variant, const std::string& phase) {
         variant_ = &variant;
         recipes_of_variant_[phase] = recipe(phase, variant.scene);
@@ -127,7 +127,7 @@ class Planner {
         graph.tasks = std::move(tasks_).named();
         graph.one_more_transfer = std::move(open_).named();
         for (auto& [hash, each] : recipes_) graph.recipes.push_back(std::move(each));
-        // What a FEM was asked for on its way does not follow from its scene.
+        // Requested snapshots do not follow from the scene: never reuse such a FEM.
         if (!study_.triggers.empty() && study_.snapshot_interval <= 0.0)
             for (TaskPlan& each : graph.tasks)
                 if (each.phase == phases::fem.program) each.recipe.clear();
@@ -150,7 +150,7 @@ class Planner {
                         *variant_, sharing, beside);
     }
 
-    /// A trigger that asks for the critical depth has one for each FEM.
+    /// Where a trigger uses the critical depth, only variants with the same depth share the FEM.
     std::size_t add_fem(TaskList& list, std::vector<std::string> changes) {
         return add_first(list, phases::fem.program, std::move(changes), Sharing::wanted,
                          triggers_ask_for_stability_ ? recipes_of_variant_.at(phases::lem.program)
@@ -168,7 +168,7 @@ class Planner {
                           .recipe = recipes_of_variant_.at(phases::transfer.program)};
         if (time) transfer = at_time(std::move(transfer), *time);
         const std::size_t parent = list.add(std::move(transfer), *variant_, Sharing::wanted);
-        // Never one task for two variants: each has its row in the table of results.
+        // Variants never share this task: each has its row in the table of results.
         list.add({.phase = phases::mpm.program,
                   .label = {},
                   .transfer_time = time,
@@ -180,8 +180,8 @@ class Planner {
                  *variant_, Sharing::never);
     }
 
-    /// One analysis for all variants, or one for each: of one that served some, the others' rows would
-    /// not know. Equal ones are computed once all the same, by the cache.
+    /// One analysis for all variants, or one per variant: with one for some, the other variants
+    /// would have none in their rows. The cache avoids computing equal ones twice.
     Sharing sharing_of_stability() {
         if (!stability_serves_all_) {
             const auto of = [&](const Variant& each) {

@@ -4,13 +4,13 @@
 //                                                  (for each variant and each t_T)
 //     lem_tool                                     (for each variant, on its own)
 //
-// A scene without a FEM is static: its material points fill the section, and mpm_solver and lem_tool
-// wait for nothing, each once for each variant. A scene with neither FEM nor MPM has lem_tool alone.
-// An accuracy study can need less: fem_solver, lem_tool or mpm_solver alone (study/accuracy.hpp).
+// A scene without a FEM is static: its material points fill the section, and mpm_solver and
+// lem_tool run once per variant without waiting. A scene with neither FEM nor MPM has lem_tool
+// alone. An accuracy study may need only one phase (study/accuracy.hpp).
 //
-// Tasks of different variants are one task when they are the same: equal recipe, equal parent,
-// equal input. A variant that changes only /mpm thus shares the FEM and all transfers. Where a trigger
-// asks for the critical depth, FEMs are shared by variants of equal stability analysis alone: with
+// Equal tasks of different variants (recipe, parent, input) are one task, so variants that change
+// only /mpm share the FEM and all transfers. Where a trigger uses the critical depth, only variants
+// with equal stability analyses share a FEM: with another depth the trigger fires at another time.
 // another depth the trigger fires at another time.
 #pragma once
 

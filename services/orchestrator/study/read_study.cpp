@@ -29,15 +29,15 @@ void need_part(const json& scene, const std::string& part, std::vector<Fault>& f
                       "add \"" + part + "\" to the scene"});
 }
 
-/// What a scene lets be run: without a FEM the points fill the section; without points, too, there
-/// is its stability.
+/// Phases that a scene allows: without a FEM the points fill the section; without material points
+/// too, only the stability analysis.
 Reach reach_of(const json& scene) {
     if (scene.contains(phases::fem.part)) return Reach::chain;
     if (scene.contains(phases::mpm.part)) return Reach::filled_mpm;
     return scene.contains(phases::lem.part) ? Reach::lem : Reach::chain;
 }
 
-/// The faults with their pointers moved below `prefix`.
+/// Adds the faults with `prefix` before their pointers.
 void add_below(const std::string& prefix, const std::vector<Fault>& found,
                std::vector<Fault>& faults) {
     for (const Fault& each : found)
@@ -51,7 +51,6 @@ bool is_sound(const std::vector<Fault>& faults, const std::string& entry) {
     });
 }
 
-/// What a study of a scene without a FEM cannot ask for.
 void check_without_fem(const json& document, Reach reach, std::vector<Fault>& faults) {
     const auto refuse = [&](const std::string& entry, const std::string& cause) {
         faults.push_back(
@@ -66,7 +65,7 @@ void check_without_fem(const json& document, Reach reach, std::vector<Fault>& fa
                           "leave \"stability\" out, or add \"mpm\" to the scene"});
 }
 
-/// What a study cannot be besides one that judges one setting's or one ladder's runout.
+/// Faults of entries that do not fit a study of one state at one time.
 void check_one_state(const json& document, const std::string& judge, const Study& study,
                      std::vector<Fault>& faults) {
     if (!document["triggers"].empty())
@@ -83,7 +82,6 @@ void check_one_state(const json& document, const std::string& judge, const Study
                           "leave \"transfer_times\" out"});
 }
 
-/// What a blind check cannot have.
 void check_blind(const json& document, const Study& study, std::vector<Fault>& faults) {
     if (!own_variants(document).empty())
         faults.push_back(
@@ -91,7 +89,7 @@ void check_blind(const json& document, const Study& study, std::vector<Fault>& f
     check_one_state(document, "a blind check", study, faults);
 }
 
-/// What a study cannot be besides an accuracy study.
+/// Faults of entries that do not fit an accuracy study.
 void check_company(const json& document, const Study& study, std::vector<Fault>& faults) {
     if (!own_variants(document).empty())
         faults.push_back({"/variants", "an accuracy study makes its variants of its ladders",
@@ -118,7 +116,7 @@ void check_time(const Quantity& quantity, const scene::Scene& scene, std::vector
                           "ask for an earlier time or lengthen /scene/fem/stages"});
 }
 
-/// A rung that changes nothing for the phases that give the quantity.
+/// Faults of rungs that change nothing for the phases of the quantity.
 void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
                  const std::vector<Variant>& variants, std::vector<Fault>& faults) {
     const auto asked = [&](const Setting& setting) {
@@ -146,7 +144,7 @@ void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
     }
 }
 
-/// Recipes of the phases that a sample runs; empty where the probe's scene has faults, which are added to `found`.
+/// Recipes of a sample's phases; empty: the probe's scene has faults, which are added to `found`.
 std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<std::string>& probe,
                                           const std::vector<phases::Phase>& phases,
                                           std::vector<Fault>& found) {
@@ -161,7 +159,6 @@ std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<st
     return recipes;
 }
 
-/// A parameter that changes nothing for any phase that runs would do nothing.
 void check_parameters_are_read(const Study& study, const Base& base, std::vector<Fault>& faults) {
     std::vector<phases::Phase> phases = phases_of(study.reach);
     if (study.stability && study.reach != Reach::lem) phases.push_back(phases::lem);
@@ -188,7 +185,7 @@ void check_parameters_are_read(const Study& study, const Base& base, std::vector
         faults.push_back(std::move(each));
 }
 
-/// Each sample is one state: more would be several results of one sample.
+/// Each sample is one state: several times would give several results per sample.
 void check_state_of_samples(const Study& study, std::vector<Fault>& faults) {
     const std::size_t times = study.transfer_times.size();
     if (study.reach != Reach::chain) {
@@ -205,7 +202,7 @@ void check_state_of_samples(const Study& study, std::vector<Fault>& faults) {
                           "give one time, or one trigger that fires once"});
 }
 
-/// Reads the plan, checks it, and makes the study's variants of its samples.
+/// Reads the plan, checks it, and makes the samples the study's variants.
 void take_samples(Study& study, json& document, const Base& base, std::vector<Fault>& faults) {
     const std::size_t before = faults.size();
     study.uncertainty = read_uncertainty(document["uncertainty"], base.scene, faults);
@@ -233,7 +230,7 @@ void take_samples(Study& study, json& document, const Base& base, std::vector<Fa
     entry["first_block"] = plan.first;
 }
 
-/// One fault instead of one per entry that a study lacks.
+/// One fault for a scene instead of one per missing entry of a study.
 void refuse_scene(const json& document) {
     if (!document.is_object() || !document.contains("format") || !document["format"].is_string() ||
         !document["format"].get_ref<const std::string&>().starts_with("breachline-scene/"))
@@ -250,7 +247,7 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
     return wanted;
 }
 
-/// What a study asks. Each kind has its own reader below.
+/// Kinds of study; each has its own reader below.
 enum class Kind { sweep, accuracy, uncertainty, blind_check };
 
 Kind kind_of(const json& document) {
@@ -259,8 +256,8 @@ Kind kind_of(const json& document) {
     return document.contains("check") ? Kind::blind_check : Kind::sweep;
 }
 
-/// A study on its way from a document to what is run. Each step adds its faults, and looks at no entry that the schema or
-/// an earlier step found faulty.
+/// Reads a study in steps. Each step adds its faults, and skips entries that the schema or an
+/// earlier step found faulty.
 class StudyReader {
   public:
     StudyReader(json document, const SentFiles& files)
@@ -304,7 +301,7 @@ class StudyReader {
     }
     const scene::Fem* fem() const { return scene_ && scene_->fem ? &*scene_->fem : nullptr; }
 
-    /// How far its tasks go, by its question.
+    /// The phases of the study's tasks, by its kind.
     Reach reach() {
         const Reach of_scene = reach_of(base_.scene);
         if (kind_ == Kind::accuracy && sound("accuracy")) {
@@ -341,7 +338,7 @@ class StudyReader {
             each.pointer = "/scene" + each.pointer;
             study_.warnings.push_back(std::move(each));
         }
-        if (base_.faults.empty()) {  // what variants change
+        if (base_.faults.empty()) {  // changes by variants
             base_.scene = std::move(checked.completed);
             base_.overrides.clear();
         }
@@ -436,7 +433,7 @@ class StudyReader {
     bool repeats_are_sound_ = false;
     bool times_are_sound_ = false;
     Study study_;
-    std::optional<scene::Scene> scene_;  ///< as far as it was sound
+    std::optional<scene::Scene> scene_;  ///< valid parts
     std::optional<AccuracyPlan> accuracy_;
 };
 

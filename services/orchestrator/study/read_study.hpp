@@ -13,7 +13,7 @@ struct WholeScene {
     nlohmann::json completed;
     std::vector<fault::Flag> warnings;
 };
-/// A scene on its own, as /v1/scenes/plan takes it. Throws BadInput.
+/// A scene without a study, as in POST /v1/scenes/plan. Throws BadInput.
 WholeScene read_whole_scene(std::string_view text, const SentFiles& files = {});
 
 }  // namespace breach::orchestrator

@@ -18,7 +18,7 @@ json content_of(const std::string& file) {
     try {
         return {{"sha256", exchange::sha256_of_file(file)}};
     } catch (const fault::IoError&) {
-        return file;  // the phase will say what is wrong with it; such a failure is never reused
+        return file;  // the phase reports the fault; failures are never reused
     }
 }
 

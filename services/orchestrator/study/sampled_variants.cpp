@@ -16,7 +16,7 @@ Lattice lattice_for(Reach reach) {
     return [reach](std::size_t number) { return lattice_of_draw(number, reach); };
 }
 
-/// The parameter that gives this entry, or a part of it, or what holds it.
+/// The parameter that sets this entry, a part of it, or an object around it.
 std::optional<std::size_t> parameter_of(const std::string& pointer, const UncertaintyPlan& plan) {
     for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
         const Parameter& each = plan.parameters[k];
@@ -30,7 +30,7 @@ std::string pointer_to(std::size_t parameter) {
     return "/uncertainty/parameters/" + std::to_string(parameter);
 }
 
-/// Overrides that set what a parameter sets as well; a factor multiplies what they give.
+/// Faults of overrides of entries that a parameter sets; a factor may multiply them.
 void check_overrides(const json& overrides, const std::string& at, const UncertaintyPlan& plan,
                      std::vector<Fault>& faults) {
     for (std::size_t i = 0; i < overrides.size(); ++i) {

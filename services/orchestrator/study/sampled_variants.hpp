@@ -1,4 +1,4 @@
-// A study's samples as its variants, and entries that an uncertainty study does not allow.
+// Turns samples into variants, and refuses entries that do not fit an uncertainty study.
 #pragma once
 
 #include "services/orchestrator/study/accuracy.hpp"
@@ -6,13 +6,13 @@
 
 namespace breach::orchestrator {
 
-/// The phases of each sample: lem_tool alone for factor_of_safety, else all that the scene
-/// allows. A quantity that no result has is a fault. entry: "uncertainty", which the schema has
-/// accepted.
+/// The phases of each sample: lem_tool alone for factor_of_safety, else all that the scene allows.
+/// Unknown quantities are faults. entry: "uncertainty", which the schema has accepted.
 Reach reach_of_samples(const nlohmann::json& entry, const nlohmann::json& scene, Reach of_scene,
                        std::vector<fault::Fault>& faults);
 
-/// Faults of variants, repeats and overrides that conflict with a parameter; of accuracy and check.
+/// Faults of variants, repeats and overrides that conflict with a parameter, and of the entries
+/// accuracy and check.
 void check_company_of_samples(const nlohmann::json& document, const UncertaintyPlan& plan,
                               Reach reach, std::vector<fault::Fault>& faults);
 
@@ -24,7 +24,7 @@ void place_transfer(nlohmann::json& document, std::vector<fault::Fault>& faults)
 std::vector<VariantEntry> variants_of(const UncertaintyPlan& plan, const nlohmann::json& scene,
                                       Reach reach);
 
-/// Changes of the scene by one parameter alone: two of its values, or all its options.
+/// Overrides that change one parameter alone: two of its values, or all its options.
 struct ParameterProbe {
     std::size_t parameter;
     std::vector<std::vector<std::string>> overrides;
@@ -32,8 +32,8 @@ struct ParameterProbe {
 std::vector<ParameterProbe> probes_of(const UncertaintyPlan& plan, const nlohmann::json& scene,
                                       Reach reach);
 
-/// Faults from checks of the samples' scenes ("/scene/entry: cause" at one pointer), once per
-/// entry, at the parameter that sets it.
+/// Moves faults of the samples' scenes ("/scene/entry: cause") to the parameter that sets the
+/// entry, each once.
 std::vector<fault::Fault> told_by_parameter(const std::vector<fault::Fault>& found,
                                             const UncertaintyPlan& plan);
 

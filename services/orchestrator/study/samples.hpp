@@ -7,21 +7,21 @@
 
 namespace breach::orchestrator {
 
-/// One sample. draws: one per parameter: the factor or value, rounded to six digits; the place of the
-/// option; the number of the lattice.
+/// One sample. draws: one number per parameter: the factor or value, rounded to six digits; the
+/// index of the option; the number of the lattice.
 struct DrawnSample {
     std::size_t number;  ///< from 1
     std::vector<double> draws;
 };
 
-/// The first so many samples of the plan: a function of its parameters, correlations, seed, sampling
-/// and first hypercube, independent of the number requested.
+/// The first `count` samples of the plan. They depend on its parameters, correlations, seed,
+/// sampling and first hypercube, not on the number requested.
 std::vector<DrawnSample> samples_of(const UncertaintyPlan& plan, std::size_t count);
 
 /// "s0001"
 std::string name_of_sample(std::size_t number);
 
-/// By the parameter's name: the number, the option's name, the lattice's number.
+/// By the parameter's name: the value, the option's name, or the lattice's number.
 nlohmann::json values_of(const UncertaintyPlan& plan, const DrawnSample& sample);
 
 /// Changes that move the points to this lattice.
@@ -31,7 +31,7 @@ using Lattice = std::function<std::vector<std::string>(std::size_t number)>;
 std::vector<std::string> overrides_of(const Parameter& parameter, double draw,
                                       const nlohmann::json& scene, const Lattice& lattice);
 
-/// The value at the share u of the parameter's probability, 0 < u < 1.
+/// Quantile of the parameter at probability u, 0 < u < 1.
 double draw_at(const Parameter& parameter, double u);
 
 }  // namespace breach::orchestrator

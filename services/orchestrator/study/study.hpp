@@ -34,10 +34,10 @@ struct Study {
     std::vector<Variant> variants;               ///< at least one
     std::map<std::string, Resources> resources;  ///< by phase
     std::int64_t priority = 0;
-    std::optional<double> budget;       ///< that all attempts may spend [CPU s]
+    std::optional<double> budget;       ///< limit for all attempts together [CPU s]
     bool reuse = true;                  ///< equal earlier results may be used
-    std::vector<TriggerPlan> triggers;  ///< those that watch the FEM
-    double snapshot_interval = 0.0;     ///< regular snapshots that they need; 0: the scene's [s]
+    std::vector<TriggerPlan> triggers;  ///< triggers that watch the FEM
+    double snapshot_interval = 0.0;     ///< of snapshots for the triggers; 0: the scene's [s]
     Reach reach = Reach::chain;         ///< phases of each variant
     /// Its variants are samples, and more may be added.
     std::optional<UncertaintyPlan> uncertainty;

@@ -16,8 +16,8 @@ using nlohmann::json;
 
 namespace {
 
-/// This document on the run's scene, which has the study's overrides in it: made again, one that
-/// appends would append twice.
+/// Reads the document with the run's scene, which includes the study's overrides: applied again, an
+/// override that appends would append twice.
 Study read_again(json document, const RunSoFar& run, const DataFolder& data) {
     json overrides = document.value("overrides", json::array());
     document["overrides"] = json::array();
@@ -34,7 +34,7 @@ std::vector<std::string> names_of_variants(const json& study) {
     return names;
 }
 
-/// The study as it was submitted, with these times.
+/// The submitted study with these times.
 Study study_with(const RunSoFar& run, const DataFolder& data, const json& times) {
     json document = run.study;
     document["transfer_times"] = times;
@@ -53,14 +53,14 @@ bool contains(const std::vector<double>& times, std::optional<double> time) {
     return time && std::ranges::find(times, *time) != times.end();
 }
 
-/// "fem_2": the first of this stem that the run does not have.
+/// "fem_2": the first label of this stem that the run does not have.
 std::string free_label(const std::map<std::string, Task>& present, const std::string& stem) {
     int number = 2;
     while (present.contains(stem + "_" + std::to_string(number))) ++number;
     return stem + "_" + std::to_string(number);
 }
 
-/// Of the graph, what the run does not have; FEMs that lack a snapshot of the new times again.
+/// Adds tasks that the run lacks; repeats FEMs without a snapshot of the new times.
 void add_missing_tasks(TaskGraph graph, const std::map<std::string, Task>& present,
                        const DataFolder& data, Extension& extension) {
     extension.recipes = std::move(graph.recipes);
@@ -69,8 +69,8 @@ void add_missing_tasks(TaskGraph graph, const std::map<std::string, Task>& prese
             return std::filesystem::exists(data.output(fem) / snapshot_name(time));
         });
     };
-    std::map<std::size_t, std::size_t> added;     // place in the list, by place in the graph
-    std::map<std::size_t, std::string> existing;  // task id, by place in the graph
+    std::map<std::size_t, std::size_t> added;     // index in the list, by index in the graph
+    std::map<std::size_t, std::string> existing;  // task id, by index in the graph
     for (std::size_t i = 0; i < graph.tasks.size(); ++i) {
         TaskPlan& plan = graph.tasks[i];
         const auto same = present.find(plan.label);
@@ -102,7 +102,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
                          const json& wanted) {
     std::map<std::string, Task> present;
     for (const Task& each : run.tasks) present.emplace(each.label, each);
-    // Not the times that a trigger has found in one variant: they are no times of the others.
+    // Without times that a trigger found in one variant: they are not times of the others.
     const std::vector<double> known = read_again(run.study, run, data).transfer_times;
     Extension extension;
     for (const double time : study_with(run, data, wanted).transfer_times)

@@ -1,14 +1,12 @@
-// Adds transfer times, or samples, to an existing run. Computed results stay. For more times
-// the FEM is repeated only when a snapshot is missing, and then with all times, so that it
-// equals the FEM of the whole sweep submitted at once (and is found in the cache by such a
-// study).
+// Adds transfer times or samples to an existing run. Computed results stay. The FEM is repeated
+// only when a snapshot is missing, and then with all times: it then equals the FEM of the whole
+// sweep submitted at once, and its cache entry.
 #pragma once
 
 #include "services/orchestrator/files/data_folder.hpp"
 
 namespace breach::orchestrator {
 
-/// A run as it is stored.
 struct RunSoFar {
     nlohmann::json study;  ///< without its scene
     std::string scene;     ///< JSON
@@ -19,18 +17,18 @@ struct RunSoFar {
 Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                          const nlohmann::json& wanted);
 
-/// `drawn` samples now exist and `asked` are requested in all, of an uncertainty study: the first
+/// For an uncertainty study: `drawn` samples exist, `asked` are requested in all; the existing ones
 /// stay. Throws BadInput.
 Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                             std::size_t drawn, std::size_t asked);
 
-/// The further variants of the study with this entry "uncertainty": samples, or values of an inverse
-/// study, after the existing ones. Throws BadInput.
+/// Adds the variants that the study with this entry "uncertainty" has beyond the existing ones:
+/// samples, or values of an inverse study. Throws BadInput.
 Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                              const nlohmann::json& entry);
 
-/// Whether variants of different stability analyses share a FEM that this trigger would watch. It needs
-/// their critical depth: had the study contained it, they would not. Throws BadInput.
+/// Whether variants with different stability analyses share a FEM that this trigger would watch.
+/// The trigger needs one critical depth per FEM. Throws BadInput.
 bool shares_fems_too_widely(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                             const TriggerPlan& trigger);
 

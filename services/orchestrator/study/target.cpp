@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t usual_lattices = 3;
 
-/// Where the search begins: "between", or the ends of the distribution itself.
+/// Start of the search: "between", or the ends of the distribution.
 std::optional<std::array<double, 2>> ends_of(const statistics::Distribution& distribution) {
     if (distribution.between) return distribution.between;
     switch (distribution.kind) {
@@ -38,7 +38,7 @@ bool is_logarithmic(const Parameter& parameter, double low) {
             kind == DistributionKind::lognormal);
 }
 
-/// Of a choice the likeliest option.
+/// The median; for a choice the likeliest option.
 double middle_of(const Parameter& parameter) {
     if (parameter.kind != ParameterKind::choice) return draw_at(parameter, 0.5);
     const auto likeliest = std::ranges::max_element(parameter.choices, {}, &Choice::weight);

@@ -1,6 +1,6 @@
-// The entry "target" of an uncertainty study: instead of samples, values of one parameter until a
-// result is a given number, the other parameters at their medians. core/statistics/inverse.hpp
-// chooses the values; here they become variants.
+// The entry "target" of an uncertainty study: varies one parameter until a result has a given
+// value, with the other parameters at their medians. core/statistics/inverse.hpp chooses the
+// values; this file makes them variants.
 #pragma once
 
 #include "core/statistics/inverse.hpp"
@@ -11,7 +11,7 @@ namespace breach::orchestrator {
 
 struct Target {
     statistics::InverseQuestion question;
-    std::size_t parameter;       ///< that is varied, in the plan
+    std::size_t parameter;       ///< index of the varied parameter in the plan
     std::size_t lattices = 1;    ///< number of lattices of points for each value
     std::vector<double> values;  ///< so far, in the order of their requests
 };
@@ -21,7 +21,7 @@ struct Target {
 Target read_target(const nlohmann::json& entry, const UncertaintyPlan& plan, Reach reach,
                    std::vector<fault::Fault>& faults);
 
-/// "v01", "v01_d2", ...: each value on each lattice. scene: completed, with the study's own overrides.
+/// "v01", "v01_d2", ...: each value on each lattice. scene: completed, with the study's overrides.
 std::vector<VariantEntry> variants_of(const Target& target, const UncertaintyPlan& plan,
                                       const nlohmann::json& scene, Reach reach);
 

@@ -20,11 +20,11 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t most_times = 10000;
-constexpr double unknown_span = 1e9;  // of a FEM that could not be read [s]: nothing is too late
-constexpr double microsecond = 1e-6;  // two times closer than this would share a snapshot's name
+constexpr double unknown_span = 1e9;  // of an unreadable FEM [s]: no time is too late
+constexpr double microsecond = 1e-6;  // closer times would share a snapshot's name
 
-/// The double nearest to the spelt time: 0.1 + 0.2 becomes 0.3, so snapshot, override and row
-/// agree.
+/// The double nearest to the time as text: 0.1 + 0.2 becomes 0.3, so that snapshot, override and
+/// row agree.
 double in_microseconds(double time) { return std::stod(spelt(time)); }
 
 std::vector<double> even_range(const json& range, std::vector<Fault>& faults) {
@@ -81,7 +81,7 @@ void warn_about_late_criteria(const json& triggers, double span,
             if (criteria::can_be_true(criteria::parse(when, criteria::Kind::condition, at), range))
                 continue;
         } catch (const BadInput&) {
-            continue;  // check_triggers adds that fault
+            continue;  // reported by check_triggers
         }
         warnings.push_back({"late_criterion", fault::Severity::warning,
                             "\"" + when + "\" is never true: the FEM ends at " +
@@ -92,7 +92,7 @@ void warn_about_late_criteria(const json& triggers, double span,
     }
 }
 
-/// Fields that a condition names; none where it cannot be read: check_triggers adds that fault.
+/// Fields in a condition; none for a faulty one, which check_triggers reports.
 std::vector<std::string> fields_of(const std::string& condition) {
     try {
         return criteria::parse(condition, criteria::Kind::condition, "").fields;
@@ -178,7 +178,7 @@ void read_transfers(const json& document, const scene::Fem* fem, Study& study,
     study.snapshot_interval = checked.snapshot_interval;
     if (fem) check_times(study.transfer_times, *fem, faults);
     if (fem && fem->snapshot_interval > 0.0 && study.snapshot_interval > fem->snapshot_interval)
-        study.snapshot_interval = 0.0;  // the scene's own are finer
+        study.snapshot_interval = 0.0;  // the scene's own interval is finer
     if (study.reach != Reach::chain) return;
     if (faults.size() == before && study.transfer_times.empty() && document["triggers"].empty()) {
         faults.push_back({"/transfer_times", "nothing says when to transfer",

@@ -9,17 +9,18 @@
 
 namespace breach::orchestrator {
 
-/// Total duration of the dynamic stages [s]: the clock of snapshots starts with the first of them.
+/// Total duration of the dynamic stages [s]; snapshot times count from the start of the first one.
 double dynamic_duration(const scene::Fem& fem);
 /// Whether the time is after the FEM's end.
 bool is_late(double time, const scene::Fem& fem);
 void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<fault::Fault>& faults);
 
-/// Lines of /transfer/liquefied that no transfer time uses; triggers choose their own times.
+/// Faults of lines of /transfer/liquefied that no transfer time uses; triggers choose their own
+/// times.
 void check_lines(const scene::Scene& scene, const Study& study, std::vector<fault::Fault>& faults);
 
-/// Reads times, triggers and their snapshots. fem: null: it could not be read, and no time is too late.
+/// Reads times, triggers and their snapshots. fem: null: unreadable; then no time is too late.
 void read_transfers(const nlohmann::json& document, const scene::Fem* fem, Study& study,
                     std::vector<fault::Fault>& faults);
 

@@ -140,7 +140,7 @@ class ParameterReader {
         bool found = false;
         try {
             found = scene_.contains(there);
-        } catch (const json::exception&) {  // a word where an array has places
+        } catch (const json::exception&) {  // a text instead of an index
         }
         if (!found)
             fault(below, "the scene has no entry " + pointer,
@@ -185,7 +185,7 @@ class ParameterReader {
         check_factors();
     }
 
-    /// Values in the place of factors: 12 kPa would be twelve times the scene's strength.
+    /// Refuses values given as factors: 12 would be twelve times the scene's strength, not 12 kPa.
     void check_factors() {
         if (parameter_.kind != ParameterKind::factor) return;
         constexpr double most = 5.0, share = 0.05;
@@ -314,7 +314,7 @@ class ParameterReader {
     Parameter parameter_;
 };
 
-/// Whether two pointers are the same entry, or one holds the other.
+/// Whether the pointers are equal or one contains the other.
 bool meet(const std::string& a, const std::string& b) {
     const auto holds = [](const std::string& whole, const std::string& part) {
         return part.starts_with(whole) &&

@@ -15,8 +15,8 @@
 namespace breach::orchestrator {
 
 enum class ParameterKind {
-    factor,     ///< on the scene's values of its entries
-    value,      ///< of its entries
+    factor,     ///< multiplies the scene's values of its entries
+    value,      ///< replaces the values of its entries
     choice,     ///< one of several lists of overrides
     numerical,  ///< the lattice of material points: an uncertainty of the method itself
 };
@@ -40,7 +40,7 @@ struct Parameter {
 enum class Sampling { latin_hypercube, sobol };
 std::string_view name_of(Sampling sampling);
 
-/// Spearman's, between two parameters by their places.
+/// Spearman's rank correlation between two parameters, by their indices.
 struct AskedCorrelation {
     std::size_t a, b;
     double rank;
@@ -57,7 +57,7 @@ struct Until {
 struct UncertaintyPlan {
     std::string quantity;     ///< the quantity shown first
     std::size_t samples = 1;  ///< number requested
-    std::size_t drawn = 1;    ///< so far: fewer than requested with `until`
+    std::size_t drawn = 1;    ///< created so far: fewer than requested with `until`
     std::size_t first = 1;    ///< size of the first hypercube
     std::uint64_t seed = 0;
     Sampling sampling = Sampling::latin_hypercube;

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-/// What a variant changes for the worse: faults that the scene itself does not have.
+/// Faults of a variant that the scene itself does not have.
 std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& base,
                                      const std::vector<double>& times) {
     std::vector<Fault> own;
@@ -33,7 +33,7 @@ std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& 
     return own;
 }
 
-/// Of this list, what the service has not made.
+/// Entries of the list that the service did not generate.
 std::vector<VariantEntry> own_among(const json& entries, const std::string& pointer) {
     std::vector<VariantEntry> own;
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -48,11 +48,10 @@ std::vector<VariantEntry> own_among(const json& entries, const std::string& poin
     return own;
 }
 
-/// One variant's scene as it was checked.
 struct CheckedVariant {
     json scene;  ///< completed; null where it has faults
     std::vector<Fault> faults;
-    std::vector<Flag> warnings;  ///< that the scene itself does not have
+    std::vector<Flag> warnings;  ///< warnings that the scene itself does not have
 };
 
 bool is_same(const Flag& one, const Flag& other) {
@@ -74,7 +73,7 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
     return variant;
 }
 
-/// Checks all variants, on several threads where there are many: the checks are independent.
+/// Checks all variants, on several threads if there are many.
 std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries, const Base& base,
                                          const std::vector<double>& times) {
     constexpr std::size_t worth_a_thread = 50;
@@ -94,7 +93,7 @@ std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entrie
     return checked;
 }
 
-/// The warnings of all variants, each once, with the first variant that has it and how many do.
+/// Adds the warnings of all variants, each once, with the first variant and the number of variants.
 void add_warnings(const std::vector<VariantEntry>& entries,
                   const std::vector<CheckedVariant>& checked, std::vector<Flag>& warnings) {
     struct Found {
@@ -163,7 +162,7 @@ void warn_about_overrides(const json& document, std::vector<Flag>& warnings) {
 
 std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, const json& scene,
                                           std::vector<Fault>& faults) {
-    constexpr std::size_t longest_name = 32;  // of the schema
+    constexpr std::size_t longest_name = 32;  // limit in the schema
     const Draws draws = draws_of(document);
     std::vector<VariantEntry> own = own_variants(document);
     if (draws.first == 0 && draws.count == 1) return own;

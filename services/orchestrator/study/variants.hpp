@@ -11,23 +11,23 @@
 
 namespace breach::orchestrator {
 
-/// The study's scene with its own overrides: completed when it is valid, otherwise as it was sent.
+/// The study's scene with its own overrides: completed when it is valid, otherwise unchanged.
 struct Base {
     SentFiles files;
     nlohmann::json scene;
     std::vector<std::string> overrides;
-    std::vector<fault::Fault> faults;   ///< of the scene itself: a variant does not repeat them
+    std::vector<fault::Fault> faults;   ///< of the scene itself; variants do not repeat them
     std::vector<fault::Flag> warnings;  ///< likewise
     check::Recordings* recordings;      ///< cache of motions, shared by the variants
 };
 
 inline constexpr const char* kept_variants =
-    "own_variants";  ///< of a study that consists of repeats only
+    "own_variants";  ///< key of the own variants in a study that runs repeats only
 
-/// The variants that the study itself defines; generated ones are made anew.
+/// The variants that the study itself defines; generated variants are derived again.
 std::vector<VariantEntry> own_variants(const nlohmann::json& document);
 
-/// Warns of an entry that one list of overrides sets twice to different values, and of variants with
+/// Warns of an entry that one list of overrides sets to two different values, and of variants with
 /// equal overrides.
 void warn_about_overrides(const nlohmann::json& document, std::vector<fault::Flag>& warnings);
 
@@ -38,8 +38,8 @@ std::vector<VariantEntry> wanted_variants(const nlohmann::json& document, Reach 
 
 nlohmann::json as_json(const std::vector<VariantEntry>& entries);
 
-/// Stores the variants that are run, and beside them the study's own where none of them is run
-/// unchanged, so that the study can be read again with the same result.
+/// Stores the variants that are run, and the study's own variants where none of them runs
+/// unchanged, so that reading the study again gives the same variants.
 void keep_variants(const std::vector<VariantEntry>& entries, nlohmann::json& document);
 
 /// Each variant's scene, checked and completed; faults are those of its overrides.

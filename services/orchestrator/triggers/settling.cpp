@@ -31,8 +31,7 @@ std::string cut_short_text(const Task& fem) {
 
 std::string in_short(double value) { return words::text_of(value, 4); }
 
-/// Why the condition was not met by the FEM's end, and how near it came: what it asks for on the
-/// last line.
+/// Why the condition was not met before the FEM's end, with its values on the last line.
 std::string never_met(const criteria::Criterion& criterion, double hold,
                       const std::optional<criteria::Line>& last) {
     const criteria::Expression& condition = criterion.expression();
@@ -76,10 +75,10 @@ Firing firing_of(const WatchedFem& fem, const ArmedTrigger& armed, const Frame& 
             .written_at = written_at(file)};
 }
 
-// The samples of a bisection, and its result.
+// Samples and result of a bisection.
 
-/// Decided by a mean that may lie on the other side of the level: its own scatter and that of the
-/// largest, of which the level is a share.
+/// Whether the mean may be on the other side of the level, considering its own scatter and that of
+/// the largest mean, which defines the level.
 bool straddles(const statistics::Repeats& sample, const statistics::Repeats& largest,
                double share) {
     const double half = statistics::half_width_of_mean(sample).value_or(0.0);
@@ -87,8 +86,8 @@ bool straddles(const statistics::Repeats& sample, const statistics::Repeats& lar
     return std::abs(sample.mean - share * largest.mean) <= std::hypot(half, of_level);
 }
 
-/// Where the study has draws: which times were decided by a mean whose band straddles the level,
-/// and which by fewer draws than were asked for.
+/// Reports, for a study with repeats, times decided by a mean within the scatter of the level, and
+/// by fewer repeats than requested.
 void tell_draws(const std::vector<Sample>& samples, double share,
                 const std::optional<statistics::Plateau>& plateau, json& result) {
     const auto repeated = std::ranges::max_element(samples, {}, &Sample::draws);
@@ -115,7 +114,7 @@ void tell_draws(const std::vector<Sample>& samples, double share,
 
 json as_json(const statistics::Edge& edge) { return {{"off", or_null(edge.off)}, {"on", edge.on}}; }
 
-/// In its range, at least its tolerance apart.
+/// Snapshots in the range, at least the tolerance apart.
 std::vector<Frame> candidates_of(const Bisect& bisect, const std::vector<Frame>& snapshots) {
     std::vector<Frame> found;
     for (const Frame& each : snapshots) {
@@ -128,7 +127,7 @@ std::vector<Frame> candidates_of(const Bisect& bisect, const std::vector<Frame>&
     return found;
 }
 
-/// By the samples, which have all ended.
+/// From the samples, which have all ended.
 statistics::Advice advice_for(const Bisect& bisect, const std::vector<Frame>& candidates,
                               const std::vector<Sample>& samples) {
     std::vector<double> times;
@@ -162,7 +161,7 @@ json result_of(const Bisect& bisect, const std::vector<Frame>& candidates,
 void Settling::settle(WatchedFem& fem, ArmedTrigger& armed) {
     if (is_final(armed.trigger.state)) return;
     if (armed.lacks_depth(fem)) {
-        // Not before the FEM's end: until then a retry of the stability analysis is in time.
+        // Waits for the FEM's end: until then a retry of the stability analysis can succeed.
         if (!fem.ended || fem.why_no_depth.empty()) return;
         expire(armed,
                until_a_retry("its stability analysis gave no critical depth", fem.why_no_depth),
@@ -213,7 +212,7 @@ void Settling::settle_work(WatchedFem& fem, ArmedTrigger& armed, Between& betwee
     const bool wants_first = between.pick == criteria::Pick::first;
     const Frame* first = fem.first_from(lower_edge);
     if (wants_first && first && window.is_open_at(first->time)) {
-        // As noted at the lower edge: how much was read of what follows must not matter.
+        // Values at the lower edge: independent of how much was read after it.
         armed.crossed = crossing_of(lower);
         armed.crossed_step = lower.crossing()->step;
         take(fem, armed, *first, lower_edge);
@@ -224,8 +223,8 @@ void Settling::settle_work(WatchedFem& fem, ArmedTrigger& armed, Between& betwee
     }
 }
 
-/// Snapshots before the upper edge were written in earlier steps and are all there. A FEM that never
-/// got too distorted closes the window with its end.
+/// Snapshots before the upper edge were written in earlier steps, so all exist. The end of a FEM
+/// whose mesh stays good closes the window.
 void Settling::pick_in_window(const WatchedFem& fem, ArmedTrigger& armed, const Between& between) {
     const criteria::Criterion& lower = between.window.lower();
     const double lower_edge = lower.crossing()->time;
@@ -258,7 +257,7 @@ void Settling::settle_work(WatchedFem& fem, ArmedTrigger& armed, Bisect& bisect)
     if (!fem.ended) return;
     if (fem.was_cut_short()) return expire(armed, cut_short_text(fem.task), WasMet::not_told);
     const std::vector<Sample> samples = store_.samples_of(armed.trigger.id);
-    // One round at a time: halving needs both answers.
+    // One round at a time: halving needs both results.
     if (!std::ranges::all_of(samples, &Sample::ended)) return;
     const auto is_lost = [](const Sample& each) { return each.lost_by.has_value(); };
     if (const auto lost = std::ranges::find_if(samples, is_lost); lost != samples.end()) {
@@ -320,8 +319,7 @@ void Settling::take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& sna
                  snapshot.name, wanted);
 }
 
-/// What was true at the end and only not for long enough has begun: that is no sign of a dam that
-/// stands.
+/// A condition that was true at the end but not for the hold counts as met: the dam does not stand.
 void Settling::expire_unmet(const WatchedFem& fem, ArmedTrigger& armed,
                             const criteria::Criterion& criterion) {
     std::optional<criteria::Line> last;

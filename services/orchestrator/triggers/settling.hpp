@@ -4,12 +4,13 @@
 // after a kill -9 the replay gives the same firing, and the store accepts it once.
 //
 // The snapshot of a firing is the first one not before the time at which the trigger was met. While
-// there is none and the FEM runs, it is asked for one (the file snapshot_request in its output
-// folder), unless it takes regular ones anyway. After the FEM's end an existing snapshot must
-// serve; one later than the trigger's within_s makes it expire. The end of an interrupted FEM (it
-// failed, and not by a breakdown) closes no window and begins no bisection: they expire. So does a
-// trigger that waits for a stability analysis or a runout interrupted like this; a retry decides.
-// a fault of the machine, and a retry decides.
+// there is none and the FEM runs, the service requests one (the file snapshot_request in the FEM's
+// output folder), unless the FEM writes snapshots regularly. After the FEM's end an existing
+// snapshot must serve; if it is later than within_s, the trigger expires.
+//
+// The end of an interrupted FEM (failed, but not by a breakdown) closes no window and begins no
+// bisection: the triggers expire. So does a trigger that waits for a stability analysis or a runout
+// that was interrupted. A retry re-arms them.
 #pragma once
 
 #include "services/orchestrator/triggers/watched_fem.hpp"
@@ -19,7 +20,6 @@ namespace breach::orchestrator {
 class Settling {
   public:
     explicit Settling(Store& store) : store_(store) {}
-    /// armed: of this FEM.
     void settle(WatchedFem& fem, ArmedTrigger& armed);
 
   private:
@@ -31,13 +31,13 @@ class Settling {
     void take_first_from(WatchedFem& fem, ArmedTrigger& armed, double wanted);
     void take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& snapshot, double wanted);
     /// Whether the condition was met, and only a snapshot, a window or the rest of its hold was
-    /// missing; not_told: the trigger expires for another reason, which leaves this open.
+    /// missing; not_told: the trigger expired for another reason, which leaves this open.
     enum class WasMet { no, yes, not_told };
     void expire(ArmedTrigger& armed, const std::string& why, WasMet was_met);
     void expire_unmet(const WatchedFem& fem, ArmedTrigger& armed,
                       const criteria::Criterion& criterion);
     void expire_without_snapshot(ArmedTrigger& armed, double wanted);
-    /// result: stored with it; null: the stored one stays.
+    /// result: stored with the move; null: keeps the stored one.
     void move(ArmedTrigger& armed, TriggerEvent event, nlohmann::json detail,
               const nlohmann::json& result = nullptr);
 

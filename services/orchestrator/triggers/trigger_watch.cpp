@@ -23,7 +23,7 @@ void TriggerWatch::look() {
     for (auto& [id, fem] : fems_) look_alone(fem);
 }
 
-/// Unreadable files of one FEM must not delay the others: it is looked at again.
+/// Unreadable files of one FEM must not delay the others; it is read again in the next round.
 void TriggerWatch::look_alone(WatchedFem& fem) {
     std::string trouble;
     try {
@@ -49,7 +49,7 @@ std::chrono::milliseconds TriggerWatch::patience() const {
     return blind ? look_for_telemetry : reload_interval;
 }
 
-/// Only when something was stored since the last time, or a second has passed.
+/// Loads only when something was stored, or a second has passed.
 void TriggerWatch::load_open_triggers() {
     const std::int64_t newest = store_.last_event();
     if (newest == seen_event_ && Clock::now() - loaded_ < reload_interval) return;
@@ -76,7 +76,7 @@ void TriggerWatch::arm(const Trigger& trigger) {
     auto found = fems_.find(trigger.fem_task);
     if (found == fems_.end()) {
         auto task = store_.task(trigger.fem_task);
-        if (!task) return;  // disarmed and removed meanwhile
+        if (!task) return;  // disarmed and removed
         found = fems_.emplace(trigger.fem_task, WatchedFem(std::move(*task), store_, data_)).first;
     }
     auto& armed = found->second.armed;

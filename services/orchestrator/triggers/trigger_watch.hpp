@@ -16,8 +16,8 @@ class TriggerWatch {
 
     /// Readable when a watched telemetry file has grown.
     int descriptor() const { return watch_.descriptor(); }
-    /// Longest time until the next look: zero when something was stored since the last, a moment
-    /// while a FEM has not begun its telemetry.
+    /// Longest time until the next look: zero after something was stored, short while a FEM has not
+    /// begun its telemetry.
     std::chrono::milliseconds patience() const;
     /// Reads everything that may have changed; cheap when no trigger is open.
     void look();

@@ -60,7 +60,7 @@ bool WatchedFem::was_cut_short() const {
 }
 
 void WatchedFem::read_on(const Store& store, FolderWatch& watches) {
-    // Asked before reading: what ended before was written before.
+    // Before reading: everything written before the end is then read.
     ended = is_final(task.state) || task.state == TaskState::finalizing;
     if (!ended) watch = watches.add(tail.file(), Notice::every_change);
     for (telemetry::Line& line : tail.fresh()) lines.push_back(std::move(line));
@@ -68,8 +68,8 @@ void WatchedFem::read_on(const Store& store, FolderWatch& watches) {
     snapshots = frames_in(output, task.phase);
 }
 
-/// Only when a trigger asks: a run may be large. One that failed says nothing of the dam: it is
-/// looked at again, as it may be retried while the FEM runs.
+/// Only when a trigger uses the depth: a run may be large. A failed analysis does not count: it is
+/// looked up again, because it may be retried while the FEM runs.
 void WatchedFem::look_for_stability(const Store& store) {
     const auto asks = [](const ArmedTrigger& each) { return asks_for_critical_depth(each.work); };
     if (!std::ranges::any_of(armed, asks)) return;
@@ -97,7 +97,7 @@ const Frame* WatchedFem::first_from(double wanted) const {
     return first == snapshots.end() ? nullptr : &*first;
 }
 
-/// Renamed into place. Asked again when nothing came: a FEM that was killed has not answered.
+/// Publishes by renaming. Repeats an unanswered request: the FEM may have been killed.
 void WatchedFem::ask_for_snapshot() {
     const auto request = output / phases::files::request;
     if (std::filesystem::exists(request) || Clock::now() - asked < ask_again_after) return;
@@ -119,8 +119,8 @@ bool ArmedTrigger::lacks_depth(const WatchedFem& fem) const {
     return asks_for_critical_depth(work) && !fem.critical_depth;
 }
 
-/// A trigger that asks for the critical depth takes no line before that is known, so that what it
-/// decides does not depend on which phase was faster.
+/// A trigger with the critical depth reads no line before the depth is known, so that its decision
+/// does not depend on which phase was faster.
 void ArmedTrigger::feed(const WatchedFem& fem) {
     if (lacks_depth(fem)) return;
     for (; lines_taken < fem.lines.size(); ++lines_taken) take(fem, fem.lines[lines_taken]);

@@ -1,5 +1,5 @@
-// A FEM with open triggers, and its data so far: its telemetry as it grows, its snapshots, the
-// critical depth of its stability analysis.
+// A FEM with open triggers and its data so far: telemetry, snapshots, and the critical depth of its
+// stability analysis.
 #pragma once
 
 #include <chrono>
@@ -19,14 +19,14 @@ struct WatchedFem;
 /// A trigger being evaluated.
 struct ArmedTrigger {
     explicit ArmedTrigger(const Trigger& stored);
-    /// Whether it needs the critical depth and that is not known (yet).
+    /// Whether it needs the critical depth, which is not known (yet).
     bool lacks_depth(const WatchedFem& fem) const;
     /// Evaluates the lines since the last call.
     void feed(const WatchedFem& fem);
 
     Trigger trigger;
     Work work;
-    std::int64_t noticed_at = 0;  ///< when the line that met it was read [ms since 1970]
+    std::int64_t noticed_at = 0;  ///< when the service read the line that met it [ms since 1970]
     nlohmann::json crossed = nullptr;
     std::int64_t crossed_step = 0;
     std::size_t lines_taken = 0;  ///< of the FEM's telemetry
@@ -40,12 +40,12 @@ struct WatchedFem {
     WatchedFem(Task of, const Store& store, const DataFolder& data);
     /// Reads everything written since the last call.
     void read_on(const Store& store, FolderWatch& watches);
-    /// Whether it was interrupted: it ended neither at its end nor by a breakdown, which is a
-    /// result, but the disk was full, or it was killed or cancelled. A retry continues its output.
+    /// Whether it was interrupted (full disk, killed, cancelled): it neither reached its end nor
+    /// broke down, which is a result. A retry continues its output.
     bool was_cut_short() const;
     criteria::Line line_for(const criteria::Expression& condition,
                             const telemetry::Line& line) const;
-    /// The first snapshot not before that time; nothing: there is none so far.
+    /// The first snapshot not before that time; null: none so far.
     const Frame* first_from(double wanted) const;
     void ask_for_snapshot();
 
@@ -56,11 +56,11 @@ struct WatchedFem {
     std::vector<telemetry::Line> lines = {};  ///< all so far, for triggers that come later
     std::vector<ArmedTrigger> armed = {};
     bool ended = false;
-    bool regular;  ///< takes snapshots at an interval
-    bool planned;  ///< the run stores the tasks of a firing on it
+    bool regular;  ///< writes snapshots at an interval
+    bool planned;  ///< the run stores the tasks of a firing of it
     std::vector<Frame> snapshots = {};
     std::chrono::steady_clock::time_point asked{};
-    /// Of the run's stability analysis once that has ended; NaN when there is none [m].
+    /// Of the run's stability analysis, once it has ended; NaN: no critical depth [m].
     std::optional<double> critical_depth{};
     std::string why_no_depth = {};  ///< how the stability analysis failed; empty: it has not
     std::string trouble = {};       ///< why the last look was incomplete

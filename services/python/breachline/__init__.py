@@ -1,4 +1,4 @@
-"""Runs of Breachline as numpy sees them: results, frames, comparisons.
+"""Reads runs of Breachline into numpy: results, frames, comparisons.
 
     import breachline as breach
     run = breach.run("latest")           # from a service, or breach.run("slope-run/") from an exported folder

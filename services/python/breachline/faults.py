@@ -2,7 +2,7 @@
 
 
 class BreachlineError(Exception):
-    """No such run, a file that is not what it should be, a question that this run has no answer to."""
+    """The run does not exist, a file is invalid, or the run lacks the requested data."""
 
 
 class Unreachable(BreachlineError):

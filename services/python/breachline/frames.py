@@ -1,4 +1,4 @@
-"""Frames: material points or a mesh at one time, from the exchange files (core/exchange of the project says what they hold)."""
+"""Frames: material points or a mesh at one time, from the exchange files (core/exchange)."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -23,7 +23,7 @@ Array = NDArray[Any]
 class Frame:
     """SI units, tension positive; stress and strain (xx, yy, zz, xy), velocity_gradient (xx, xy, yx, yy)."""
 
-    time: float  #: [s], on the clock of its phase
+    time: float  #: [s], of its phase
     position: Array  #: [points, 2] m
     regions: list[str]  #: names, by region index
     materials: list[str]  #: of the regions
@@ -62,7 +62,7 @@ class Frame:
 
 
 class Frames(Sequence[Frame]):
-    """Ascending in time; a frame is read when it is asked for."""
+    """Frames of one task, ascending in time; each is read on access."""
 
     def __init__(self, times: list[float], opened: Callable[[int], Path], whose: str = "") -> None:
         self.whose = whose  #: label and state of the task
@@ -93,7 +93,7 @@ class Frames(Sequence[Frame]):
         return f"Frames({len(self)} from {self.times[0]:g} s to {self.times[-1]:g} s of {self.whose or 'a task'})"
 
     def xarray(self) -> xarray.Dataset:
-        """All frames at once, over time and point; they must have the same points and fields. Needs xarray."""
+        """All frames as one dataset over time and point; they must have the same points and fields. Needs xarray."""
         import xarray
 
         frames = list(self)
@@ -109,7 +109,7 @@ class Frames(Sequence[Frame]):
 
 
 def read(path: Path) -> Frame:
-    """A .vtkhdf file of fem_solver, transfer_tool or mpm_solver."""
+    """Reads a .vtkhdf file of fem_solver, transfer_tool or mpm_solver."""
     try:
         with h5py.File(path) as file:
             return _frame_in(file)
@@ -128,7 +128,7 @@ def _frame_in(file: Any) -> Frame:
 
 
 def _fields(group: Any, units: dict[str, str]) -> dict[str, Array]:
-    """Without the components that a section does not have: z of a vector, yz and xz of a tensor."""
+    """Removes the components that are zero in plane strain: z of a vector, yz and xz of a tensor."""
     fields = {}
     for name, data in group.items():
         values = data[()]

@@ -1,4 +1,4 @@
-"""Where a run's documents and files come from: a service's API, or the folder that `breach export` made."""
+"""Sources of a run's documents and files: a service's API, or the folder of `breach export`."""
 from __future__ import annotations
 
 import hashlib
@@ -18,7 +18,7 @@ Document = dict[str, Any]
 
 
 class Source(Protocol):
-    """A run as one place knows it."""
+    """A run in one source."""
 
     def run(self) -> Document: ...
 
@@ -31,10 +31,10 @@ class Source(Protocol):
     def tasks(self) -> list[Document]: ...
 
     def file(self, task: Document, name: str) -> Path:
-        """A file on this machine with the bytes of the task's artifact."""
+        """Path of a local file with the bytes of the task's artifact."""
 
     def served(self) -> Served:
-        """The same run where it takes orders."""
+        """The same run on a service, which accepts orders."""
 
 
 class Exported:
@@ -65,7 +65,7 @@ class Exported:
 
     def tasks(self) -> list[Document]:
         found = [self._read(f"tasks/{each.parent.name}/task.json") for each in self.folder.glob("tasks/*/task.json")]
-        return sorted(found, key=lambda task: str(task["id"]))  # the study's order, as the service tells them
+        return sorted(found, key=lambda task: str(task["id"]))  # the study's order
 
     def file(self, task: Document, name: str) -> Path:
         path = self.folder / "tasks" / str(task["label"]) / name
@@ -91,7 +91,7 @@ class Api:
         self._trust = _trust_in(os.environ.get("BREACH_TLS_CA")) if self.server.startswith("https:") else None
 
     def bytes_at(self, path: str, body: Document | None = None) -> bytes:
-        """body: what is posted; None: nothing, it is read."""
+        """body: posted as JSON; None: a GET request."""
         data = None if body is None else json.dumps(body).encode()
         request = urllib.request.Request(self.server + path, data, {"Content-Type": "application/json"} if data else {})
         if self.token:
@@ -101,7 +101,7 @@ class Api:
                 return bytes(answer.read())
         except urllib.error.HTTPError as refusal:
             raise BreachlineError(f"{self.server}{path}: {_problem(refusal)}") from refusal
-        except OSError as cause:  # urllib.error.URLError is one
+        except OSError as cause:  # includes urllib.error.URLError
             reason = getattr(cause, "reason", cause)
             if isinstance(reason, ssl.SSLCertVerificationError):
                 raise BreachlineError(f"{self.server}: its certificate is not to be trusted: {reason.verify_message}; if its "
@@ -116,12 +116,12 @@ class Api:
 
 
 class Served:
-    """A run of a service. Artifacts are kept below `cache` by their SHA-256, which is compared."""
+    """A run of a service. Artifacts are stored below `cache` by their SHA-256, which is checked."""
 
     def __init__(self, api: Api, run: str, cache: Path | None = None) -> None:
         self.api = api
         self.path = "/v1/runs/" + urllib.parse.quote(run, safe="")
-        self.detail = dict(api.json_at(self.path))  # with its study and tasks, as they are now
+        self.detail = dict(api.json_at(self.path))  # with its study and tasks
         home = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
         self.cache = cache or Path(home) / "breachline"
 
@@ -162,7 +162,7 @@ class Served:
 def _trust_in(authority: str | None) -> ssl.SSLContext:
     try:
         return ssl.create_default_context(cafile=authority or None)
-    except OSError as cause:  # ssl.SSLError is one
+    except OSError as cause:  # includes ssl.SSLError
         raise BreachlineError(f"{authority}: holds no certificate that can be read: {cause}; BREACH_TLS_CA names a PEM "
                               "file of the authority's") from cause
 

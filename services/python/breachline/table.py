@@ -25,17 +25,17 @@ class Column:
 
 
 class Table:
-    """Rows as dictionaries, columns as arrays: table[0]["runout"] is table["runout"][0]. A variant of which nothing was
-    transferred, such as a dam that stands, has no row: statistics over rows are of the others alone."""
+    """Rows as dictionaries, columns as arrays: table[0]["runout"] is table["runout"][0]. A variant without a transfer, such
+    as a stable dam, has no row: statistics over rows exclude it."""
 
     def __init__(self, columns: list[Column], rows: list[Row], without_transfer: Sequence[Row] = ()) -> None:
         self.columns = columns
         self.rows = rows
-        self.without_transfer = list(without_transfer)  #: with their variant and reason
+        self.without_transfer = list(without_transfer)  #: variants and reasons
 
     @classmethod
     def of(cls, answer: Row) -> Table:
-        """answer: what the API's results say, which an export keeps as results.json."""
+        """answer: from the API's results, or results.json of an export."""
         columns = [Column(each["name"], each["kind"], each["unit"], each["meaning"]) for each in answer["columns"]]
         return cls(columns, list(answer["rows"]), answer.get("without_transfer", []))
 
@@ -46,7 +46,7 @@ class Table:
         return iter(self.rows)
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        """[rows]: float64 with nan for what is not known where the column holds numbers, otherwise objects."""
+        """[rows]: float64 with nan for unknown numbers; objects for other columns."""
         column = self.column(name)
         values = [row.get(name) for row in self.rows]
         if column.kind == "number":
@@ -83,12 +83,12 @@ class Table:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Two runs row by row; a row is found by its variant and transfer time. Of a variant without a common transfer time
-    the rows with the largest runouts belong together. The difference of a column is the other's value minus this one's."""
+    """Two runs row by row, matched by variant and transfer time. If a variant has no common transfer time, its rows with the
+    largest runouts are matched. The difference of a column is the other's value minus this one's."""
 
     here: Table
     other: Table
-    pairs: list[tuple[int, int]]  #: rows of `here` and of `other` that belong together
+    pairs: list[tuple[int, int]]  #: matching rows of `here` and `other`
     only_here: list[tuple[str, float | None]]  #: variant and transfer time [s] without a counterpart
     only_there: list[tuple[str, float | None]]
 
@@ -106,7 +106,7 @@ class Comparison:
         return len(self.pairs)
 
     def difference(self, name: str) -> NDArray[np.float64]:
-        """[pairs], in the column's unit; nan where one of both is not known."""
+        """[pairs], in the column's unit; nan where a value is unknown."""
         if self.here.column(name).kind != "number":
             raise BreachlineError(f"{name} holds no numbers")
         mine, theirs = self.here[name], self.other[name]

@@ -1,4 +1,4 @@
-// What the page of an assessment rests on: distributions, envelopes along x, hydrographs, samples.
+// The data behind an assessment: distributions, envelopes along x, hydrographs, samples.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,10 +19,10 @@ using namespace nlohmann::literals;
 
 namespace {
 
-constexpr std::size_t most_rows = 100;  // of a table that is printed
+constexpr std::size_t most_rows = 100;  // of a printed table
 constexpr double no_bound_yet = std::numeric_limits<double>::infinity();
 
-/// What is published of the case stands in the figure, too.
+/// Adds the paper's runout to the figure.
 void add_published(const Material& from, const std::string& quantity, Figure& figure) {
     if (!from.paper || !quantity.starts_with("runout")) return;
     for (const PaperValue& each : from.paper->values)

@@ -1,5 +1,5 @@
-// What a dam-breach assessment has to say (GISTM 2.3; CDA 2021), of a study over distributions: its two
-// chapters, and how both put things into words.
+// The two chapters of a dam-breach assessment (GISTM 2.3; CDA 2021) from a study over
+// distributions, and their shared wording.
 #include <algorithm>
 #include <map>
 

@@ -1,5 +1,5 @@
-// The page that a regulator reads: what fails, when, how far, when it arrives and how deep, each with its
-// spread and with what it rests on; and what cannot be said.
+// The page for a regulator: what fails, when, how far, arrival and depth, each with its spread and
+// basis; and the limits of the analysis.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -75,8 +75,8 @@ std::string spread_text(const std::optional<double>& value, bool bound) {
     return (bound ? at_least : "") + rounded(*value, 3);
 }
 
-/// One fact of the samples' results; absent: what it counts as where it is not there. What grows while
-/// soil moves is a lower bound where a sample at or below it was stopped in motion.
+/// A row for one entry of the samples' results. absent: value of a missing entry. An entry that
+/// grows while soil moves is a lower bound where a sample at or below it still moved.
 std::vector<std::string> fact_row(const Run& run, const std::string& what, const std::string& fact,
                                   double absent, const std::string& came) {
     const json::json_pointer at(fact);
@@ -224,7 +224,7 @@ Table cases_of(const Run& run) {
 
 // ---------------------------------------------------------------- error, cost, origin
 
-/// The spread of results beside what one run may be off, and what the samples cost.
+/// The spread of results beside the error of one run, and the cost of the samples.
 Table worth_of(const Run& run, const std::string& name) {
     Table table{"assessment_error",
                 "Error against run time",

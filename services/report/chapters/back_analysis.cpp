@@ -1,4 +1,4 @@
-// The chapter of a study that asks backwards: which value of a parameter gives a known result.
+// The chapter of a back analysis: which value of a parameter gives a known result.
 #include <algorithm>
 
 #include "services/report/chapters/assessment.hpp"

@@ -14,8 +14,8 @@ namespace breach::report {
 /// Choices of the reader.
 struct Choice {
     std::vector<double> snapshot_times;  ///< of contours and meshes [s]; empty: four over the run
-    std::vector<double> transfer_times;  ///< file; empty: the scene's
-    std::filesystem::path motion;        ///< file; empty: where the scene says
+    std::vector<double> transfer_times;  ///< of the runouts in detail [s]; empty: chosen
+    std::filesystem::path motion;        ///< file; empty: the scene's entry
     /// Other runs with variants that belong to this one
     std::vector<std::filesystem::path> companions;
     std::filesystem::path element_tests;  ///< folder of fem_solver element-test; empty: none
@@ -29,8 +29,8 @@ struct Material {
     const Choice& choice;
 };
 
-/// The runouts shown in detail, of the variant with the largest runout: those nearest to the wanted
-/// transfer times; without any, the one nearest to half of the largest runout, and the largest.
+/// Runouts shown in detail, of the variant with the largest runout: those nearest to the requested
+/// transfer times; without such times, the largest and the one nearest to half of it.
 std::vector<const PhaseFolder*> chosen_runouts(const Material& from);
 /// "t_T = 13 s, softened".
 std::string of_transfer(const PhaseFolder& phase);
@@ -43,21 +43,20 @@ std::string file_word(const PhaseFolder& mpm);
 
 /// The figure of runouts against transfer times.
 inline constexpr std::string_view runout_figure = "runout_against_transfer_time";
-/// Its curves, one per variant: of means where the runouts were repeated on several lattices.
+/// Its curves, one per variant; means where the runouts have repeats.
 std::vector<Series> runout_curves(const Run& run);
 
-/// The start and the end of the window of transfer times; without a window, why.
+/// Marks the start and the end of the window of transfer times; without a window, the reason.
 void mark_window(const WindowEdges& window, std::vector<Mark>& marks);
 
-/// The initial section.
 Series section_at_rest(const nlohmann::json& scene);
 
 Front front_of(const Run& run);
-/// The section before and after the governing runout, with the critical slip surface and the phreatic line.
+/// The section before and after the governing runout, with slip surface and phreatic line.
 Figure overview_of(const Run& run);
-/// For a study over distributions: first the page for a regulator, then the data behind it.
+/// For a study over distributions: the page for a regulator, then its data.
 void add_assessment(const Material& from, Document& document);
-/// The row of the first page from its samples; nothing for any other run.
+/// The first page's row from the samples; nothing for any other run.
 std::optional<std::vector<std::string>> sampled_answer(const Run& run);
 void add_inputs(const Material& from, Document& document);
 void add_stability(const Material& from, Document& document);

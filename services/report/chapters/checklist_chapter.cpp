@@ -1,5 +1,5 @@
-// What a reviewer of a deformation analysis asks (after the subjects of Boulanger & Beaty 2016 and USSD 2022),
-// answered from what the run has found.
+// Questions of a reviewer of a deformation analysis (after Boulanger & Beaty 2016 and USSD 2022),
+// answered from the run.
 #include <set>
 
 #include "core/phases/phases.hpp"
@@ -26,7 +26,7 @@ std::string word(const json& value) {
     return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-/// Of the phases' flags, those with one of these codes.
+/// Flags of the phases with one of these codes.
 std::string flagged(const Run& run, const std::set<std::string>& codes) {
     std::string found;
     std::set<std::string> said;
@@ -52,7 +52,7 @@ std::string laws_of(const json& scene) {
     return text;
 }
 
-/// Questions and answers; each phase that the run lacks answers "not modelled".
+/// Questions and answers; a missing phase answers "not modelled".
 class Checklist {
   public:
     explicit Checklist(const Material& from)

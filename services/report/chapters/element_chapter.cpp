@@ -1,5 +1,5 @@
-// Cyclic resistance and undrained strength of the soils, from element tests: they belong to a
-// material and not to a run.
+// Cyclic resistance and undrained strength of the materials from element tests, which belong to no
+// run.
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/figures/element_test_figures.hpp"
 
@@ -19,7 +19,7 @@ void note_what_is_missing(const nlohmann::json& scene, Document& document) {
     }
 }
 
-/// Single cyclic tests stand in the curve of cyclic resistance as one point each.
+/// Leaves out single cyclic tests: each is a point in the curve of cyclic resistance.
 bool belongs(const Figure& figure) {
     return figure.name.ends_with("_CRR") || figure.name.find("_csr") == std::string::npos;
 }

@@ -1,4 +1,4 @@
-// What those who live downstream must know: when it comes, how deep, how fast, and what stays.
+// Flow downstream: arrival, depth, velocity and deposit.
 #include <algorithm>
 
 #include "core/exchange/archive.hpp"
@@ -36,7 +36,7 @@ Figure gauge_figure(const PhaseFolder& mpm, const std::string& quantity, const s
     return figure;
 }
 
-/// Arrival and largest values at every gauge, of every runout.
+/// Arrival and largest values at every gauge, for every runout.
 Table gauge_table(const Run& run) {
     Table table{
         "gauges",
@@ -60,8 +60,8 @@ Table gauge_table(const Run& run) {
     return table;
 }
 
-/// Depth of the deposit over x at the end; nothing from an archive without an envelope. The last profile
-/// is the last frame's, which may be long before.
+/// Final depth of the deposit over x; nothing: the archive has no envelope. The last profile is of
+/// the last frame, which may be much earlier.
 std::optional<Series> deposit_of(const PhaseFolder& mpm) {
     const auto archive =
         exchange::read_archive(mpm.files / phases::files::history, "mpm_history", 1);

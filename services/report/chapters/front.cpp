@@ -1,5 +1,5 @@
-// The first page: what was asked, what comes out and how far it is to be believed, within which
-// limits. Its numbers are those of the phases' result.json.
+// The first page: the question, the results with their uncertainty, and the limits. All numbers
+// come from the phases' result.json.
 #include <algorithm>
 #include <map>
 
@@ -15,7 +15,7 @@ using namespace nlohmann::literals;
 
 namespace {
 
-constexpr std::size_t most_gauges = 4;  // that the page has room for
+constexpr std::size_t most_gauges = 4;  // limit of the page
 constexpr int digits = 3;               // of results
 
 std::string joined(const std::vector<std::string>& words, const std::string& between = ", ") {
@@ -63,7 +63,7 @@ std::string transfers_of(const Run& run) {
            (triggers.empty() ? "" : " (triggers: " + joined(triggers) + ")");
 }
 
-/// A FEM can be asked about by itself.
+/// A study may contain the FEM alone.
 bool asks_for_runouts(const Run& run) {
     const bool waits = run.study.is_object() && !run.study.value("triggers", json::array()).empty();
     return waits || phase_named(run, phases::mpm.program);
@@ -127,8 +127,8 @@ std::string counted(std::size_t count, std::size_t all) {
     return " (" + std::to_string(count) + " of " + std::to_string(all) + ")";
 }
 
-/// "3 to 12.5 (8 of 9)": least and largest of a fact over the phases that have it. Of one that grows
-/// the largest is a lower bound while any soil moves: it may yet be another's.
+/// "3 to 12.5 (8 of 9)": least and largest value over the phases that have it. grows: the largest
+/// is a lower bound while any soil moves, because another runout may exceed it.
 std::string range_of(const std::vector<const PhaseFolder*>& phases, const std::string& pointer,
                      bool grows) {
     const PhaseFolder *least = nullptr, *largest = nullptr;
@@ -159,7 +159,7 @@ std::string brief_fact(const PhaseFolder& phase, const std::string& pointer) {
     return rounded(phase.result.at(at).get<double>(), digits);
 }
 
-/// How far the number is to be believed: what is known of its error, and its result's cautions.
+/// Error of the number, if known, and cautions about its result.
 std::string worth_of(const PhaseFolder& mpm) {
     std::string text =
         mpm.runout_error
@@ -176,7 +176,7 @@ std::string rest_of(const PhaseFolder& mpm) {
     return rests.get<bool>() ? "yes, after" + end : "no: cut off at" + end;
 }
 
-/// Of draws: the largest of the means.
+/// With repeats: the largest of the means.
 void add_mean(const Run& run, Table& table) {
     const json* largest = nullptr;
     for (const json& each : run.means)
@@ -198,7 +198,7 @@ void add_mean(const Run& run, Table& table) {
              (caution.empty() ? "" : "; not whole or questionable: " + caution)});
 }
 
-/// When the flow of the governing runout came to each gauge, how deep and how fast.
+/// Arrival, depth and velocity of the governing runout at each gauge.
 Table gauges_of(const Run& run) {
     const PhaseFolder* shown = farthest_runout(run);
     if (!shown) return {};
@@ -261,7 +261,7 @@ void add_runouts(const Run& run, Table& table) {
                     "\u2265: a lower bound, the soil still moved.";
 }
 
-/// The factor of safety of an analysis' last stage; nothing: it has none.
+/// The factor of safety of an analysis' last stage; nothing: no stages.
 std::optional<double> liquefied_factor(const PhaseFolder& lem) {
     if (!lem.result.is_object()) return {};
     const json stages = lem.result.value("stages", json::array());
@@ -289,8 +289,8 @@ std::optional<std::vector<std::string>> liquefied_row(const std::vector<const Ph
         rounded(least, digits) + largest + counted(factors.size(), all.size()), remark};
 }
 
-/// Of the variant that runs farthest, or the analysis that serves all; without a runout the one with
-/// the least factor.
+/// The analysis of the variant that runs farthest, or the one shared by all; without a runout the
+/// one with the least factor.
 const PhaseFolder* governing_stability(const Run& run, const std::vector<const PhaseFolder*>& all) {
     if (const PhaseFolder* farthest = farthest_runout(run))
         for (const std::string& variant : {farthest->variant, std::string()})
@@ -335,7 +335,7 @@ void add_factors(const Run& run, Table& table) {
                           "lowest point of the stage with the least factor of safety"});
 }
 
-/// Of many, as of samples that change the FEM, together.
+/// Summarises many FEMs in one row, as in samples that change the FEM.
 void add_fems(const Run& run, Table& table) {
     constexpr std::size_t most_fems = 6;
     const auto fems = phases_named(run, phases::fem.program);
@@ -367,7 +367,7 @@ void add_fems(const Run& run, Table& table) {
 
 // ---------------------------------------------------------------- limits
 
-/// What the runouts leave out of what went on around them; variants may differ in it.
+/// Changes after the transfer that the runouts leave out; variants may differ.
 std::string limit_at_transfer(const Run& run) {
     const std::string nothing = "Nothing liquefies after the transfer";
     if (!is_shaken(run)) return nothing + ".";
@@ -432,7 +432,7 @@ std::string identity_of(const Run& run) {
     return text + ".";
 }
 
-/// " (t_T = 13 s, soft)"; empty where there is only one.
+/// " (t_T = 13 s, soft)"; empty without variants and transfer times.
 std::string named(const PhaseFolder& phase) {
     const bool one = phase.variant.empty() && !phase.transfer_time;
     return one ? "" : " (" + of_transfer(phase) + ")";

@@ -1,4 +1,4 @@
-// Variants that run out over different ground, side by side on one scale.
+// Variants that run out over different ground, side by side at one scale.
 #include <algorithm>
 #include <array>
 
@@ -18,7 +18,7 @@ const json* terrain_of(const PhaseFolder& mpm) {
     return settings.contains("terrain") ? &settings.at("terrain") : nullptr;
 }
 
-/// The longest runout of all variants on each ground; in the order of the grounds' first variants.
+/// The longest runout on each ground, in the order of the grounds' first variants.
 std::vector<const PhaseFolder*> one_per_ground(const Run& run) {
     std::vector<const PhaseFolder*> found;
     for (const std::string& variant : variants_of(run)) {
@@ -38,7 +38,7 @@ std::vector<const PhaseFolder*> one_per_ground(const Run& run) {
     return found;
 }
 
-/// The ground from one x to another; a floor without terrain is level.
+/// The ground between two x; without terrain the level floor.
 Series ground_of(const PhaseFolder& mpm, const Range& shown) {
     Series s{"ground, " + mpm.variant, {}, {}};
     const json* terrain = terrain_of(mpm);
@@ -65,7 +65,7 @@ Series ground_of(const PhaseFolder& mpm, const Range& shown) {
     return s;
 }
 
-/// From the grid's left end to a little beyond the farthest point of all.
+/// From the grid's left end to slightly beyond the farthest point of all runouts.
 Range shown_by(const std::vector<const PhaseFolder*>& runouts) {
     constexpr double margin = 1.15;  // of the farthest point's distance from the toe
     const json& mpm = runouts.front()->scene.at("mpm");
@@ -78,7 +78,7 @@ Range shown_by(const std::vector<const PhaseFolder*>& runouts) {
     return range;
 }
 
-/// What a row of the table is, and where it stands in a result.
+/// A row of the table, and its place in a result.
 struct Row {
     std::string what;
     std::string pointer;

@@ -1,5 +1,5 @@
-// What went in: the section, its soils and its water in the field's words; and the annex, where every
-// entry that the run's phases read stands in one of the tables, with what nobody set marked as such.
+// The inputs: the section, its soils and its water; and the annex with every entry that the run's
+// phases read, defaults marked.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ constexpr const char* default_mark = " *";
 constexpr const char* about_marks =
     "* stands at the program's own value: it was left out, or written as what the program takes "
     "then.";
-constexpr std::size_t materials_abreast = 5;  // columns that a standing page has room for
+constexpr std::size_t materials_abreast = 5;  // limit of a portrait page
 
 /// Entries below any of these pointers.
 struct Group {
@@ -28,7 +28,7 @@ struct Group {
     std::vector<const char*> below;
 };
 
-/// The first that fits takes the entry; the last ones take what is left of a phase.
+/// An entry goes to the first group that matches; the last groups take the rest of a phase.
 const std::vector<Group>& groups() {
     static const std::vector<Group> all{
         {"water",
@@ -84,7 +84,7 @@ std::vector<Table> tables_of(const std::vector<SceneEntry>& entries) {
     return tables;
 }
 
-/// Of the polygon's corners, by the shoelace formula [m2].
+/// Area of a polygon by the shoelace formula [m2].
 double area_of(const json& polygon) {
     double twice = 0.0;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -136,7 +136,7 @@ std::vector<std::string> pointers_set(const json& overrides) {
     return pointers;
 }
 
-/// The transfer's part is completed in every scene, also where nothing is transferred.
+/// Without the transfer's entries where nothing is transferred: every completed scene has them.
 std::vector<SceneEntry> entries_read(const Run& run, const json& scene) {
     const json overrides =
         run.study.is_object() ? run.study.value("overrides", json::array()) : json::array();
@@ -147,7 +147,7 @@ std::vector<SceneEntry> entries_read(const Run& run, const json& scene) {
     return entries;
 }
 
-/// Some materials side by side, one row per entry that one of them has.
+/// Materials side by side, one row per entry that one of them has.
 Table materials_abreast_of(const std::vector<std::string>& names,
                            const std::vector<SceneEntry>& entries, std::size_t number) {
     Table table{"materials" + (number > 0 ? "_" + std::to_string(number + 1) : ""),
@@ -188,8 +188,8 @@ std::vector<Table> materials_of(const json& scene, const std::vector<SceneEntry>
     return tables;
 }
 
-/// The section that the study asks about. It was computed: a file that is not there any more, such as
-/// a motion on another machine, is only not drawn.
+/// The study's section. Its faults are ignored: it was computed, and a missing file (a motion on
+/// another machine) is only not drawn.
 std::string drawing_of(const Run& run) {
     BaseScene base{run.scene, {}, ""};
     check::Checked checked = check::checked_document(base.scene, "scene", run.folder, {});
@@ -198,7 +198,7 @@ std::string drawing_of(const Run& run) {
     return can_be_drawn(draft) ? as_svg(draft, {}) : "";
 }
 
-/// "drained c' = 5 kPa, phi' = 30 deg", "s_u = 0.22 sigma'_v0"; "-" where a law has no such entries.
+/// "drained c' = 5 kPa, phi' = 30 deg", "s_u = 0.22 sigma'_v0"; "-": the law has no strength.
 std::string strength_in_words(const json& strength) {
     const auto number = [&](const char* key) { return rounded(strength.value(key, 0.0), 3); };
     const std::string type = strength.value("type", "");
@@ -238,7 +238,7 @@ std::string residual_of(const json& material) {
                               {"phi_deg", phi}});
 }
 
-/// One row per soil that a region has or the transfer makes.
+/// One row per soil of a region or of the transfer.
 Table soils_of(const json& scene) {
     Table table{
         "soils",

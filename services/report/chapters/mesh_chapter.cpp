@@ -14,7 +14,7 @@ using exchange::MeshSnapshot;
 
 namespace {
 
-/// The snapshots nearest to the wanted times; without any, four evenly over the run with its end.
+/// The snapshots nearest to the requested times; without any, four over the run with its end.
 std::vector<TimedFile> chosen(const std::vector<TimedFile>& all, const std::vector<double>& times) {
     std::vector<TimedFile> picked;
     const auto take = [&](const TimedFile& each) {

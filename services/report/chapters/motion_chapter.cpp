@@ -1,4 +1,4 @@
-// The motion as the FEM took it: acceleration, velocity, Arias intensity.
+// The motion applied by the FEM: acceleration, velocity, Arias intensity.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -23,8 +23,8 @@ struct Found {
     enum class As { applied, recorded } as;
 };
 
-/// What the FEM kept; of an older run what the reader gives, or what lies beside the run's files
-/// where the scene says.
+/// The FEM's copy; without it the reader's file, or the file beside the run's files that the scene
+/// names.
 std::optional<Found> motion_file(const Material& from, const PhaseFolder& fem,
                                  const std::string& named) {
     const std::filesystem::path kept = fem.files / phases::files::motion;
@@ -37,7 +37,7 @@ std::optional<Found> motion_file(const Material& from, const PhaseFolder& fem,
     return {};
 }
 
-/// Acceleration as the scene scales it; a recorded velocity is not differentiated.
+/// Acceleration, scaled as in the scene; nothing for a recorded velocity.
 std::optional<motion::Series> acceleration_of(const motion::Recording& recording, Found::As as,
                                               const json& wanted) {
     if (recording.quantity != motion::Quantity::acceleration) return {};
@@ -71,8 +71,7 @@ motion::Series arias_course(const motion::Series& a) {
     return motion::integral(squares);
 }
 
-/// When the FEM ended [s], if the record goes on then; of an analysis without a result, where its
-/// telemetry ends.
+/// The FEM's end [s] if the record is longer; without a result the end of its telemetry.
 std::optional<double> end_within(const motion::Series& record, const PhaseFolder& fem) {
     std::optional<double> end;
     if (fem.result.is_object() && fem.result.value("end_time", json()).is_number()) {
@@ -85,7 +84,7 @@ std::optional<double> end_within(const motion::Series& record, const PhaseFolder
     return end && *end < (last - 0.5) * record.dt ? end : std::nullopt;
 }
 
-/// What of the record came before the FEM's end.
+/// Share of the record before the FEM's end.
 std::string felt_of(const motion::Series& a, double end) {
     motion::Series felt = a;
     felt.values.resize(static_cast<std::size_t>(end / a.dt + 1e-9) + 1);
@@ -114,7 +113,7 @@ std::vector<Figure> figures_of(const motion::Series& a) {
                       1.0)};
 }
 
-/// What was measured where, as the FEM's result has it.
+/// Intensity measures from the FEM's result, by place.
 Table measures_table(const json& motions) {
     Table table{"motions", "What the motion is measured by", {""}, {}};
     table.caption =

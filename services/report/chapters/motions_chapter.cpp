@@ -1,4 +1,4 @@
-// What a study of several motions says.
+// The chapter of a study of several motions.
 #include <cmath>
 
 #include "core/statistics/quantiles.hpp"
@@ -78,7 +78,7 @@ Figure runout_against_depth(const json& found) {
     return {"runout_against_liquefied_depth", std::move(chart), "One point per motion."};
 }
 
-/// Of the measure that goes best with the liquefied depth; nothing where it has no curve.
+/// For the measure that correlates best with the liquefied depth; nothing: it has no curve.
 std::optional<Figure> fragility_figure(const json& found) {
     for (const json& each : found.at("measures")) {
         const json& curve = each.at("fragility");

@@ -1,4 +1,4 @@
-// Every number of the run with its settings, what is known of its error, and what it cost.
+// All numbers of the run with their settings, errors and costs.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +12,8 @@ using nlohmann::json;
 
 namespace {
 
-/// Of a task of a service what the study gives its variant, or the first of those that it serves: its
-/// result may be that of another run's task, which says what that one was given. Null: not known.
+/// A task's overrides according to the study, for its variant or the first variant it serves. Its
+/// result may come from another run's task with that task's overrides. Null: unknown.
 json asked_overrides(const Run& run, const PhaseFolder& phase) {
     if (phase.task.empty() || !run.study.is_object()) return {};
     const json variants = run.study.value("variants", json::array());
@@ -24,7 +24,7 @@ json asked_overrides(const Run& run, const PhaseFolder& phase) {
     return {};
 }
 
-/// The overrides that the phase was given, without those that only say when to write.
+/// The phase's overrides, without those that only set output times.
 std::string settings_of(const Run& run, const PhaseFolder& phase) {
     if (!phase.result.is_object()) return "not known: no result.json";
     json overrides = asked_overrides(run, phase);
@@ -42,7 +42,7 @@ std::string settings_of(const Run& run, const PhaseFolder& phase) {
     return text.empty() ? "as in the scene" : text;
 }
 
-/// A column of a table: its head, where the number is in result.json, and its unit in SI.
+/// A column of a table: its heading, the number's place in result.json, its unit in SI.
 struct Column {
     std::string head;
     std::string pointer;
@@ -70,8 +70,8 @@ Table table_of(const Run& run, const std::string& phase, const std::string& titl
     return table;
 }
 
-/// How far each runout is off, as far as an accuracy study, the run's own draws or neighbours in
-/// transfer time tell it.
+/// Errors of the runouts as known from an accuracy study, the run's repeats, or neighbouring
+/// transfer times.
 Table errors_of(const Run& run) {
     Table table{"numbers_runout_error",
                 "How far the runouts are off",
@@ -92,7 +92,7 @@ Table errors_of(const Run& run) {
     return table;
 }
 
-/// "12.5 +- 0.3", marked where soil of a draw still moved; "-" for what is not known.
+/// "12.5 +- 0.3", marked where soil of a repeat still moved; "-": unknown.
 std::string with_scatter(const Run& run, const json& mean, const std::string& measure) {
     const json value = mean.value(measure, json());
     if (!value.is_number()) return "-";
@@ -101,7 +101,7 @@ std::string with_scatter(const Run& run, const json& mean, const std::string& me
            (deviation.is_number() ? " +- " + rounded(deviation.get<double>(), 2) : "");
 }
 
-/// Mean and scatter of every runout of a study with draws.
+/// Mean and scatter of every runout of a study with repeats.
 Table means_of(const Run& run) {
     Table table{"numbers_means",
                 "Means over the repeats",
@@ -134,7 +134,7 @@ Table means_of(const Run& run) {
     return table;
 }
 
-/// Relative differences of the transfers' ledgers over the whole section: one row per transfer, one
+/// Relative differences in the transfers' ledgers over the whole section: one row per transfer, one
 /// column per quantity.
 Table ledger(const Run& run) {
     Table table{"numbers_transfer_ledger",
@@ -172,7 +172,7 @@ std::string fact(const json& result, const std::string& pointer, double unit) {
     return value.is_number() ? rounded(value.get<double>() / unit, 6) : value.dump();
 }
 
-/// What the paper knows of this table, where the run has what it speaks of.
+/// The paper's notes on this table that apply to the run.
 std::string note_of(const Material& from, const std::string& table, const PhaseFolder& phase) {
     std::string text;
     for (const PaperNote& each : from.paper ? from.paper->notes : std::vector<PaperNote>{}) {

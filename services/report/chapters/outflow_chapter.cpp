@@ -1,4 +1,4 @@
-// What leaves the model: the envelope along x and the hydrographs at sections.
+// Flow past sections: the envelope along x and hydrographs.
 #include <cmath>
 
 #include "core/phases/files.hpp"
@@ -18,7 +18,7 @@ Mark toe_of(const PhaseFolder& mpm) {
     return {Mark::At::x, mpm.scene.at("mpm").at("runout").at("toe").at(0), "toe"};
 }
 
-/// Without the places where there is no value.
+/// Leaves out places without a value.
 Series along(const outflow::Envelope& envelope, const std::vector<double>& values,
              const std::string& name) {
     Series series{name, {}, {}};
@@ -30,7 +30,7 @@ Series along(const outflow::Envelope& envelope, const std::vector<double>& value
     return series;
 }
 
-/// Three figures: depths, velocity, times. Nothing of a runout of an earlier version.
+/// Three figures: depths, velocity, times; nothing without an envelope.
 void add_envelope(const PhaseFolder& mpm, Chapter& chapter) {
     const auto file = mpm.files / phases::files::envelope;
     if (!std::filesystem::is_regular_file(file)) return;
@@ -78,7 +78,7 @@ void add_hydrograph(const PhaseFolder& mpm, Chapter& chapter) {
     if (!figure.chart.series.empty()) chapter.figures.push_back(std::move(figure));
 }
 
-/// What passed each section, of every runout.
+/// Flow past each section, for every runout.
 Table section_table(const Run& run) {
     Table table{
         "sections",
@@ -113,7 +113,7 @@ Table section_table(const Run& run) {
 
 void add_outflow(const Material& from, Document& document) {
     const auto runouts = chosen_runouts(from);
-    if (runouts.empty()) return;  // the flow's chapter says so
+    if (runouts.empty()) return;  // the flow chapter reports it
     Chapter chapter{"What leaves the model"};
     for (const PhaseFolder* each : runouts) add_envelope(*each, chapter);
     if (chapter.figures.empty())

@@ -17,12 +17,12 @@ using namespace nlohmann::literals;
 
 namespace {
 
-/// Columns 0 and 3 of profile.csv, x and the surface [m]; without points: there is no such file.
+/// Columns 0 and 3 of profile.csv, x and the surface [m]; without points: no such file.
 Series surface_of(const PhaseFolder& mpm) {
     Series s{"after, " + of_transfer(mpm) + (still_moves(mpm) ? " (still moving)" : ""), {}, {}};
     std::ifstream table(mpm.files / "profile.csv");
     std::string line;
-    std::getline(table, line);  // heads
+    std::getline(table, line);  // headings
     while (std::getline(table, line)) {
         std::istringstream cells(line);
         std::vector<double> values;
@@ -38,7 +38,7 @@ Series surface_of(const PhaseFolder& mpm) {
     return s;
 }
 
-/// Of the phase that has one; without points: none has.
+/// From the first phase that has one; without points: none.
 Series phreatic_line(const json& scene) {
     for (const char* each : {"/fem/water/line", "/lem/water/line", "/transfer/phreatic_line"})
         if (const json line = scene.value(json::json_pointer(each), json()); line.is_array())

@@ -45,7 +45,7 @@ double number_in(const json& row, const char* key) {
     return value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Mean and scatter of the draws, one curve per variant.
+/// Mean and scatter of the repeats, one curve per variant.
 std::vector<Series> curves_of_means(const Run& run) {
     std::vector<Series> curves;
     for (const json& mean : run.means) {
@@ -66,7 +66,7 @@ std::vector<Series> curves_of_means(const Run& run) {
     return curves;
 }
 
-/// One curve per variant, with what each of its runouts is worth.
+/// One curve per variant, with the certainty of each runout.
 std::vector<Series> curves_of_runs(const Run& run) {
     std::vector<Series> curves;
     for (const std::string& variant : variants_of(run)) {
@@ -110,8 +110,8 @@ Figure runout_against_time(const Material& from) {
     return figure;
 }
 
-/// Before and after, from the snapshot of the run's FEM at the transfer time; without that snapshot
-/// nothing is added, and why is noted.
+/// Before and after the transfer, from the snapshot of the run's FEM; without the snapshot notes
+/// why it is left out.
 void add_before_and_after(const Material& from, const PhaseFolder& transfer,
                           const exchange::ParticleState& points, Chapter& chapter,
                           Document& document) {
@@ -136,7 +136,7 @@ void add_before_and_after(const Material& from, const PhaseFolder& transfer,
                                  "the run has no snapshot at " + of_transfer(transfer)});
 }
 
-/// Those of the variant that runs farthest; of a static scene, where each variant has one, all.
+/// Runouts of the variant that runs farthest; for a static scene, with one runout per variant, all.
 std::vector<const PhaseFolder*> runouts_shown(const Run& run) {
     if (is_static(run)) {
         std::vector<const PhaseFolder*> all;

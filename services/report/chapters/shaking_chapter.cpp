@@ -1,4 +1,4 @@
-// What the FEM measured against time, with the thresholds of the transfer window.
+// The FEM's measurements against time, with the thresholds of the transfer window.
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
@@ -18,7 +18,7 @@ struct Curve {
     std::string name;
 };
 
-/// One figure of telemetry. Fields that no line has are left out of it.
+/// One figure of telemetry, without fields that no line has.
 struct Plan {
     const char* file;
     const char* title;
@@ -27,17 +27,16 @@ struct Plan {
     std::vector<Curve> curves;
     std::vector<Mark> marks;
     std::string caption;
-    const char* missing;     ///< why there may be none
-    const char* needs = "";  ///< what the scene must have, or its values mean nothing (pointer)
+    const char* missing;     ///< why it may be missing
+    const char* needs = "";  ///< entry that gives the values a meaning (pointer)
 };
 
-/// The share of the vertical stress above which this scene calls a node liquefied.
 std::string threshold_of(const json& fem) {
     const json r_u = fem.value("/liquefaction/r_u"_json_pointer, json());
     return r_u.is_number() ? short_number(r_u) : "the threshold";
 }
 
-/// Where the scene looks for liquefaction.
+/// The place where the scene looks for liquefaction.
 std::string liquefaction_caption(const json& fem) {
     const json asked = fem.value("liquefaction", json::object());
     std::string text = "Depth of the deepest liquefied node";
@@ -128,7 +127,7 @@ std::vector<Plan> plans(const json& fem) {
     };
 }
 
-/// What the run's triggers and the scene's window compare these fields with.
+/// Numbers with which the run's triggers and the scene's window compare these fields.
 std::vector<Mark> thresholds_of(const Run& run, const Plan& plan) {
     std::vector<Mark> marks;
     for (const Threshold& each : thresholds_in(run)) {
@@ -143,13 +142,13 @@ std::vector<Mark> thresholds_of(const Run& run, const Plan& plan) {
     return marks;
 }
 
-/// How the FEM ended, where that is worth a sentence.
+/// The FEM's end in a sentence, unless it was regular.
 std::string end_of(const PhaseFolder& fem) {
     if (!fem.fault.empty()) return "The FEM ended early: " + fem.fault;
     return entanglement_of(fem);
 }
 
-/// What happens when, and when in the paper; nothing where nothing is known.
+/// Times of events, in the run and in the paper; nothing: none is known.
 std::optional<Figure> timeline_of(const Material& from) {
     std::vector<PaperValue> events;
     for (const auto& [title, key] : {std::pair{"window of transfer times opens", "window_lower"},

@@ -1,4 +1,4 @@
-// What each of a study's variants changes, and what that does: one row per variant.
+// The changes of each variant of a study, and their effect: one row per variant.
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
@@ -14,11 +14,11 @@ namespace {
 
 const std::string materials = "/materials/";
 
-/// One entry of the scene and the values that it gets. The same entry of several materials is one
-/// change, and reads as such.
+/// One entry of the scene and its new values. The same entry of several materials counts as one
+/// change.
 struct Change {
-    std::string entry;                ///< of a material: what follows its name
-    std::vector<std::string> names;   ///< of the materials; empty: no material's
+    std::string entry;                ///< for a material: the part after its name
+    std::vector<std::string> names;   ///< of the materials; empty: not a material's entry
     std::vector<std::string> values;  ///< one per material
 };
 
@@ -54,7 +54,7 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
-/// "/materials/{a, b}/viscosity=0", "/materials/{a, b}/law/c_kPa=1, 2"; of one alone its pointer.
+/// "/materials/{a, b}/viscosity=0", "/materials/{a, b}/law/c_kPa=1, 2"; one: its pointer.
 std::string text_of(const Change& change) {
     const auto& [entry, names, values] = change;
     if (names.empty()) return entry + "=" + values.front();
@@ -84,7 +84,7 @@ bool is_bound(const std::optional<Plateau>& plateau) {
     return plateau && any_moves(plateau->runouts);
 }
 
-/// Median of a fact over the plateau's runouts.
+/// Median of an entry over the plateau's runouts.
 std::optional<double> median_of(const std::optional<Plateau>& plateau, const char* key) {
     std::vector<double> values;
     for (const PhaseFolder* each : plateau ? plateau->runouts : std::vector<const PhaseFolder*>{}) {
@@ -96,7 +96,7 @@ std::optional<double> median_of(const std::optional<Plateau>& plateau, const cha
 
 struct Count {
     std::vector<const PhaseFolder*> runouts =
-        {};  ///< those of the variant, running, failed or ended
+        {};  ///< runouts of the variant, running, failed or ended
     std::size_t ended = 0;
     double cpu_seconds = 0.0;
 };
@@ -113,7 +113,7 @@ Count counts_of_variant(const Run& run, const std::string& variant) {
     return count;
 }
 
-/// Names as the study lists them; a variant whose transfer never came has no runout but a row.
+/// Names in the study's order; includes variants without a transfer.
 std::vector<std::string> listed_variants(const Run& run) {
     std::vector<std::string> names;
     if (!run.study.is_object()) return names;
@@ -159,7 +159,6 @@ std::vector<std::string> row_of(const Run& run, const std::string& variant,
 
 // ---------------------------------------------------------------- static scenes
 
-/// The phase's own result for a variant; null when it has none.
 const PhaseFolder* own_result(const Run& run, const std::string& phase,
                               const std::string& variant) {
     for (const PhaseFolder* each : phases_named(run, phase))
@@ -177,7 +176,7 @@ std::string fate_of(const Run& run, const std::string& variant) {
     return text;
 }
 
-/// One row per variant: no transfer time, no window, no FEM.
+/// One row per variant, without transfer time, window and FEM.
 Table static_table(const Run& run, const std::vector<std::string>& variants) {
     const bool flows = phase_named(run, phases::mpm.program);
     const bool judged = phase_named(run, phases::lem.program);
@@ -225,7 +224,7 @@ Table static_table(const Run& run, const std::vector<std::string>& variants) {
     return table;
 }
 
-/// The one entry that every variant sets to a number of its own.
+/// The one entry that every variant sets to a different number.
 struct Parameter {
     std::string entry;
     std::vector<double> values;  ///< of the variants, in their order
@@ -247,7 +246,7 @@ std::optional<Parameter> one_parameter(const Run& run) {
     return found;
 }
 
-/// A number of each variant's result against the parameter that they change.
+/// A number of each variant's result against the changed parameter.
 Figure against_parameter(const Run& run, const std::vector<std::string>& variants,
                          const Parameter& parameter, const phases::Phase& phase, const char* key,
                          const std::string& name, const std::string& title,
@@ -289,8 +288,7 @@ Chapter static_chapter(const Run& run, const std::vector<std::string>& variants)
 
 void add_variants(const Material& from, Document& document) {
     const std::vector<std::string> variants = listed_variants(from.run);
-    if (variants.size() < 2 || has_samples(from.run))
-        return;  // samples have a chapter of their own
+    if (variants.size() < 2 || has_samples(from.run)) return;  // samples have their own chapter
     if (is_static(from.run)) {
         document.chapters.push_back(static_chapter(from.run, variants));
         return;

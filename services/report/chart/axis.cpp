@@ -12,10 +12,10 @@ std::vector<double> linear_ticks(const Range& range, double wanted) {
     const double share = rough / power;
     const double step = power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
     std::vector<double> ticks;
-    const double slack = 1e-9;  // of a step: rounding must not lose the last tick
+    const double slack = 1e-9;  // of a step: keeps the last tick despite round-off
     const double first = std::ceil(range.low / step - slack);
     const double more = std::floor(range.high / step + slack) - first;
-    if (!(more < 1e3)) return ticks;  // a range that is lost in the rounding of its ends
+    if (!(more < 1e3)) return ticks;  // no ticks in a range within round-off
     for (int k = 0; k <= more; ++k) ticks.push_back((first + k) * step + 0.0);
     return ticks;
 }

@@ -9,15 +9,15 @@
 
 namespace breach::report {
 
-/// segments: points 0-1, 2-3, ... are joined (meshes); dots: one small dot per point (clouds); bars:
-/// as segments, broad.
+/// segments: joins the points 0-1, 2-3, ... (meshes); dots: one small dot per point (clouds); bars:
+/// broad segments.
 enum class Style { line, points, line_and_points, area, segments, dots, bars };
 enum class Aspect { free, equal };  ///< equal: a unit of x is as long as a unit of y
 
 struct Axis {
     std::string label;  ///< with its unit: "shear strain [%]"
     Scale scale = Scale::linear;
-    std::vector<std::string> names = {};  ///< of 0, 1, 2, ... instead of numbers; of y alone
+    std::vector<std::string> names = {};  ///< of the values 0, 1, 2, ...; for y only
 };
 
 /// Certainty of a point's value. at_least: a lower bound, drawn with an arrow upwards.
@@ -31,12 +31,12 @@ struct Series {
     std::vector<double> y;
     Style style = Style::line;
     std::vector<Certainty> certainty = {};  ///< of each point; empty: all are certain
-    /// Error bar of y, to either side, of each point; NaN: not known; empty: of none
+    /// Error bar of each point, up and down in y; NaN: unknown; empty: no error bars
     std::vector<double> error = {};
-    /// Or range of y, of each point; NaN: not known; empty: of none
+    /// Range in y of each point; NaN: unknown; empty: no ranges
     std::vector<double> low = {}, high = {};
-    /// Number of an earlier series with the same colour: for computed beside measured values. It has
-    /// no entry of its own in the legend.
+    /// Index of an earlier series with the same colour, for computed beside measured values. Such a
+    /// series has no entry in the legend.
     std::optional<std::size_t> like = {};
 };
 
@@ -47,7 +47,7 @@ struct Field {
     std::vector<double> x;      ///< [n * corners], corner after corner
     std::vector<double> y;      ///< [n * corners]
     std::vector<double> value;  ///< [n]
-    Range range;  ///< of the colours; values beyond it have the colour of the nearer end
+    Range range;  ///< of the colours; values outside have the colour of the nearer end
 };
 
 /// A line across the chart at one value.

@@ -1,5 +1,4 @@
-// The content of a report before it is written: chapters of figures and tables, and what is left
-// out.
+// The content of a report before it is written: chapters of figures and tables, and omissions.
 #pragma once
 
 #include <string>
@@ -23,7 +22,7 @@ struct Chapter {
     std::vector<Figure> figures = {};
     std::vector<Table> tables = {};
     std::string drawing = {};  ///< SVG above everything else, not numbered; empty: none
-    std::vector<std::string> cautions = {};  ///< to be read first, below the text
+    std::vector<std::string> cautions = {};  ///< shown first, below the text
     bool opens_page = false;                 ///< starts a new page in print
 };
 
@@ -33,18 +32,18 @@ struct LeftOut {
     std::string why;
 };
 
-/// What to know before relying on the numbers, in sentences.
+/// Cautions to read before the numbers, in sentences.
 struct Verdict {
-    std::string word = {};                   ///< "questionable"; empty: the sentences say it all
-    bool usable = true;                      ///< false: no number of it can be used
+    std::string word = {};                   ///< "questionable"; empty: only the sentences
+    bool usable = true;                      ///< false: no number is usable
     std::vector<std::string> cautions = {};  ///< a number is a bound, is wrong or cannot be trusted
-    std::vector<std::string> notes = {};     ///< all others, or that there are none
+    std::vector<std::string> notes = {};     ///< other remarks, or that there are none
 };
 
 /// The first page, for signature: the question, the result, and its limits.
 struct Front {
-    std::string of = {};  ///< which run of which scene by which version
-    std::vector<std::pair<std::string, std::string>> people = {};  ///< "client" and who that is
+    std::string of = {};  ///< "run ... of scene ... by version ..."
+    std::vector<std::pair<std::string, std::string>> people = {};  ///< "client" and the name
     std::string headline = {};               ///< the run's result in one sentence
     std::vector<Figure> pictures = {};       ///< the section before and after
     std::vector<std::string> asked = {};     ///< in sentences
@@ -56,7 +55,7 @@ struct Front {
 
 struct Document {
     std::string title;
-    std::vector<std::string> remarks;  ///< to be read first, beside the limits
+    std::vector<std::string> remarks;  ///< shown first, beside the limits
     std::vector<Chapter> chapters;
     std::vector<LeftOut> left_out;
     Verdict verdict = {};  ///< above the remarks; empty: not shown

@@ -17,7 +17,7 @@ constexpr double left = 80, top = 50, bottom = 65, row = 22;
 constexpr double free_width = 560, free_height = 360;
 constexpr double bar_height = 34;
 constexpr double equal_width = 860, least_equal_height = 150;
-// colours that stay apart for colour-blind eyes (Okabe and Ito, then Tol)
+// distinguishable with colour blindness (Okabe and Ito, then Tol)
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
                                 "#117733", "#000000", "#882255", "#999933", "#332288", "#aa4499"};
 constexpr std::array earths = {"#b08d57", "#d9c9a5", "#8c8c7a", "#c2b280", "#a3a380"};
@@ -105,7 +105,7 @@ void draw_line(std::ostream& svg, const Frame& f, const Series& s, const std::st
     }
 }
 
-/// Meshes and clouds, which have many places.
+/// Meshes and clouds, with many points.
 void draw_many(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     const bool dots = s.style == Style::dots;
     svg << "<path transform=\"scale(.1)\" fill=\"none\" stroke=\"" << colour
@@ -124,8 +124,8 @@ void draw_many(std::ostream& svg, const Frame& f, const Series& s, const std::st
     svg << "\"/>\n";
 }
 
-/// Filled when its value can be taken as it is; hollow with an arrow upwards when it is a lower
-/// bound, hollow and dashed when it is questionable, pale when nothing is known.
+/// Filled: reliable; hollow with an arrow upwards: lower bound; hollow and dashed: questionable;
+/// pale: certainty unknown.
 void draw_point(std::ostream& svg, double x, double y, const std::string& colour,
                 Certainty certainty) {
     svg << "<circle cx=\"" << x << "\" cy=\"" << y << "\" r=\"4\" ";
@@ -145,7 +145,7 @@ void draw_point(std::ostream& svg, double x, double y, const std::string& colour
     }
 }
 
-/// Between the ends of the band, where neighbours both have them.
+/// Fills between the ends of the band, where neighbouring points both have them.
 void draw_band(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     const auto known = [&](std::size_t i) { return !std::isnan(s.low[i]); };
     for (std::size_t from = 0; from < s.low.size(); ++from) {
@@ -169,7 +169,7 @@ void draw_bars(std::ostream& svg, const Frame& f, const Series& s, const std::st
             << "\" stroke-width=\"18\" stroke-opacity=\"0.75\"/>\n";
 }
 
-/// A whisker at each point whose error is known, and a band between neighbours that both have one.
+/// A whisker at each point with a known error, and a band between neighbours that both have one.
 void draw_errors(std::ostream& svg, const Frame& f, const Series& s, const std::string& colour) {
     const auto end = [&](std::size_t i, double side) {
         std::ostringstream place;
@@ -202,7 +202,7 @@ void draw_series(std::ostream& svg, const Frame& f, const Series& s, const std::
     }
 }
 
-/// Labels of upright marks stand on lines of their own, on the side where there is room.
+/// Draws the labels of vertical marks on separate lines, on the side with more room.
 void draw_marks(std::ostream& svg, const Frame& f) {
     int upright_ones = 0;
     for (const Mark& mark : f.chart.marks) {
@@ -218,8 +218,8 @@ void draw_marks(std::ostream& svg, const Frame& f) {
     }
 }
 
-/// Areas have earth colours of their own, so that a line never looks like the ground it crosses,
-/// and meshes are grey.
+/// Areas have earth colours, so that a line never looks like the ground that it crosses; meshes are
+/// grey.
 std::vector<std::string> colours_of(const Chart& chart) {
     std::vector<std::string> result;
     std::size_t areas = 0, others = 0;
@@ -236,13 +236,13 @@ std::vector<std::string> colours_of(const Chart& chart) {
     return result;
 }
 
-/// Names in columns: beside a free chart in one, below one of equal aspect in as many as fit.
+/// Names in columns: one column beside a free chart, as many as fit below a chart of equal aspect.
 struct Legend {
     double x, y, column_width;
     std::size_t columns, rows;
 };
 
-/// One line of the legend: a series, or what points that are less than certain look like.
+/// A line of the legend: a series, or the look of uncertain points.
 struct Entry {
     std::string name;
     std::string colour;
@@ -291,7 +291,7 @@ void draw_legend(std::ostream& svg, const Legend& legend, const std::vector<Entr
     }
 }
 
-/// Equal aspect keeps its promise as long as the picture is high enough to see something.
+/// Keeps equal aspect unless the picture becomes too low.
 Frame frame_of(const Chart& chart, std::string& y_label) {
     Frame f{chart,
             range_of(chart, Mark::At::x),

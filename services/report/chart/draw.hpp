@@ -7,10 +7,10 @@
 
 namespace breach::report {
 
-/// Axes cover all series, marks and the field. Values are finite, and positive on a logarithmic
-/// axis; columns of a series are equally long, of segments even; throws std::invalid_argument
-/// otherwise, or when there is nothing to draw. A flat chart of equal aspect is drawn with heights
-/// exaggerated by a whole number, which its y axis states.
+/// Axes cover all series, marks and the field. Throws std::invalid_argument for non-finite values,
+/// values <= 0 on a logarithmic axis, columns of unequal length, an odd number of points of
+/// segments, or an empty chart. A flat chart of equal aspect has its heights exaggerated by a whole
+/// number, which the y axis states.
 std::string as_svg(const Chart& chart);
 
 }  // namespace breach::report

@@ -10,7 +10,7 @@ namespace breach::report {
 
 namespace {
 
-constexpr std::size_t classes = 40;  // more cannot be distinguished by eye
+constexpr std::size_t classes = 40;  // the eye distinguishes no more
 
 std::size_t class_of(double value, const Range& range) {
     const double share = std::clamp(place(value, range, Scale::linear), 0.0, 1.0);
@@ -33,7 +33,7 @@ void draw_place(Pen& pen, const Field& field, std::size_t i) {
 
 }  // namespace
 
-/// One path per colour: the page stays small and is drawn fast.
+/// One path per colour: keeps the page small and fast to draw.
 void draw_field(std::ostream& svg, const Frame& frame, const Field& field) {
     std::array<std::vector<std::size_t>, classes> members;
     for (std::size_t i = 0; i < field.value.size(); ++i) {

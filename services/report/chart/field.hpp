@@ -1,4 +1,4 @@
-// Places coloured by a value, and the colour bar.
+// Draws polygons coloured by a value, and the colour bar.
 #pragma once
 
 #include <ostream>

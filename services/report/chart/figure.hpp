@@ -15,10 +15,9 @@ struct Figure {
     std::string caption = {};  ///< what the figure shows, in a sentence or two
 };
 
-/// Columns series, x, y (with the axes' labels as heads), one row per point, every digit. A chart with a field instead:
-/// x and y of each corner and the value, one row per place; series drawn over it are not data. If a point is less than
-/// certain, a further column has the certainty of each; if an error is known, another has it; if a band is known, the
-/// last two have its ends.
+/// Columns series, x, y (headed by the axes' labels), one row per point, all digits. Further
+/// columns where known: certainty, error, and the two ends of a band. A chart with a field instead
+/// has x and y of each corner and the value, one row per polygon, without the series drawn over it.
 std::string as_csv(const Chart& chart);
 /// A CSV cell of text.
 std::string quoted(const std::string& text);

@@ -18,8 +18,8 @@ struct Frame {
     double py(double v) const { return top + height * (1.0 - place(v, y, chart.y.scale)); }
 };
 
-/// Many points in few characters: tenths of a pixel as whole numbers, each relative to the last.
-/// To be used inside <g transform="scale(.1)">.
+/// Writes many points in few characters: tenths of a pixel as whole numbers, relative to the
+/// previous point. Use inside <g transform="scale(.1)">.
 class Pen {
   public:
     Pen(std::ostream& out, const Frame& frame) : out_(out), frame_(frame) {}
@@ -29,7 +29,7 @@ class Pen {
         out_ << 'z';
         at_x_ = start_x_, at_y_ = start_y_;
     }
-    /// A line without length: with round ends, a dot.
+    /// A line of length zero: with round ends, a dot.
     void dot(double x, double y) {
         move(x, y);
         out_ << "h0";
@@ -50,12 +50,12 @@ class Pen {
 
 /// Text for SVG and HTML: escapes markup, replaces control characters by blanks.
 std::string escaped(const std::string& text);
-/// `more`: further attributes, as text of the tag.
+/// `more`: further attributes of the tag.
 std::string text_at(double x, double y, const std::string& text, const std::string& more = "");
 /// Estimated width of a text of 14 px [px].
 double width_of(const std::string& text);
 
-/// Diameter of the dots of clouds: nearly touching where points are dense [px].
+/// Diameter of the dots of clouds: they nearly touch where points are dense [px].
 double dot_size(const Frame& frame);
 
 }  // namespace breach::report

@@ -35,8 +35,8 @@ constexpr const char* style =
     "border-color:#b3132b;background:#fdecea}.verdict h2{margin:.2em 0;border:0;font-size:1.1em}"
     ".verdict.unusable h2{background:#b3132b;color:#fff;padding:.2em .5em}"
     ".cautions{padding-left:2.2em}td.b{white-space:nowrap;font-weight:bold}"
-    // A page cannot be scrolled: tables take its width, wide ones lie on their side with their
-    // chapter when it has nothing else, rows stay whole, and only long texts are broken anywhere.
+    // Printed pages do not scroll: tables take the full width, wide ones are in landscape with
+    // their chapter if it has nothing else, rows stay whole, and only long texts break anywhere.
     "@page{margin:12mm;@bottom-right{content:counter(page) ' / ' counter(pages);font:8pt "
     "Helvetica,Arial,sans-serif;color:#666}}@page wide{size:landscape}"
     "@media print{body{max-width:none;margin:0;padding:0;font-size:11pt}figure{break-inside:avoid}"
@@ -61,8 +61,8 @@ constexpr const char* style =
     "table,.many table{font-size:6.5pt}.many th,.many td{padding:.15em .25em}.many "
     "td.long:first-child{min-width:6em}}";
 
-constexpr std::size_t many = 9;        // columns that a printed page has no room for when it stands
-constexpr std::size_t long_text = 12;  // characters that need not stay on one line
+constexpr std::size_t many = 9;        // columns that do not fit in portrait
+constexpr std::size_t long_text = 12;  // characters of a text that may break
 
 bool is_number(const std::string& text) {
     double value = 0.0;
@@ -70,7 +70,7 @@ bool is_number(const std::string& text) {
     return error == std::errc() && end == text.data() + text.size();
 }
 
-/// Inside HTML an SVG needs no namespace, whose name looks like an address on the network.
+/// SVG inside HTML needs no namespace, whose URL would look like network access.
 std::string inlined(std::string svg, const std::string& title) {
     const std::string space = "xmlns=\"http://www.w3.org/2000/svg\"";
     svg.replace(svg.find(space), space.size(),
@@ -106,7 +106,7 @@ void write_figure(std::ostream& html, const Figure& figure, const std::string& f
          << "</figcaption>\n</figure>\n";
 }
 
-/// Aligns numbers right, also those with a mark; lower bounds are distinguished from them.
+/// Right-aligns numbers, also with a mark, and marks lower bounds.
 const char* opening_of(const std::string& cell) {
     if (is_number(cell.ends_with(" *") ? cell.substr(0, cell.size() - 2) : cell))
         return "<td class=\"n\">";
@@ -186,7 +186,7 @@ void write_front(std::ostream& html, const Document& document, const std::string
     html << "<span>date</span></div>\n</header>\n";
 }
 
-/// Chapters with what is in them, all linked.
+/// Chapters with their contents, all linked.
 void write_contents(std::ostream& html, const std::vector<Chapter>& chapters) {
     html << "<nav><h2>Contents</h2><ol>\n";
     for (std::size_t i = 0; i < chapters.size(); ++i) {

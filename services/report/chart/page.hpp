@@ -7,8 +7,8 @@
 
 namespace breach::report {
 
-/// `figures`: folder of the figures' and tables' files, relative to the page, for links to them;
-/// empty: there are none.
+/// `figures`: folder with the files of figures and tables, relative to the page, for links; empty:
+/// no links.
 std::string as_html(const Document& document, const std::string& figures);
 
 }  // namespace breach::report

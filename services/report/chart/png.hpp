@@ -1,4 +1,4 @@
-// Pictures as PNG, made from their SVG by rsvg-convert (Debian: librsvg2-bin).
+// Converts SVG to PNG with rsvg-convert (Debian: librsvg2-bin).
 #pragma once
 
 #include <filesystem>

@@ -22,7 +22,7 @@ std::string curve_of(const std::string& test, const json& row) {
     return name;
 }
 
-/// Stress-strain, stress path and pore pressure of the curves that belong on one page.
+/// Stress-strain, stress path and pore pressure of the curves of one page.
 void add_curves(const exchange::Archive& curves, const std::string& page,
                 const std::vector<std::string>& names, std::vector<Figure>& figures) {
     Chart strain{page + ": stress-strain", {"strain [%]"}, {"shear stress [kPa]"}, {}};

@@ -5,7 +5,7 @@
 
 namespace breach::report {
 
-/// folder: holds result.json and element_tests.h5. Throws IoError or BadInput.
+/// folder: contains result.json and element_tests.h5. Throws IoError or BadInput.
 std::vector<Figure> element_test_figures(const std::filesystem::path& folder);
 
 }  // namespace breach::report

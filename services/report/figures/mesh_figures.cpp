@@ -17,7 +17,7 @@ mechanics::Vec2 deformed(const MeshSnapshot& mesh, std::int32_t node) {
     return mesh.position_0[i] + mesh.displacement[i];
 }
 
-/// The elements at an edge: one on the outside, two within.
+/// The elements at an edge: one on the outside, two inside.
 using Sides = std::vector<std::size_t>;
 std::map<std::pair<std::int32_t, std::int32_t>, Sides> sides_of(const MeshSnapshot& mesh) {
     std::map<std::pair<std::int32_t, std::int32_t>, Sides> sides;
@@ -59,7 +59,7 @@ std::vector<double> element_r_u(const MeshSnapshot& mesh, std::span<const double
     if (excess.empty() || mesh.sigma_v0.empty()) return {};
     std::vector<double> average;
     for (const auto& quad : mesh.quads) {
-        double rise = 0.0;  // what alternates from corner to corner drops out
+        double rise = 0.0;  // values that alternate between corners cancel
         double sigma = 0.0;
         for (const std::int32_t node : quad) {
             const auto i = static_cast<std::size_t>(node);

@@ -26,10 +26,10 @@ std::vector<double> curve_column(const exchange::Archive& curves, const std::str
 
 namespace {
 
-/// A column as an axis shows it.
+/// A column and its unit on an axis.
 struct Shown {
     const char* column;
-    double unit;  ///< one of the axis' in SI
+    double unit;  ///< unit of the axis in SI
 };
 
 /// Both curves of a test, the measured one as dots.
@@ -59,7 +59,7 @@ Chart curves_of(const json& tests, const exchange::Archive& curves, Which which,
     return chart;
 }
 
-/// Ends of the tests, those that make the line filled, over the paths and the line.
+/// Ends of the tests over the critical state line; filled: tests that define the line.
 void add_line(const json& tests, const json& parameters, Chart& chart) {
     const json& names = parameters.at("Gamma").at("tests");
     Series ends{"ends of tests (hollow: not of the line)", {}, {}, Style::points};
@@ -78,7 +78,7 @@ void add_line(const json& tests, const json& parameters, Chart& chart) {
     chart.series.push_back(std::move(ends));
 }
 
-/// Peaks, and a straight line y = a + b x over their range, from 0 on.
+/// Peaks, and a straight line y = a + b x over their range, from 0.
 struct Straight {
     double a, b;
 };
@@ -137,7 +137,7 @@ std::vector<Figure> norsand_figures(const json& calibration, const exchange::Arc
                        how +
                            " Ends of tests are means over the last 15 % of their strain; where one "
                            "is still on its way, the law's own end is, too."});
-    // D_min and psi are measured; the law's peaks lie near chi_tc psi, not on it.
+    // D_min and psi are measured; the law's peaks are near chi_tc psi, not on it.
     add_peaks(tests, "psi", "D_min", {0.0, value("chi_tc")},
               {"dilatancy",
                {"Dilatancy against state", {"ψ at the peak [-]"}, {"D_min [-]"}, {}},

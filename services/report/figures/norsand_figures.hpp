@@ -1,5 +1,5 @@
-// Figures of a calibration of NorSand: measured values beside the law's, its critical state line,
-// its dilatancy.
+// Figures of a calibration of NorSand: measured values beside the law's, critical state line,
+// dilatancy.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -10,7 +10,7 @@ using exchange::ParticleState;
 
 namespace {
 
-constexpr std::size_t most_points = 15'000;  // more are slow to draw and look the same
+constexpr std::size_t most_points = 15'000;  // more are slow and look the same
 
 std::size_t stride_of(const ParticleState& state) {
     return (state.size() + most_points - 1) / most_points;

@@ -6,11 +6,11 @@
 
 namespace breach::report {
 
-/// One colour per material; draws at most about 15,000 points, evenly picked, as the caption says.
-/// The data contain the drawn points.
+/// One colour per material. Draws at most about 15,000 points, evenly picked, as the caption says;
+/// the data contain the drawn points.
 Figure points_by_material(const exchange::ParticleState& state, const std::string& name,
                           const std::string& title);
-/// By epsilon_q [%], in the same way.
+/// Coloured by epsilon_q [%], otherwise the same.
 Figure points_by_strain(const exchange::ParticleState& state, const std::string& name,
                         const std::string& title);
 

@@ -33,8 +33,8 @@ Figure safety_against_depth(const json& result) {
     return {"safety_against_depth", chart};
 }
 
-/// The surface where its arc would go below the floor: along it, with its kinks. The corners, where the
-/// two meet, lie on the chords.
+/// The surface with the floor in place of the arc below it. The corners where both meet lie on the
+/// chords.
 Series held_by(const json& floor, const Series& arc) {
     if (floor.empty()) return arc;
     std::vector<mechanics::Vec2> line;
@@ -65,12 +65,12 @@ Series held_by(const json& floor, const Series& arc) {
     return s;
 }
 
-/// The lower arc between its ends, 60 chords; where the floor is higher, along that.
+/// The lower arc between its ends, 60 chords; follows the floor where that is higher.
 Series arc(const json& facts, const json& floor, const std::string& name) {
     const double x_c = facts.at("circle").at("center").at(0);
     const double y_c = facts.at("circle").at("center").at(1);
     const double R = facts.at("circle").at("radius");
-    const auto angle = [&](const json& p) {  // of an end on the floor that of the arc below it
+    const auto angle = [&](const json& p) {  // of an end on the floor: angle of the arc below it
         const double u = std::clamp((p.at(0).get<double>() - x_c) / R, -1.0, 1.0);
         return -std::acos(u);
     };
@@ -95,7 +95,7 @@ void add_answer(const json& facts, const json& floor, const std::string& name, C
         chart.series.push_back(arc(facts, facts.value("floor", floor), name));
 }
 
-/// The kinds of surface that were analysed beside the answer's.
+/// Adds the other kinds of surface that were analysed.
 void add_other_kinds(const json& facts, const json& floor, Chart& chart) {
     const std::string answer = facts.value("surface", "circle");
     const auto add_arc = [&](const char* key, const char* surface, const std::string& what) {
@@ -113,7 +113,7 @@ void add_other_kinds(const json& facts, const json& floor, Chart& chart) {
     }
 }
 
-/// What lies between two places along x.
+/// The part of a curve between two x.
 Series between(Series s, double from, double to) {
     geometry::Polygon ring;
     for (std::size_t i = 0; i + 1 < s.x.size(); ++i) ring.emplace_back(s.x[i], s.y[i]);
@@ -149,14 +149,14 @@ Figure section_with_circles(const json& scene, const json& result) {
     for (const json& stage : stages) {
         const std::string depth = rounded(stage.at("liquefied_depth"), 3);
         add_answer(stage, floor, with_factor(depth + " m liquefied", stage), chart);
-        const std::size_t n = chart.series.size();  // a deeper layer may leave the surface as it is
+        const std::size_t n = chart.series.size();  // a deeper layer may not change the surface
         if (n > 1 && chart.series[n - 1].x == chart.series[n - 2].x &&
             chart.series[n - 1].y == chart.series[n - 2].y)
             chart.series.pop_back();
     }
     add_other_kinds(stages.empty() ? result : stages.front(), floor, chart);
 
-    // Only where soil slides, so that one scale shows it.
+    // Shows only the part where soil slides, so that one scale suffices.
     double from = 1e300, to = -1e300;
     for (const Series& each : chart.series)
         for (const double x : each.x) from = std::min(from, x), to = std::max(to, x);

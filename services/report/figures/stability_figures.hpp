@@ -8,7 +8,7 @@
 
 namespace breach::report {
 
-/// folder: holds result.json and scene.completed.json. Throws IoError or BadInput.
+/// folder: contains result.json and scene.completed.json. Throws IoError or BadInput.
 std::vector<Figure> stability_figures(const std::filesystem::path& folder);
 
 /// Through [[x, y], ...].

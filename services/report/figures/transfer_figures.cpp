@@ -33,7 +33,7 @@ std::vector<double> sigma_v(const MeshSnapshot& mesh) {
     return mean;
 }
 
-/// The same of the points: total stress gets its pore pressure back.
+/// The same for points: subtracts the pore pressure from total stress.
 std::vector<double> sigma_v(const ParticleState& points) {
     std::vector<double> values;
     for (std::size_t p = 0; p < points.size(); ++p) {
@@ -74,7 +74,7 @@ std::vector<double> layer_numbers(const ParticleState& points, const LayerColour
     return numbers;
 }
 
-/// Evenly picked where there are too many to draw.
+/// Evenly picked points where there are too many.
 Field on_points(const ParticleState& points, const std::vector<double>& value,
                 const std::string& label, const Range& range) {
     Field field{label, 1, {}, {}, {}, range};
@@ -116,7 +116,7 @@ BeforeAndAfter pair_of(const Quantity& q, const MeshSnapshot& mesh,
     return pair;
 }
 
-/// The snapshot that the particles were made from.
+/// The snapshot from which the particles were made.
 MeshSnapshot snapshot_of(const std::filesystem::path& folder,
                          const exchange::Provenance& provenance) {
     for (const exchange::InputDigest& input : provenance.inputs) {
@@ -158,7 +158,7 @@ LayerColours layers_of(const json& scene) {
     const json liquefied = scene.at("transfer").value("liquefied", json::object());
     if (liquefied.empty()) return layers;
     layers.r_u = liquefied.at("r_u");
-    layers.ever = liquefied.value("when", "at_transfer") == "ever";  // older runs do not say it
+    layers.ever = liquefied.value("when", "at_transfer") == "ever";  // older results lack it
     for (const json& layer : liquefied.at("layers")) {
         layers.ends.push_back(1e3 * layer.at("sigma_v0_kPa").at(1).get<double>());
         const std::string made =

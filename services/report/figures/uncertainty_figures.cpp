@@ -29,8 +29,8 @@ constexpr std::array along_x{Along{"largest_depth", "Largest depth"},
                              Along{"time_of_peak", "Time of the largest depth"},
                              Along{"final_depth", "Final deposit"}};
 
-/// p50 where there is one. A median that is missing ends its line, not the figure: where it is, the
-/// flow never comes in half of the samples.
+/// p50 where it exists. The line ends where it is missing: the flow does not arrive in half of the
+/// samples.
 Series median_of(const std::vector<double>& x, const json& band) {
     Series series{"p50, between p10 and p90", {}, {}, Style::line};
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -74,11 +74,11 @@ Figure exceedance_figure(const json& quantity, const std::string& label,
     };
     const json* before = nullptr;
     for (const json& each : quantity.at("exceedance")) {
-        if (before) add(each.at("value"), *before);  // the share stays until the next value
+        if (before) add(each.at("value"), *before);  // the share is constant up to the next value
         add(each.at("value"), each);
         before = &each;
     }
-    // Of n samples none lies beyond the largest: with 90 % confidence at most so many of all do.
+    // With 90 % confidence at most this share of all values is above the largest of n samples.
     const double count = quantity.at("count");
     const double beyond = 100.0 * (1.0 - std::pow(0.1, 1.0 / count));
     Figure figure{
@@ -106,7 +106,7 @@ std::optional<Figure> tornado_figure(const json& quantity, const std::string& la
         const double a = bar.at("p10"), b = bar.at("p90");
         return std::max({a, b, middle}) - std::min({a, b, middle});
     };
-    std::ranges::stable_sort(bars, {}, reach);  // the last one stands on top
+    std::ranges::stable_sort(bars, {}, reach);  // the last bar is on top
     Series at_p10{"parameter at its p10", {}, {}, Style::bars};
     Series at_p90{"parameter at its p90", {}, {}, Style::bars};
     Axis names{""};
@@ -131,7 +131,7 @@ std::optional<Figure> tornado_figure(const json& quantity, const std::string& la
 
 namespace {
 
-/// " of 64", and that the others count nowhere; "": there are no others.
+/// " of 64", and that the other samples are excluded; "": there are no others.
 std::string without_envelope(const json& envelopes) {
     const std::size_t others = envelopes.value("left_out", json::array()).size();
     if (others == 0) return "";

@@ -15,7 +15,7 @@ namespace {
 
 const json none = json::object();
 
-/// The schema itself, or what it refers to.
+/// The schema, or the target of its $ref.
 const json& resolved(const json& schema) {
     if (!schema.contains("$ref")) return schema;
     const std::string to = schema.at("$ref");  // "#/$defs/point"
@@ -32,7 +32,7 @@ bool is_meant(const json& value, const json& alternative) {
            (value.is_number() && (wanted == "number" || wanted == "integer"));
 }
 
-/// The schema of this value: of several alternatives the one that it is.
+/// The schema of this value: the matching alternative of several.
 const json& schema_for(const json& value, const json& schema) {
     const json& all = resolved(schema);
     if (!all.contains("oneOf")) return all;
@@ -46,7 +46,7 @@ bool holds_objects(const json& list) {
 }
 
 std::string text_of(const json& value) {
-    constexpr std::size_t many_digits = 10;  // what follows from other entries has them all
+    constexpr std::size_t many_digits = 10;  // values derived from other entries have more digits
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float() && value.dump().size() > many_digits) return rounded(value, 7);
     std::string text;
@@ -99,7 +99,7 @@ class Lister {
     const std::vector<std::string>& set_;
 };
 
-/// What a sand takes from its relative density stands in the completed scene like an entry.
+/// Whether the completed scene derives this entry from a sand's relative density.
 bool follows_from_density(const json& scene, const std::string& pointer) {
     const std::size_t law = pointer.find("/law/");
     if (!pointer.starts_with("/materials/") || law == std::string::npos) return false;

@@ -1,5 +1,5 @@
-// A completed scene as a list of its entries, each with its unit and with whether it has its
-// default value. The schema gives the meaning of an entry.
+// Lists the entries of a completed scene, each with its unit and whether it has its default value.
+// The schema gives their meaning.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -10,13 +10,13 @@ namespace breach::report {
 
 struct SceneEntry {
     std::string pointer;  ///< "/mpm/floor/level"
-    std::string value;    ///< as it is written, lists in full
+    std::string value;    ///< as in the file, lists in full
     std::string unit;     ///< of the schema; empty: it has none
-    bool is_default;      ///< the value is the one used when none is given
+    bool is_default;      ///< whether the value is the schema's default
 };
 
-/// In the order of the document. Lists of numbers are one entry, objects in lists one each. `set`:
-/// pointers set by an override; an entry there or below is never a default.
+/// In the order of the document. A list of numbers is one entry; objects in lists have one entry
+/// per member. `set`: pointers that an override sets; entries there or below are never defaults.
 std::vector<SceneEntry> entries_of(const nlohmann::json& scene,
                                    const std::vector<std::string>& set = {});
 

@@ -16,8 +16,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double runs_out = 1.0;   // a runout that counts as one [m]
-constexpr double same_time = 0.1;  // between a wanted transfer time and one that was run [s]
+constexpr double runs_out = 1.0;   // smaller runouts count as none [m]
+constexpr double same_time = 0.1;  // between requested and computed transfer times [s]
 
 std::optional<double> number_at(const json& result, const char* key) {
     if (!result.is_object() || !result.contains(key) || !result.at(key).is_number()) return {};
@@ -45,7 +45,7 @@ void measure_stability(const Run& run, Measures& found) {
     }
 }
 
-/// When the mesh entangled; of a run older than that end's own result its last line of telemetry.
+/// Time of entanglement; for a result without it, the last line of telemetry.
 std::optional<double> entangled_at(const PhaseFolder& fem, const Telemetry& telemetry) {
     if (fem.result.is_object()) {
         if (fem.result.value("ended", "") != "entangled") return {};
@@ -71,7 +71,6 @@ void measure_shaking(const Run& run, const std::optional<Paper>& paper, Measures
     keep("window_upper", window.upper);
 }
 
-/// Runouts at the transfer times that the paper tells of.
 void measure_paper_times(const std::vector<const PhaseFolder*>& runouts, const std::string& suffix,
                          const Paper& paper, Measures& found) {
     for (const PaperValue& value : paper.values) {
@@ -92,7 +91,7 @@ void measure_runout(const Run& run, const std::string& variant, const std::optio
                     Measures& found) {
     const std::string suffix = variant.empty() ? "" : ":" + variant;
     const auto all = runouts_of(run, variant);
-    if (is_static(run)) return;  // no transfer times, no plateau over them
+    if (is_static(run)) return;  // no transfer times, no plateau
     if (paper) measure_paper_times(all, suffix, *paper, found);
     bool begun = false;
     for (const PhaseFolder* each : all) {
@@ -140,7 +139,7 @@ double largest_runout(const std::vector<const PhaseFolder*>& runouts) {
     return largest;
 }
 
-/// Outermost transfer times around the largest runout that are on the plateau.
+/// Outermost transfer times around the largest runout that belong to the plateau.
 Plateau edges_in(const std::vector<const PhaseFolder*>& runouts) {
     const auto top = std::ranges::max_element(runouts, {}, runout_of);
     const double level = plateau_share * runout_of(*top);
@@ -150,7 +149,7 @@ Plateau edges_in(const std::vector<const PhaseFolder*>& runouts) {
     return Plateau{(*first)->transfer_time.value_or(0.0), (*last)->transfer_time.value_or(0.0)};
 }
 
-/// What is known of the error of one runout over another, each with its spread.
+/// Error of a ratio of two runouts with their spreads.
 std::string error_of_ratio(const Measure& over, const Measure& under) {
     if (over.lower_bound || under.lower_bound) return "soil still moved: neither bound nor value";
     if (under.least <= runs_out) {
@@ -170,14 +169,14 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
 }
 
-/// The phase of this name that a runout came from; null when none is known.
+/// The phase of this name that a runout came from; null: unknown.
 static const PhaseFolder* phase_behind(const Run& run, const PhaseFolder* runout,
                                        const std::string& phase) {
     while (runout && runout->phase != phase) runout = source_of(run, *runout);
     return runout;
 }
 
-/// The FEM that the service says this variant waited for in vain; null: it does not say.
+/// The FEM without a transfer of this variant, from the service; null: unknown.
 static const PhaseFolder* fem_without_transfer(const Run& run, const std::string& variant) {
     for (const json& each : run.without_transfer) {
         if (each.at("variant") != variant) continue;
@@ -230,7 +229,7 @@ const PhaseFolder* least_factor(const Run& run) {
     return least;
 }
 
-/// Null when the run has no runout, or what it came from is not known.
+/// Null: the run has no runout, or its source is unknown.
 static const PhaseFolder* behind_farthest(const Run& run, const std::string& phase) {
     const PhaseFolder* farthest = farthest_runout(run);
     if (!farthest) return nullptr;

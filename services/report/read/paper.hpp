@@ -1,5 +1,5 @@
-// The published numbers for comparison with a scene. They are in paper.json, which is built into
-// the program; none of them is in the code.
+// Published numbers for comparison with a scene. They come from paper.json, which is built into the
+// program.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct PaperValue {
     std::string what;  ///< in words
     std::string unit;
     double value;
-    std::string first_time = {};           ///< the condition; compared with the run's first time
+    std::string first_time = {};           ///< condition whose first time is compared
     std::optional<double> runout_at = {};  ///< the transfer time of the run's runout [s]
 };
 
-/// A note that applies to the paper's case only, below a table.
+/// A note below a table that applies to the paper's case only.
 struct PaperNote {
     std::string table;
     std::string text;
@@ -27,7 +27,7 @@ struct PaperNote {
     double value;       ///< value of the entry for which the note applies
 };
 
-/// Points of a figure beside the run's.
+/// Points to draw beside the run's in a figure.
 struct PaperPoints {
     std::string figure;
     Series series;
@@ -35,20 +35,19 @@ struct PaperPoints {
 
 struct Paper {
     std::string source;
-    std::vector<std::string> remarks;  ///< to be shown with every result
+    std::vector<std::string> remarks;  ///< shown with every result
     std::vector<PaperValue> values;
     std::vector<PaperPoints> points;
     std::vector<PaperNote> notes;
     std::string case_history_runout;  ///< as published: "> 800"
 };
 
-/// The paper of a scene; nothing when its name is not one of the paper's case.
+/// The paper of a scene; nothing: the scene's name is not one of the paper's cases.
 std::optional<Paper> paper_for(const std::string& scene_name);
 
 /// Adds the paper's points to the figure of that name.
 void add_points(const std::optional<Paper>& paper, Figure& figure);
 
-/// paper.json.
 const char* paper_text();
 
 }  // namespace breach::report

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* task_file = "task.json";  ///< of a task that `breach export` wrote
+constexpr const char* task_file = "task.json";  ///< of an exported task
 
 std::size_t rank_of(const std::string& phase) {
     const auto found = std::ranges::find(phases::all, phase, &phases::Phase::program);
@@ -31,21 +31,21 @@ json read_if_there(const fs::path& file) {
     return fs::is_regular_file(file) ? read_json(file) : json();
 }
 
-/// The number that a text begins with; nothing when it begins with none.
+/// The number at the beginning of a text; nothing: there is none.
 std::optional<double> leading_number(std::string_view text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() ? std::optional(value) : std::nullopt;
 }
 
-/// A time as labels spell it, "13.000000"; nothing for another word, as "20" of a variant "20_kpa".
+/// A time as in labels, "13.000000"; nothing for another word, such as "20" of a variant "20_kpa".
 std::optional<double> spelt_time(const std::string& word) {
     const auto time = leading_number(word);
     const bool is_time = time && std::isfinite(*time) && *time >= 0.0;
     return is_time && phases::files::spelt(*time) == word ? time : std::nullopt;
 }
 
-/// "mpm_13.000000_softened": time and variant; both may be missing.
+/// Splits "mpm_13.000000_softened" into time and variant; both may be missing.
 void take_apart(const std::string& label, PhaseFolder& phase) {
     const std::size_t first = label.find('_');
     if (first == std::string::npos) return;
@@ -59,7 +59,7 @@ void take_apart(const std::string& label, PhaseFolder& phase) {
     }
 }
 
-/// What a task says of itself goes before its label, also that it has no transfer time.
+/// A task's own entries override its label, including a missing transfer time.
 void take_task(const json& task, PhaseFolder& phase) {
     phase.task = task.value("id", "");
     phase.variant = task.value("variant", phase.variant);
@@ -71,7 +71,7 @@ void take_task(const json& task, PhaseFolder& phase) {
         phase.artifacts.push_back(each.at("sha256"));
 }
 
-/// The label is the folder's name; "output" is what the service calls the folder inside it.
+/// The label is the folder's name, or its parent's when the folder is the service's "output".
 std::string label_of(const fs::path& folder) {
     const fs::path name = folder.filename();
     return name == "output" ? folder.parent_path().filename().string() : name.string();
@@ -98,7 +98,7 @@ std::string fault_of(const fs::path& files, const json& task) {
     return state.empty() ? "it has not ended" : "it has not ended (" + state + ")";
 }
 
-/// What was not reached before the FEM's regular end is no part of the run.
+/// Such a task is not part of the run.
 bool was_not_reached(const json& task) {
     return task.is_object() && task.value("not_reached", json()) == json(true);
 }
@@ -127,7 +127,7 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
     return phase;
 }
 
-/// Where phases may lie: the folder itself and three folders down (tasks/<label>, <label>/output).
+/// Folders that may be phases: this one and three levels below (tasks/<label>, <label>/output).
 std::vector<fs::path> phase_folders(const fs::path& folder) {
     std::vector<fs::path> found;
     fs::recursive_directory_iterator it(folder);
@@ -143,7 +143,7 @@ std::vector<fs::path> phase_folders(const fs::path& folder) {
     return found;
 }
 
-/// Null: the points fill the section.
+/// transfer_time null: the points fill the section.
 bool is_at(const PhaseFolder& mpm, const json& transfer_time) {
     constexpr double same_time = 5e-7;  // [s]; tables and folders spell times to the microsecond
     if (transfer_time.is_null() || !mpm.transfer_time)
@@ -151,7 +151,7 @@ bool is_at(const PhaseFolder& mpm, const json& transfer_time) {
     return std::abs(*mpm.transfer_time - transfer_time.get<double>()) <= same_time;
 }
 
-/// Of a repeated variant its own name.
+/// Name of the repeated variant; its own name when it is not a repeat.
 std::string repeated_variant(const json& variant) {
     const std::string name = variant.at("name");
     if (variant.value("made_by", "") != "draws") return name;
@@ -159,7 +159,7 @@ std::string repeated_variant(const json& variant) {
     return suffix == std::string::npos ? "" : name.substr(0, suffix);
 }
 
-/// What only the service knows of a runout, from the table that `breach export` wrote.
+/// Adds errors of runouts from the table of `breach export`; only the service knows them.
 void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     if (!table.is_object()) return;
     for (const json& row : table.at("rows")) {
@@ -175,7 +175,7 @@ void take_errors(const json& table, std::vector<PhaseFolder>& phases) {
     }
 }
 
-/// The first row of each variant that has no others than "not_reached"; of samples none.
+/// The first row of each variant that has only "not_reached" rows; none for samples.
 json rows_not_reached(const json& table, const json& study) {
     if (study.is_object() && study.contains("uncertainty")) return json::array();
     std::map<std::string, json> first;
@@ -190,8 +190,8 @@ json rows_not_reached(const json& table, const json& study) {
     return found;
 }
 
-/// The study's, without its variants' changes: a phase's own may be that of the run which its result
-/// came from. Of a folder without one that of the first phase that has begun; null: none has.
+/// The study's scene without its variants' changes, because a phase's result may come from another
+/// run. In a folder without a study, the scene of the first phase that has begun; null: none has.
 json asked_scene(const Run& run) {
     if (run.study.is_object() && run.study.value("scene", json()).is_object())
         return run.study.at("scene");
@@ -225,7 +225,7 @@ Run read_run(const fs::path& folder) {
         });
         run.study = read_if_there(folder / "study.json");
         run.scene = asked_scene(run);
-        for (PhaseFolder& each : run.phases)  // one that has not begun has the study's
+        for (PhaseFolder& each : run.phases)  // a task that has not begun: the study's scene
             if (!each.scene.is_object()) each.scene = run.scene;
         const json about = read_if_there(folder / "run.json");
         const json results = read_if_there(folder / "results.json");

@@ -1,4 +1,4 @@
-// The telemetry of a phase: telemetry.jsonl as columns against time.
+// Reads the telemetry of a phase, telemetry.jsonl, as columns against time.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,8 @@ namespace breach::report {
 
 class Telemetry {
   public:
-    /// The lines from telemetry::read, with its exceptions. `beside`: constants that conditions may
-    /// use like fields of every line (critical_depth).
+    /// Throws like telemetry::read. `beside`: constants that conditions may use like fields of
+    /// every line (critical_depth).
     explicit Telemetry(const std::filesystem::path& file,
                        std::map<std::string, double> beside = {});
 
@@ -27,7 +27,7 @@ class Telemetry {
     /// The first time at which the condition is true [s]; nothing when it never is.
     std::optional<double> first_time(const criteria::Expression& condition) const;
     std::optional<double> first_time(const std::string& condition) const;
-    /// Every line, from which the window finds its edges.
+    /// Shows every line to the window, which finds its edges.
     void show_to(criteria::Window& window) const;
 
     const std::vector<telemetry::Line>& lines() const { return lines_; }

@@ -21,14 +21,14 @@ bool is_entangled(const PhaseFolder& phase) {
     return phase.result.is_object() && phase.result.value("ended", "") == "entangled";
 }
 
-/// ", x = 34.1 m" for a number that is there.
+/// ", x = 34.1 m"; empty: the number is missing.
 std::string with(const json& facts, const char* key, const std::string& name,
                  const std::string& unit, double in_si = 1.0) {
     if (!facts.contains(key) || !facts.at(key).is_number()) return "";
     return ", " + name + rounded(facts.at(key).get<double>() / in_si, 4) + unit;
 }
 
-/// When; null: not known.
+/// Null: unknown.
 json time_of_entanglement(const PhaseFolder& fem) {
     const json facts = fem.result.value("entanglement", json::object());
     return facts.value("time", fem.result.value("end_time", json()));
@@ -61,11 +61,11 @@ std::string kind_of(const PhaseFolder& fem) {
 
 bool has_result(const PhaseFolder* phase) { return phase->result.is_object(); }
 
-/// Each flag of each phase, with all results that carry it.
+/// Each flag of each phase, with the number of results that have it.
 std::vector<findings::Raised> raised_in(const Run& run) {
     std::vector<findings::Raised> raised;
     for (const PhaseFolder& phase : run.phases) {
-        std::set<std::pair<std::string, Severity>> counted;  // once a result
+        std::set<std::pair<std::string, Severity>> counted;  // once per result
         for (const Flag& flag : findings::flags_of(phase.result)) {
             if (!counted.insert({flag.code, flag.severity}).second) continue;
             const auto same = std::ranges::find_if(raised, [&](const findings::Raised& each) {
@@ -88,7 +88,7 @@ std::vector<findings::Raised> raised_in(const Run& run) {
     return raised;
 }
 
-/// Samples are meant to fail in part: their probability is the answer.
+/// Excludes samples: some are expected to fail, and their share is the result.
 std::optional<findings::Unstable> unstable_in(const Run& run) {
     if (run.study.is_object() &&
         (run.study.contains("uncertainty") || run.study.value("known_failure", false)))
@@ -233,7 +233,7 @@ std::string how_it_ended(const PhaseFolder& phase) {
     } else if (text.empty()) {
         text = "well";
     }
-    // the end itself stands there already
+    // the end is in the text already
     std::erase_if(flags, [](const Flag& flag) { return flag.code.starts_with("entangled"); });
     if (const std::string warnings = listed(flags, Severity::warning); !warnings.empty())
         add("warnings: " + warnings);
@@ -261,7 +261,7 @@ Verdict verdict_of(const Run& run) {
     Verdict verdict{.word = findings::phrase_of(found.usable),
                     .usable = found.usable != findings::Usable::no};
     for (const findings::Reason& each : found.reasons) {
-        if (each.code.starts_with("entangled")) continue;  // below, with place and time
+        if (each.code.starts_with("entangled")) continue;  // added below, with place and time
         const bool caution = each.usable > findings::Usable::with_remarks;
         (caution ? verdict.cautions : verdict.notes).push_back(each.text);
     }

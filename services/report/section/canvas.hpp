@@ -9,7 +9,7 @@
 
 namespace breach::report {
 
-/// A line of the legend: a picture 24 px wide and 12 high, and what it means.
+/// An entry of the legend: a symbol of 24 x 12 px, and its meaning.
 struct Key {
     std::string symbol;
     std::string text;

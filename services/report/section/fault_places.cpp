@@ -19,7 +19,7 @@ using Pointer = json::json_pointer;
 
 namespace {
 
-// Entries of a scene whose pairs of numbers are points, and those that are abscissae.
+// Entries of a scene with pairs of numbers that are points, and entries that are abscissae.
 constexpr std::array<std::string_view, 11> points{"polygon", "corners", "from", "to",
                                                   "crest",   "toe",     "line", "phreatic_line",
                                                   "terrain", "floor",   "given"};
@@ -41,14 +41,14 @@ bool is_pair(const json& value) {
 Vec2 point_of(const json& pair) { return {pair.at(0).get<double>(), pair.at(1).get<double>()}; }
 
 double ground_at(const scene::Section& section, double x) {
-    const double aside = 1e-6 * std::max(1.0, std::abs(x));  // of a vertical face
+    const double aside = 1e-6 * std::max(1.0, std::abs(x));  // offset from a vertical face
     for (const double each : {x + aside, x - aside})
         if (const double ground = geometry::ground_at(section, each); std::isfinite(ground))
             return ground;
     return std::min(0.0, geometry::extent(section).low.y());
 }
 
-/// A number at this place of a text, and where it ends; empty: there is none.
+/// The number at the beginning of a text, and its end; nothing: there is none.
 std::optional<double> number_at(const char* text, const char** end) {
     char* after = nullptr;
     const double value = std::strtod(text, &after);
@@ -56,7 +56,7 @@ std::optional<double> number_at(const char* text, const char** end) {
     return after != text && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// What a text tells as "(3, -4.5)", else as "x = 3": on the ground there.
+/// Places in a text: "(3, -4.5)", else "x = 3", which is on the ground there.
 std::vector<Trace> told_in(const std::string& text, const scene::Scene& scene) {
     std::vector<Trace> told;
     const char* end = nullptr;
@@ -77,7 +77,7 @@ class Collector {
   public:
     explicit Collector(const scene::Scene& scene) : scene_(scene) {}
 
-    /// What the entry with this name, and all below it, says of places.
+    /// Collects the places of the entry with this name and of all entries below it.
     void collect(const std::string& name, const json& value) {
         if (value.is_object()) {
             if (is_segment(value)) {
@@ -104,7 +104,7 @@ class Collector {
     }
 
     void collect_points(const json& value) {
-        if (value.is_number()) return collect_abscissae(value);  // from, to of a load
+        if (value.is_number()) return collect_abscissae(value);  // from and to of a load
         if (is_pair(value)) return traces.push_back({point_of(value)});
         if (!value.is_array()) return;
         Trace line;
@@ -130,7 +130,7 @@ bool is_index(const std::string& token) {
     return !token.empty() && token.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// The name that says what an entry is: of an element of a list, that of the list.
+/// The name of an entry; for an element of a list, the list's name.
 std::string name_of(Pointer pointer) {
     while (!pointer.empty() && is_index(pointer.back())) pointer.pop_back();
     return pointer.empty() ? "" : pointer.back();
@@ -157,7 +157,7 @@ Vec2 mean_of(const Trace& trace) {
     return sum / static_cast<double>(trace.size());
 }
 
-/// The middles of the regions that are made of a material.
+/// Centres of the regions of a material.
 std::vector<Trace> of_material(const std::string& name, const json& document,
                                const scene::Scene& scene) {
     std::vector<Trace> traces;
@@ -185,7 +185,7 @@ std::vector<Trace> places_of(const fault::Fault& fault, const json& document,
     }
     return of_entry(fault.pointer, document, scene);
 } catch (const json::exception&) {
-    return {};  // a pointer that is none, or leads through something else than it says
+    return {};  // invalid, or not a path through the document
 }
 
 }  // namespace breach::report

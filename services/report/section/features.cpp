@@ -21,7 +21,7 @@ Held held_by(const scene::Support& support) {
     return support.fixes_x ? Held{"held-x", "held in x"} : Held{"held-y", "held in y"};
 }
 
-/// One sign of how nodes are held, at a point of the border; `out` leads away from the soil [px].
+/// One symbol of a support at a point of the border; `out`: direction away from the soil [px].
 std::string sign_of(const scene::Support& support, const Vec2& at, const Vec2& out) {
     const Vec2 along(-out.y(), out.x());
     const auto corner = [&](const Vec2& p) { return px(p.x()) + " " + px(p.y()); };
@@ -29,7 +29,7 @@ std::string sign_of(const scene::Support& support, const Vec2& at, const Vec2& o
         return "M" + corner(at) + "L" + corner(at + 8 * out + 5 * along) + "L" +
                corner(at + 8 * out - 5 * along) + "Z";
     }
-    const Vec2 centre = at + 4.5 * out;  // a roller, which goes along the free direction
+    const Vec2 centre = at + 4.5 * out;  // a roller, which moves along the free direction
     return "M" + corner(centre - 3.5 * along) + "a3.5 3.5 0 1 0 " + px(7 * along.x()) + " " +
            px(7 * along.y()) + "a3.5 3.5 0 1 0 " + px(-7 * along.x()) + " " + px(-7 * along.y());
 }
@@ -192,7 +192,7 @@ std::optional<std::string> motion_line(const scene::Scene& scene) {
         if (scene.fem->motion->scale_to_pga_g)
             line += " (scaled to " + short_number(*scene.fem->motion->scale_to_pga_g) + " g)";
         return line;
-    } catch (const fault::BadInput&) {  // the faults say what is wrong with it
+    } catch (const fault::BadInput&) {  // reported as a fault elsewhere
     } catch (const fault::IoError&) {
     }
     return std::nullopt;

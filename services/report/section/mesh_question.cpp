@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes away with its files.
+/// A folder that the destructor removes with its files.
 class Scratch {
   public:
     explicit Scratch(const fs::path& in) {
@@ -36,7 +36,7 @@ class Scratch {
     fs::path path_;
 };
 
-/// Everything that a mesh depends on: its geometry and sizes, and the program that makes it.
+/// Everything that a mesh depends on: its geometry and sizes, and the mesher.
 std::string key_of(const Draft& draft, const fs::path& program) {
     const json completed = json::parse(draft.scene.completed);
     const auto& file = draft.scene.fem->mesh.msh_file;
@@ -49,7 +49,7 @@ std::string key_of(const Draft& draft, const fs::path& program) {
 
 constexpr auto longest_meshing = std::chrono::hours(1);
 
-/// What the phase left behind instead of a result.
+/// Throws the fault that the phase wrote.
 [[noreturn]] void tell_fault(const fs::path& folder, const std::string& prefix) {
     std::ifstream stream(folder / phases::files::fault);
     const json told = json::parse(stream, nullptr, false);

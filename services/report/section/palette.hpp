@@ -29,9 +29,9 @@ inline constexpr std::array<Fill, 12> fills{{{"#ae8543", false},
                                              {"#71ebff", false},
                                              {"#41536e", true}}};
 
-/// Of the n-th material; the thirteenth has the first one's, and hatchings_of distinguishes them.
+/// Fill of the n-th material; after the twelfth they repeat, and hatchings_of distinguishes them.
 inline const Fill& fill_of(std::size_t material) { return fills[material % fills.size()]; }
-/// How many sets of lines lie on the fill: none, strokes one way, strokes both ways.
+/// Number of sets of hatching lines: none, one direction, two directions.
 inline std::size_t hatchings_of(std::size_t material) { return material / fills.size() % 3; }
 
 }  // namespace breach::report

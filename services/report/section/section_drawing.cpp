@@ -49,8 +49,8 @@ std::optional<geometry::Box> box_around(const std::vector<const Trace*>& traces)
     return box;
 }
 
-/// The section and, not much farther away, what is wrong with it; without a sound region, what is
-/// wrong.
+/// Bounds of the section and of faults not much farther away; without a valid region, bounds of the
+/// faults.
 geometry::Box world_of(const scene::Scene& scene, const std::vector<MarkedFault>& marks) {
     std::vector<const Trace*> polygons, places;
     for (const scene::Region& each : scene.section.regions) polygons.push_back(&each.polygon);
@@ -76,7 +76,7 @@ std::string title_of(const Draft& draft) {
 
 // ---------------------------------------------------------------- regions
 
-/// Materials of the section in the order in which regions name them; a colour each.
+/// Materials in the order in which regions name them; each gets a colour.
 std::vector<std::size_t> materials_of(const scene::Scene& scene) {
     std::vector<std::size_t> used;
     for (const scene::Region& each : scene.section.regions)
@@ -141,7 +141,7 @@ void add_material_keys(Canvas& canvas, const scene::Scene& scene) {
     }
 }
 
-/// Whether all of the label lies in the polygon.
+/// Whether the whole label is inside the polygon.
 bool holds(const geometry::Polygon& polygon, const Panel& panel, const Room& room) {
     for (const double across : {0.0, 0.25, 0.5, 0.75, 1.0})
         for (const double y : {room.top, 0.5 * (room.top + room.bottom), room.bottom})
@@ -158,8 +158,8 @@ double depth_inside(const geometry::Polygon& polygon, const Vec2& place) {
     return geometry::contains(polygon, place) ? least : -least;
 }
 
-/// Lattice places of the region's box on the page: the deepest inside the polygon first, of those that
-/// are deep enough the nearest to its middle [px].
+/// Lattice points of the region's box on the page, inside the polygon: the deepest first, and among
+/// points that are deep enough the nearest to the centre [px].
 std::vector<Vec2> places_inside(const geometry::Polygon& polygon, const Panel& panel) {
     constexpr int columns = 24, rows = 10;
     const geometry::Box box = geometry::bounding_box(polygon);
@@ -180,7 +180,7 @@ std::vector<Vec2> places_inside(const geometry::Polygon& polygon, const Panel& p
     return sorted;
 }
 
-/// A name beside the section, joined with its region by a line.
+/// Writes a name beside the section, with a line to its region.
 void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& name,
                   const Vec2& anchor) {
     const auto in_soil = [&](const Room& room) {
@@ -206,7 +206,7 @@ void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& 
             }
 }
 
-/// In the region where it fits, else beside the section, else only in the legend.
+/// Names regions inside where the name fits, else beside the section, else only in the legend.
 void name_regions(Canvas& canvas, const scene::Scene& scene) {
     const std::vector<std::size_t> used = materials_of(scene);
     for (const scene::Region& each : scene.section.regions) {
@@ -261,7 +261,7 @@ void draw_mark(Canvas& canvas, std::size_t number, const std::string& pointer, c
     }
     const Vec2 at = panel.at(seen.front());
     if (const Vec2 out = panel.at(trace.front()) - at; out.norm() > 1.0 && out.allFinite()) {
-        const Vec2 end = at + 18.0 * out.normalized();  // it lies farther away
+        const Vec2 end = at + 18.0 * out.normalized();  // the place is farther away
         canvas.over << "<path d=\"M" << px(at.x()) << " " << px(at.y()) << "L" << px(end.x()) << " "
                     << px(end.y()) << "\" stroke=\"" << red << "\" stroke-width=\"4\"/>\n";
     }
@@ -275,7 +275,7 @@ void draw_mark(Canvas& canvas, std::size_t number, const std::string& pointer, c
 
 // ---------------------------------------------------------------- the page
 
-/// Lines of at most `width` pixels, broken between words.
+/// Breaks a text between words into lines of at most `width` pixels.
 std::vector<std::string> broken(const std::string& text, double width) {
     std::vector<std::string> lines{""};
     for (std::size_t at = 0; at < text.size();) {
@@ -296,7 +296,7 @@ std::string line_at(double x, double y, const std::string& text, const std::stri
     return text_at(x, y, text, "font-size=\"12\" " + more);
 }
 
-/// Keys one after the other, from left to right; returns where they end.
+/// Draws keys from left to right; returns their lower end.
 double draw_keys(std::ostream& svg, const std::vector<Key>& keys, double y) {
     double x = left;
     svg << "<g class=\"keys\">\n";
@@ -326,7 +326,7 @@ double draw_foot(std::ostream& svg, const std::vector<std::string>& foot, double
     return y;
 }
 
-/// What a person reads about the document, below the picture; `data` are the attributes of its group.
+/// A remark below the picture; `data`: attributes of its group.
 struct Remark {
     std::string data;
     std::string text;
@@ -379,7 +379,7 @@ double list_warnings(std::ostream& svg, const std::vector<fault::Flag>& warnings
     return list_remarks(svg, remarks, "warning", amber, y);
 }
 
-/// Writes a finished panel: its picture cut off at its border, marks and writing above.
+/// Writes a finished panel: its picture clipped at its border, marks and text above.
 void put(std::ostream& svg, const Canvas& canvas, const std::string& name) {
     const Room room = canvas.panel.room();
     svg << "<clipPath id=\"drawn-" << name << "\"><rect x=\"" << px(room.left) << "\" y=\""

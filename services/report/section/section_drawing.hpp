@@ -1,6 +1,6 @@
-// A scene's cross-section as a picture, before any run: regions and materials, water, supports,
-// loads, the motion, the search of the LEM, the MPM's grid and terrain, and faults at their places.
-// Results of runs are drawn in figures/.
+// Draws a scene's cross-section before any run: regions and materials, water, supports, loads, the
+// motion, the search of the LEM, the MPM's grid and terrain, and the places of faults. figures/
+// draws the results of runs.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 
 namespace breach::report {
 
-/// The scene of a document: the document itself, or a study's scene, with the study's overrides for
-/// all of its variants.
+/// The scene of a document: the document itself, or a study's scene with the study's overrides for
+/// all variants.
 struct BaseScene {
     nlohmann::json scene;
     std::vector<std::string> overrides;
@@ -24,7 +24,7 @@ struct BaseScene {
 /// Throws BadInput for a study without its scene inside.
 BaseScene base_scene_of(const nlohmann::json& document);
 
-/// A scene that was read and checked, with any faults.
+/// A scene that was read and checked, with its faults.
 struct Draft {
     BaseScene base;  ///< with the overrides applied
     scene::Scene scene;
@@ -41,18 +41,18 @@ struct DrawnMesh {
 
 struct Additions {
     std::optional<DrawnMesh> mesh = {};
-    std::vector<std::string> foot = {};  ///< lines below the picture: what it will cost
+    std::vector<std::string> foot = {};  ///< lines below the picture: the expected cost
     std::vector<fault::Fault> faults =
-        {};  ///< of the study around the scene; pointers of the document
+        {};  ///< of the study around the scene; pointers into the document
     std::vector<fault::Flag> warnings = {};  ///< likewise
 };
 
 /// Whether there is a region with a polygon, or a fault with a place.
 bool can_be_drawn(const Draft& draft);
 
-/// One SVG without script or style sheet, on white. Each region is one path of class "region"; each
-/// fault is marked in red at its places and listed, with its pointer in the document in the attribute
-/// data-pointer. Needs can_be_drawn.
+/// One SVG without script or style sheet, on white. Each region is one path of class "region". Each
+/// fault is marked in red at its places and listed, with its pointer into the document in the
+/// attribute data-pointer. Needs can_be_drawn.
 std::string as_svg(const Draft& draft, const Additions& additions);
 
 }  // namespace breach::report

@@ -83,7 +83,7 @@ void draw_axes(std::ostream& svg, const Panel& panel) {
 }
 
 double Labels::width_of(const std::string& text) {
-    return 1.1 * report::width_of(text) * size / 14.0 + 4.0;  // the widest of the usual fonts
+    return 1.1 * report::width_of(text) * size / 14.0 + 4.0;  // fits the widest usual fonts
 }
 
 Room Labels::around(const Vec2& centre, const std::string& text) {

@@ -24,10 +24,10 @@ struct Room {
     }
 };
 
-/// A window on the world with the same scale in x and y, and a border of free pixels.
+/// A window on the section with equal scales in x and y, and a free border.
 class Panel {
   public:
-    /// As large as fits into the given pixels, at least `least_width` wide; its top is at `top`.
+    /// As large as fits into the available pixels; its top is at `top`.
     Panel(const geometry::Box& world, double top, double most_height);
 
     Room room() const { return {left_, top_, left_ + width_, top_ + height_}; }
@@ -48,7 +48,7 @@ class Panel {
     Vec2 low_;  ///< world at the panel's lower left corner [m]
 };
 
-/// One decimal: a tenth of a pixel is enough.
+/// Rounded to a tenth of a pixel.
 std::string px(double value);
 /// "M0 1L2 3", a closed ring with "Z".
 std::string path_of(const Panel& panel, const std::vector<Vec2>& line);
@@ -63,12 +63,12 @@ class Labels {
     static constexpr double size = 12.0;    ///< font [px]
     static constexpr double height = 14.0;  ///< of a line [px]
     static double width_of(const std::string& text);
-    /// The text's rectangle if it is centred here [px].
+    /// The text's rectangle when centred at this place [px].
     static Room around(const Vec2& centre, const std::string& text);
     bool is_free(const Room& room) const;
     void take(const Room& room) { taken_.push_back(room); }
-    /// Writes at the first free place around a point, beginning with the nearest; false: there is
-    /// none, and nothing is written.
+    /// Writes at the nearest free place around a point; false: there is none, and nothing is
+    /// written.
     bool beside(std::ostream& svg, const Vec2& point, const std::string& text,
                 const std::string& colour);
     /// Reserves the space and writes.

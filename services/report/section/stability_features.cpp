@@ -22,7 +22,7 @@ void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<doub
                                " to " + short_number(range[1]) + " m"});
 }
 
-/// Where soil liquefies stage by stage, from the first to the last: outlined and numbered.
+/// Outlines and numbers the zones that liquefy stage by stage.
 void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
     const std::vector<scene::UndrainedRegion>& layers = scene.lem->liquefaction;
     if (layers.empty()) return;
@@ -38,7 +38,7 @@ void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
         canvas.svg << shape(path_of(canvas.panel, part) + "Z",
                             stroke(dark_red, 1.3, "class=\"liquefaction\"" + dash));
         const geometry::Box box = geometry::bounding_box(part);
-        // side by side, as layers may be thinner than a numeral
+        // side by side, as layers may be thinner than a digit
         const double along =
             0.5 + 0.06 * (static_cast<double>(i) - 0.5 * static_cast<double>(layers.size() - 1));
         const Vec2 middle{box.low.x() + along * (box.high.x() - box.low.x()),
@@ -53,7 +53,7 @@ void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
         dash));
 }
 
-/// Down from the ground where surfaces begin, or from wherever the search lets them begin.
+/// Down from the ground where surfaces begin, or where the search lets them begin.
 void draw_crack(Canvas& canvas, const scene::Scene& scene) {
     const scene::Lem& lem = *scene.lem;
     if (!lem.tension_crack) return;

@@ -16,7 +16,6 @@ std::string shape(const std::string& path, const std::string& look) {
     return "<path d=\"" + path + "\"" + look + "/>\n";
 }
 
-/// A line on white, so that it is seen on every fill.
 void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
                const std::string& dashes) {
     const std::string path = path_of(canvas.panel, line);
@@ -32,7 +31,6 @@ std::string place(const Vec2& at) {
     return "(" + short_number(at.x()) + ", " + short_number(at.y()) + ")";
 }
 
-/// The line over the whole panel, as it goes on beyond its ends.
 Line across(const Panel& panel, const Line& line, geometry::Level level) {
     const geometry::Box world = panel.world();
     Line whole{{world.low.x(), level(line, world.low.x())}};

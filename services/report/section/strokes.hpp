@@ -26,9 +26,9 @@ void draw_line(Canvas& canvas, const std::string& name, const Line& line, const 
 Key line_key(const std::string& colour, const std::string& text, const std::string& dashes = "");
 /// "(12, 4)"
 std::string place(const Vec2& at);
-/// The line over the whole panel, extended beyond its ends.
+/// The line extended beyond its ends over the whole panel.
 Line across(const Panel& panel, const Line& line, geometry::Level level);
-/// Arrows on the ground; `of` is the phase of the loads.
+/// Draws loads as arrows on the ground; `of`: the phase of the loads.
 void draw_loads(Canvas& canvas, const scene::Scene& scene,
                 const std::vector<scene::Surcharge>& loads, const std::string& of);
 

@@ -10,7 +10,7 @@ namespace {
 
 bool same(const Line& a, const Line& b) { return a == b; }
 
-/// Where a line of water stands above the ground.
+/// Draws standing water where a line is above the ground.
 void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) {
     const geometry::Box world = canvas.panel.world();
     for (const Line& ground :
@@ -34,7 +34,7 @@ void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) 
     }
 }
 
-/// Segments where the FEM holds the pore pressure.
+/// Segments where the FEM prescribes the pore pressure.
 void draw_boundaries(Canvas& canvas, const scene::GroundWater& water) {
     for (const scene::PressureBoundary& each : water.boundaries) {
         const Line segment{each.from, each.to};

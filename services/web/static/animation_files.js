@@ -1,13 +1,12 @@
-// The buttons that make files of an animation: the picture as PNG and SVG, all pictures as a film; in the page's
-// PREFIX-files.
+// Buttons that save an animation: the picture as PNG and SVG, all pictures as a film; in the page's PREFIX-files.
 import { by_id, element, set_text } from "./dom.js";
 import { offer_canvas, offer_svg } from "./figure_files.js";
 import { film_of, offer_film } from "./film.js";
 import { draw_sheet, sheet_as_svg } from "./sheet.js";
 
 export class AnimationFiles {
-    /// sheet(film): what is shown now as a sheet, for a film if so, or null; count(), show(i): the pictures; at(): which is shown; name():
-    /// of the files, without an ending.
+    /// sheet(film): the shown picture as a sheet, or null; film: for a film. count(), show(i): the pictures. at(): index of the shown one.
+    /// name(): of the files, without extension.
     constructor(prefix, animation) {
         Object.assign(this, { prefix, animation, recording: false });
         const button = (name, text, onclick) => element("button", { type: "button", id: `${prefix}-${name}`, onclick }, text);

@@ -1,5 +1,5 @@
-// The top of a run: its verdict, the section before and after, factor of safety, runout, depth, arrivals, and which variant governs.
-// It lays out what the findings say.
+// The head of a run: its verdict, the section before and after, factor of safety, runout, depth, arrivals, and the governing variant, all
+// from the service's findings.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { reason_items, verdict_look } from "./flags.js";
@@ -9,27 +9,27 @@ import { stability_of } from "./provenance.js";
 import { overlay_of, scene_of, water_of } from "./scene.js";
 import { profile_in, SectionPicture, slip_surface } from "./section_picture.js";
 
-/// The row that governs, as the service chose it, and the mean of its draws; null where there is none.
+/// The governing row, as the service chose it, and the mean of its repeats; null: none.
 export function governing_of(run, rows, means) {
     const row = rows.find((each) => each.mpm_task && each.mpm_task === run.governing?.task) ?? null;
     return { row, mean: means.find((mean) => draws_of(mean, rows, run.study).includes(row)) ?? null };
 }
 
-/// FS and runout for the list.
+/// Factor of safety and runout for the list.
 export function brief_answer({ governing, stability }) {
     return [stability ? `FS ${number(stability.factor_of_safety, 3)}` : "",
             Number.isFinite(governing?.runout) ? `runout ${governing.lower_bound ? "≥ " : ""}${number(governing.runout, 3)} m` : ""].filter(Boolean).join(" · ");
 }
 
 export class Answer {
-    /// look_at(row): a person wants to see the governing variant.
+    /// look_at(row): called to show the governing variant.
     constructor(look_at) {
         this.look_at = look_at;
         this.picture = new SectionPicture(by_id("answer-picture"));
         this.profiles = new Map(); // SHA-256 -> profile
     }
 
-    /// What the list knows of a run, before the rest of it has come.
+    /// Shows what the list knows of a run before the rest arrives.
     begin(run) {
         Object.assign(this, { run, rows: [], row: run.governing, mean: null, quantiles: null, profile: null, task: null });
         by_id("answer-picture").hidden = true;
@@ -44,7 +44,8 @@ export class Answer {
         mirror(by_id("reasons"), reason_items(verdict, flags), ({ key }) => key, ({ make }) => make(), () => {});
     }
 
-    /// Resolves when it is drawn; the deposit comes later. governing: as above; quantiles: {p10, p50, p90} of the runout of a study over distributions, or null.
+    /// Resolves when it is drawn; the deposit follows. governing: from governing_of; quantiles: {p10, p50, p90} of the runout of a study
+    /// over distributions, or null.
     async show(run, rows, governing, quantiles) {
         Object.assign(this, { run, rows, quantiles }, governing);
         this.show_verdict(run);
@@ -91,7 +92,7 @@ export class Answer {
             this.figures().map(({ name, value }) => `${name}: ${value}.`).join(" ") });
     }
 
-    /// {reach, low, high [m], text, band: what the band is}; null: there is none.
+    /// {reach, low, high [m], text, band: meaning of the band}; null: none.
     runout() {
         const { row, mean, quantiles } = this;
         const reach = quantiles?.p50 ?? mean?.runout ?? row?.runout;
@@ -103,7 +104,7 @@ export class Answer {
                  text: `${row?.lower_bound ? "≥ " : ""}${number(reach, 3)}${known ? ` ± ${number(error, 2)}` : ""} m` };
     }
 
-    /// [{name, value, note, title}] in the order in which they are read.
+    /// [{name, value, note, title}] in reading order.
     figures() {
         const { row, mean, rows, quantiles, run: { stability } } = this;
         const found = [];

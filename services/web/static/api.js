@@ -1,6 +1,6 @@
-// The orchestrator's REST API as functions. Knows paths and shapes of answers; shows nothing.
+// The orchestrator's REST API as functions.
 
-/// The server answered no: application/problem+json (RFC 9457), with one entry in `faults` per place at fault.
+/// The server refused the request: application/problem+json (RFC 9457), with one entry in `faults` per place.
 export class Problem extends Error {
     constructor(status, body) {
         super(body.detail || body.title || `the server answered ${status}`);
@@ -16,8 +16,8 @@ export class Unreachable extends Error {}
 let token = null;
 let ask_for_token = null;
 
-/// The bearer token that every request carries (null: none), and who is asked for another when the server refuses:
-/// ask(refused token or null) resolves to it.
+/// Sets the bearer token of every request (null: none), and the function that gets another when the server refuses it: ask(refused token or
+/// null) resolves to it.
 export function authorise(known, ask) {
     token = known;
     ask_for_token = ask;
@@ -35,7 +35,7 @@ async function request(path, options = {}) {
     }
     if (response.ok) return response;
     if (response.status === 401 && ask_for_token) {
-        // Another request may have been answered with a new one meanwhile.
+        // Another request may have got a new token meanwhile.
         if (token === sent) token = await ask_for_token(sent);
         return request(path, options);
     }
@@ -43,7 +43,7 @@ async function request(path, options = {}) {
     throw new Problem(response.status, body);
 }
 
-/// The body too may break off when the server goes away.
+/// The connection may break while the body arrives.
 async function body_of(response, kind) {
     try {
         return await response[kind]();
@@ -61,24 +61,24 @@ const post_json = (path, text) => get_json(path, json_body(text));
 const path_of = (...parts) => "/v1/" + parts.map(encodeURIComponent).join("/");
 
 export const list_runs = async () => (await get_json("/v1/runs")).runs;
-/// {runs, next}: the newest with this in their name, title or id; next is null when these are all.
+/// {runs, next}: the newest with this text in their name, title or id; next: null when these are all.
 export const find_runs = (search) => get_json(`/v1/runs${search ? `?${new URLSearchParams({ search })}` : ""}`);
-/// What lies on the disk, run by run: the server looks at every file.
+/// Disk use by run; slow, as the server reads every file's size.
 export const read_storage = () => get_json("/v1/storage");
 export const rename_run = (run, title) => post_json(path_of("runs", run, "title"), JSON.stringify({ title }));
-/// {runs, next}; cursor: the `next` of the page before.
+/// {runs, next}; cursor: `next` of the previous page.
 export function page_of_runs(cursor, limit) {
     const query = new URLSearchParams({ limit });
     if (cursor) query.set("cursor", cursor);
     return get_json(`/v1/runs?${query}`);
 }
-/// {transfers, next} of all runs, newest first; cursor: as above.
+/// {transfers, next} of all runs, newest first; cursor: `next` of the previous page.
 export function page_of_transfers(cursor, limit) {
     const query = new URLSearchParams({ limit });
     if (cursor) query.set("cursor", cursor);
     return get_json(`/v1/transfers?${query}`);
 }
-/// Of a run: which FEM task each transfer task was taken from; empty of an earlier service.
+/// Map of a run's transfer tasks to their FEM tasks; empty: the service does not report it.
 export async function fems_of_transfers(run) {
     const fems = new Map();
     let cursor = null;
@@ -95,9 +95,9 @@ export async function fems_of_transfers(run) {
     }
     return fems;
 }
-/// What runs where, now: {executor, slots, slots_used, queue, workers, slurm, ...}
+/// Running tasks and workers: {executor, slots, slots_used, queue, workers, slurm, ...}
 export const read_workers = () => get_json("/v1/workers");
-/// {events, next} after the given number.
+/// {events, next} after this number.
 export const page_of_events = (after) => get_json(`/v1/events?after=${after}&wait=0`);
 export const read_run = (run) => get_json(path_of("runs", run));
 /// The same without its tasks.
@@ -117,7 +117,7 @@ export const results_csv = (run, means) => path_of("runs", run, "results") + (me
 /// Percentiles, importance, samples of a study over distributions.
 export const read_uncertainty = (run) => get_json(path_of("runs", run, "uncertainty"));
 export const uncertainty_file = (run, format) => `${path_of("runs", run, "uncertainty")}?format=${format}`;
-/// What a study of several motions says; null: the run is none.
+/// Findings of a study of several motions; null: not such a study.
 export async function read_motions(run) {
     try {
         return await get_json(path_of("runs", run, "motions"));
@@ -126,7 +126,7 @@ export async function read_motions(run) {
         throw fault;
     }
 }
-/// What the samples reach along x; null where none of them tells, or of an earlier service.
+/// Envelopes of the samples along x; null: none.
 export async function read_envelopes(run) {
     try {
         return await get_json(path_of("runs", run, "envelopes"));
@@ -143,16 +143,16 @@ export const provenance_path = (sha256) => path_of("artifacts", sha256, "provena
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");
 }
-/// What a study will take: {lines, ...}.
+/// The expected cost of a study: {lines, ...}.
 export const cost_of = (text, signal) => get_json("/v1/cost", { ...json_body(text), signal });
 /// of: "scene" or "study"
 export const read_schema = (of) => get_json(path_of("schema", of), { cache: "default" });
 /// Sends a file; {reference, kind, about, name, ...}.
 export const send_file = (file) => get_json(`/v1/files?${new URLSearchParams({ name: file.name })}`,
     { method: "POST", headers: { "Content-Type": "application/octet-stream" }, body: file });
-/// What was sent to the server before, newest first.
+/// Uploaded files, newest first.
 export const list_files = async () => (await get_json("/v1/files")).files;
-/// What scenes can be made from: [{name, title, options}]; none of an earlier service.
+/// Templates of scenes: [{name, title, options}]; empty: the service has none.
 export async function list_templates() {
     try {
         return (await get_json("/v1/templates")).templates;
@@ -161,7 +161,7 @@ export async function list_templates() {
         throw fault;
     }
 }
-/// {options, study} of the options that are given; the others have their defaults.
+/// {options, study} from the given options; the others have their defaults.
 export const make_from_template = (name, options, signal) => get_json(path_of("templates", name), { ...json_body(JSON.stringify(options)), signal });
 /// {scene, report} of a section drawn as DXF or CSV.
 export const import_section = (body, signal) => get_json("/v1/import", { ...json_body(JSON.stringify(body)), signal });
@@ -169,8 +169,8 @@ export const import_section = (body, signal) => get_json("/v1/import", { ...json
 export const picture_of_import = async (body) => body_of(await request("/v1/import?picture=1", json_body(JSON.stringify(body))), "text");
 export const plan_scene = async (text) => (await post_json("/v1/scenes/plan", text)).plans;
 
-/// Telemetry lines of a task from line number `from` on; {lines, next}. Its stored file when it has ended; before, the
-/// server is asked by phase, time and, where tasks differ in nothing else, variant.
+/// Telemetry lines of a task from line number `from`; {lines, next}. Reads the stored file of an ended task, otherwise asks the server by
+/// phase, time and, if the task is not alone there, variant.
 export async function read_telemetry(task, alone, from) {
     const stored = task.artifacts.find((file) => file.name === "telemetry.jsonl");
     if (stored && !alone) {
@@ -183,7 +183,7 @@ export async function read_telemetry(task, alone, from) {
     return get_json(`${path_of("runs", task.run, "telemetry")}?${query}`);
 }
 
-/// Log text from byte `offset` on; {text, next}.
+/// Log text from byte `offset`; {text, next}.
 export async function read_log(task, attempt, offset) {
     const response = await request(`${path_of("tasks", task, "attempts", attempt, "log")}?offset=${offset}`);
     const text = await body_of(response, "text");
@@ -193,16 +193,16 @@ export async function read_log(task, attempt, offset) {
 
 export const list_frames = async (task) => (await get_json(path_of("tasks", task, "frames"))).frames;
 
-/// One snapshot as typed arrays, see decode_points. stride: every n-th point.
+/// One snapshot as typed arrays (decode_points). stride: every n-th point.
 export async function read_points(task, frame, stride, signal) {
     const response = await request(`${path_of("tasks", task, "frames", frame, "points")}?stride=${stride}`,
                                    { signal, cache: "default" });
     return decode_points(await body_of(response, "arrayBuffer"));
 }
 
-/// One JSON line, padded to a multiple of 4 bytes, then `count` float32 per field, then 4 uint32 node indices per
-/// quad of a mesh. Returns {time, count, columns: {x, y, ...}, regions, region_materials (undefined when the server does
-/// not tell), quads: Uint32Array|null}; the arrays are views of `buffer`.
+/// Decodes one JSON line, padded to a multiple of 4 bytes, then `count` float32 per field, then 4 uint32 node indices per quad of a mesh.
+/// Returns {time, count, columns: {x, y, ...}, regions, region_materials (undefined: not in the file), quads: Uint32Array|null}; the arrays
+/// are views of `buffer`.
 export function decode_points(buffer) {
     const all = new Uint8Array(buffer);
     const line_end = all.indexOf(10);
@@ -220,7 +220,7 @@ export function decode_points(buffer) {
     return { time: header.time, count: header.count, columns, regions: header.regions ?? [], region_materials: header.materials, quads };
 }
 
-/// Studies that the server ships: [{name, title}]; none when it ships none.
+/// Example studies of the server: [{name, title}]; empty: none.
 export async function list_examples() {
     try {
         return (await get_json("/v1/examples")).examples;
@@ -233,16 +233,16 @@ export const read_example = (name) => get_json(path_of("examples", name));
 
 export const read_glossary = () => get_json("static/glossary.json", { cache: "default" });
 
-const longest_wait = 20; // [s] that the server may hold a long-poll open
+const longest_wait = 20; // [s] limit of the server for a long poll
 
-/// Follows the server's events without end. tell.events(list) when something happened, tell.lost(seconds_to_retry) when
-/// the server does not answer, tell.found() when it answers (again).
+/// Follows the server's events permanently. Calls tell.events(list) after events, tell.lost(seconds_to_retry) when the server does not
+/// answer, tell.found() when it answers again.
 export async function follow_events(tell) {
     let after = 0;
     let pause = 1;
-    let wait = 0; // the first answers are history: taken at once
+    let wait = 0; // the first answers are history: no wait
     for (;;) {
-        // A page in the background leaves the connection to those that are looked at.
+        // A page in the background releases its connection.
         if (document.hidden) await new Promise((shown) => document.addEventListener("visibilitychange", shown, { once: true }));
         try {
             const answer = await get_json(`/v1/events?after=${after}&wait=${wait}`);
@@ -257,7 +257,7 @@ export async function follow_events(tell) {
             await new Promise((resume) => setTimeout(resume, 1000 * pause));
             pause = Math.min(2 * pause, 8);
             wait = 0;
-            after = 0; // a server that was set up anew counts from one again
+            after = 0; // a reinstalled server counts from one
         }
     }
 }

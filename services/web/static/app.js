@@ -1,4 +1,4 @@
-// Puts the page together: which run is open, when to look again, what to say when the server is gone.
+// Assembles the page: the open run, when to refresh, and the message when the server does not answer.
 import { Answer, governing_of } from "./answer.js";
 import * as api from "./api.js";
 import { Compare } from "./compare.js";
@@ -20,9 +20,9 @@ import { Telemetry } from "./telemetry.js";
 import { TokenDialog } from "./token.js";
 import { Uncertainty } from "./uncertainty.js";
 
-const settle = 250;        // [ms] events that arrive together cause one look
-const look_again = 1500;   // [ms] between looks while something runs: progress is no event
-const most_share = 0.5;    // of the time that looking may take: a large sweep is looked at less often
+const settle = 250;        // [ms] collects events for one refresh
+const look_again = 1500;   // [ms] between refreshes while something runs, because progress is no event
+const most_share = 0.5;    // of the time for refreshing: large sweeps refresh less often
 
 new TokenDialog();
 Plot.of = () => (by_id("run").hidden ? "" : by_id("run-title").textContent);
@@ -72,7 +72,7 @@ function say_found() {
     return was_lost;
 }
 
-// ---- looking
+// ---- refreshing
 
 let looking = false;
 let again = false;
@@ -100,7 +100,7 @@ async function look() {
         await show_open_run(found.runs);
         by_id("page-fault").hidden = true;
     } catch (fault) {
-        busy = true; // look again
+        busy = true; // refresh again
         if (!(fault instanceof api.Unreachable)) {
             console.error(fault);
             set_text(by_id("page-fault"), fault.message);
@@ -113,7 +113,7 @@ async function look() {
     }
 }
 
-// ---- the open run: no number of the one before stands under its name; a part is seen when its own have come
+// ---- the open run: never shows numbers of the previous run; each part appears when its data arrive
 
 const parts_of_a_run = ["run-orders", "run-summary", "answer", "uncertainty", "motions", "runouts", "particles", "telemetry", "cost", "tasks"];
 let expected = "";
@@ -129,7 +129,7 @@ async function arrives(shown, ...parts) {
     for (const part of parts) by_id(part).classList.remove("coming");
 }
 
-/// listed: runs as the list has them, which is enough to begin with.
+/// listed: runs in the list, enough for a first display.
 async function show_open_run(listed) {
     const id = open_id();
     const tables = open_table() !== null;
@@ -192,7 +192,7 @@ async function show_open_run(listed) {
     if (broken) throw broken.reason;
 }
 
-/// The top is seen before the tables of a large run are made.
+/// Draws the head before the tables of a large run.
 const next_picture = () => new Promise((seen) => {
     if (document.hidden) seen();
     else requestAnimationFrame(() => setTimeout(seen));

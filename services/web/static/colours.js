@@ -1,9 +1,9 @@
-// Colours of the particle viewer: a scale for numbers that reads on a white and on a dark ground, and distinct ones
-// for regions. 32-bit values are little-endian RGBA, as ImageData holds them.
+// Colours of the particle viewer: a scale for numbers on light and dark backgrounds, and distinct colours for regions. 32-bit values are
+// little-endian RGBA, as in ImageData.
 import { band_count } from "./contours.js";
 
 const anchors = ["#2b5ea7", "#2a8fb0", "#4fae86", "#d9a92c", "#dd6b20", "#b3132b"];
-// Twelve that stay apart for colour-blind eyes too, on a light and on a dark canvas; a test measures it.
+// Twelve colours that are distinguishable with colour blindness, on light and dark backgrounds (tested).
 const region_colours = ["#2f7fc1", "#c8791e", "#3a9c6e", "#881048", "#d0a0d0", "#686000", "#0000f8", "#b0b800", "#f038f8", "#005078",
                         "#906080", "#8808b8"];
 
@@ -14,7 +14,7 @@ export function packed(hex) {
     return ((255 << 24) | (blue << 16) | (green << 8) | red) >>> 0;
 }
 
-/// The first colour drawn by `share` towards the second.
+/// Mixes the first colour with `share` of the second.
 export function mixed(colour, other, share) {
     let result = 0xff000000;
     for (const shift of [0, 8, 16]) {

@@ -1,4 +1,4 @@
-// Two pictures side by side on one time: same part of the world, same colours, one slider. Of any two tasks that leave snapshots.
+// Two pictures side by side at one time: same box, same colours, one slider. For any two tasks with snapshots.
 import * as api from "./api.js";
 import { AnimationFiles } from "./animation_files.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
@@ -18,7 +18,7 @@ const same_time = 1e-6; // [s]
 
 export const compare_address = (...tasks) => `#/compare/${tasks.filter(Boolean).map(encodeURIComponent).join("/")}`;
 
-/// What one of the two pictures shows.
+/// One of the two pictures.
 class Side {
     constructor(index) {
         this.index = index;
@@ -26,7 +26,7 @@ class Side {
         this.source = null;
     }
 
-    /// Another task, or the same one further on.
+    /// Opens another task, or refreshes the same one.
     async open(task) {
         if (this.source?.task === task && !is_active(this.task.state)) return;
         const { run } = await api.read_task(task);
@@ -48,12 +48,12 @@ class Side {
         if (at < 0) return;
         const frame = this.wanted_frame = this.source.frames[at];
         const snapshot = await this.source.fetch(frame.name);
-        if (!snapshot || this.wanted_frame !== frame) return; // a later one may have come first
+        if (!snapshot || this.wanted_frame !== frame) return; // a later one may have arrived
         this.snapshot = snapshot;
         this.is_last = at === this.source.frames.length - 1;
     }
 
-    /// What is to be known of this picture: whose clock, how late, whether more would come.
+    /// Notes on this picture: the origin of its time, its age, and whether more will come.
     says(time) {
         if (!this.snapshot) return "No snapshot yet.";
         const clock_name = this.task.phase === "fem_solver" ? "since the first dynamic stage began"
@@ -94,7 +94,7 @@ export class Compare {
 
     async choose_run(index, id) {
         const side = this.sides[index];
-        side.wanted_run = id; // until its address is shown, the tasks of the run before are not offered
+        side.wanted_run = id; // until its address is shown, offer no tasks of the previous run
         by_id(`compare-source-${index}`).disabled = true;
         let why = "That run leaves no snapshots; this is still the one before.";
         const run = await api.read_run(id).catch((fault) => { why = fault.message; });
@@ -110,7 +110,7 @@ export class Compare {
         set_text(by_id(`compare-says-${index}`), why);
     }
 
-    /// Tasks by id; the second one may be left out: then it is to be chosen.
+    /// Shows tasks by id; without a second one the user chooses it.
     async show(tasks) {
         const wanted = [tasks[0], tasks[1] ?? tasks[0]];
         const runs = await api.list_runs();
@@ -142,7 +142,7 @@ export class Compare {
         by_id(`compare-source-${index}`).disabled = false;
     }
 
-    /// One part of the world for both.
+    /// One box for both.
     async find_box() {
         const ends = [];
         for (const side of this.sides) {
@@ -215,7 +215,7 @@ export class Compare {
         set_text(by_id("compare-note"), this.note(field, snapshots));
     }
 
-    /// What makes the two hard to compare.
+    /// Reasons why the two are hard to compare.
     note(field, [a, b]) {
         if (!b) return "";
         const remarks = [];
@@ -226,7 +226,7 @@ export class Compare {
         return remarks.join(" ");
     }
 
-    /// What is seen, with all that must be known of it, for a file.
+    /// The pictures with all notes as a sheet, for a file.
     sheet(film) {
         if (this.sides.some(({ snapshot }) => !snapshot)) return null;
         const { colour, names, grey, notes } = this.scale.shown;

@@ -1,14 +1,14 @@
-// Filled contours of nodal values over quads, written straight into an image: bands of one colour whose borders are smooth
-// over the elements. Each quad is four triangles about its centre, which has the mean of the corners, as the bilinear
-// element has there. Where a corner has no value the quad has none.
+// Filled contours of nodal values over quads, drawn into an image: bands of one colour with smooth borders. Each quad is four triangles
+// about its centre, which has the mean of the corners, like a bilinear element. A quad with a corner without a value has the colour
+// `unknown`.
 
 export const band_count = 12;
 
-/// Which band a value's place in the scale (0 to 1) is in; beyond the ends, those of the ends.
+/// The band of a share of the scale (0 to 1); values beyond the ends get the end bands.
 export const band_of = (share) => Math.min(band_count - 1, Math.max(0, Math.floor(share * band_count)));
 
-/// image: {pixels, width, height}; x, y: of the nodes [device pixels]; share: of the nodes, place in the scale or NaN;
-/// palette: a colour per band; unknown: of quads without a value.
+/// image: {pixels, width, height}; x, y: nodes [device pixels]; share: of the scale at each node, or NaN; palette: one colour per band;
+/// unknown: colour of quads without a value.
 export function fill_contours(image, { x, y, share, quads, palette, unknown }) {
     const corner = (i) => [x[i], y[i], share[i]];
     for (let q = 0; q < quads.length; q += 4) {
@@ -18,7 +18,7 @@ export function fill_contours(image, { x, y, share, quads, palette, unknown }) {
     }
 }
 
-/// Corners [x, y, share]; pixels whose centre is inside, as raster.js counts them, so that neighbours leave no gap.
+/// Corners [x, y, share]. Fills pixels whose centre is inside, like raster.js, so that neighbours leave no gap.
 function fill_triangle(image, a, b, c, palette, unknown) {
     const first = Math.max(Math.ceil(Math.min(a[1], b[1], c[1]) - 0.5), 0);
     const end = Math.min(Math.ceil(Math.max(a[1], b[1], c[1]) - 0.5), image.height);

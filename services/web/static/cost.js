@@ -1,5 +1,4 @@
-// Error against run time: what each point of the sweep cost, what its own error indicators say, and where the CPU time
-// of the run went.
+// Error against run time: the cost of each point of the sweep, its error indicators, and the CPU time of the run by phase.
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_note, look_of } from "./flags.js";
 import { number, point_name, seconds } from "./format.js";
@@ -11,7 +10,7 @@ const axis = { x: "CPU time of the MPM run [s]", x_name: "CPU", x_unit: "s",
                hint: "One marker per transfer time and variant; click or Enter shows where it comes from." };
 
 export class Cost {
-    /// ask(key, column): where a point comes from.
+    /// ask(key, column): called to show where a point comes from.
     constructor(ask) {
         const with_plot = (id, title, entry) => ({ ...entry, plot: new Plot(by_id(id), { ...axis, y: entry.y, title },
                                                                             { height: 260, choose: (_, key) => key && ask(key, entry.column) }) });
@@ -45,7 +44,7 @@ export class Cost {
     }
 }
 
-/// CPU seconds of all attempts, failed ones too: what the machine was kept busy with.
+/// CPU seconds of all attempts, including failed ones.
 function totals_of(tasks) {
     return phases.map((phase) => {
         const own = tasks.filter((task) => task.phase === phase);

@@ -1,9 +1,9 @@
-// Values of a snapshot along a straight cut: of a mesh interpolated as its contours are drawn, of points the next one that is
-// closer than their spacing. null where there is no soil, or the soil has no value.
+// Values of a snapshot along a straight cut: interpolated in a mesh like its contours; from points, the nearest one within their spacing.
+// null: no soil, or no value.
 
 const samples = 240;
 
-/// {distance, x, y, value}, evenly from the first end to the second.
+/// {distance, x, y, value} at equal intervals from the first end to the second.
 export function values_along(snapshot, field, [from, to], spacing) {
     const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
     const along = (axis) => Array.from({ length: samples + 1 }, (_, i) => from[axis] + ((to[axis] - from[axis]) * i) / samples);
@@ -16,7 +16,7 @@ export function values_along(snapshot, field, [from, to], spacing) {
     return cut;
 }
 
-/// How far along the line and how far to its left a place is [m].
+/// Distance of a place along the line and to its left [m].
 function seen_from({ from, direction: [dx, dy] }, x, y) {
     const [rx, ry] = [x - from[0], y - from[1]];
     return [rx * dx + ry * dy, ry * dx - rx * dy];
@@ -35,7 +35,7 @@ function of_mesh({ columns: { x, y, ...rest }, quads }, field, line, { value }) 
     }
 }
 
-/// In the line's own coordinates (s along it, d beside it) the samples are at d = 0.
+/// In the line's own coordinates (s along it, d beside it) the samples have d = 0.
 function of_triangle([a, b, c], step, value) {
     const places = [a, b, c].map(({ place }) => place[0]);
     const first = Math.max(0, Math.ceil(Math.min(...places) / step - 1e-9));

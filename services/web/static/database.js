@@ -1,5 +1,5 @@
-// The run database as tables: runs, tasks, attempts, events, results of sweeps, firings of triggers, transfers of all runs,
-// and what runs where now. Reads what the API gives, page by page; the address says which table and of which run: #/database/TABLE/RUN.
+// The run database as tables: runs, tasks, attempts, events, results of sweeps, firings of triggers, transfers of all runs, and workers.
+// Reads the API page by page. The address #/database/TABLE/RUN selects the table and the run.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { counts_text, flag_codes, rest_text } from "./flags.js";
@@ -7,8 +7,8 @@ import { short_json, show_state } from "./format.js";
 import { run_address } from "./runs.js";
 import { DataTable } from "./table.js";
 
-const page_size = 500;      // records asked for at a time
-const batches_at_once = 4;  // before a person has to ask for more
+const page_size = 500;      // records per request
+const batches_at_once = 4;  // loaded before the user requests more
 
 const badge = (record) => {
     const made = element("span");
@@ -57,7 +57,7 @@ const of_one_run = ["tasks", "attempts", "results", "triggers"];
 
 const sum = (list, name) => list.reduce((total, each) => total + (each[name] ?? 0), 0);
 
-/// Those of a result; "" where there is none yet, or of an earlier version none that is known.
+/// Flags of a result; "": no result, or not reported.
 const codes_of = ({ flags }) => (flags ? flag_codes(flags) : "");
 
 const readers = {
@@ -72,7 +72,7 @@ const readers = {
         (trigger.firings.length ? trigger.firings : [{}]).map((firing) => ({ run: id, ...trigger, ...firing, lag_s: Number(firing.lag_s?.toFixed(9) ?? NaN) }))),
 };
 
-/// Tables over all runs, a page of records at a time: {records, place of the next page, whether it was the last}.
+/// Tables over all runs, one page at a time: {records, place of the next page, whether it was the last}.
 const pages = {
     runs: async (place) => {
         const { runs, next } = await api.page_of_runs(place, page_size);
@@ -90,7 +90,7 @@ const pages = {
 
 const counts_in = (object) => Object.entries(object).map(([word, count]) => `${count} ${word}`).join(", ");
 
-/// What of the machine or cluster is taken, and what waits for it.
+/// Occupied resources of the machine or cluster, and the queue.
 function slots_text({ executor, slots, slots_used, memory_MB, memory_asked_MB, limits, queue, slurm }) {
     const parts = [`${executor === "slurm" ? "Slurm" : "Local"}: ${slots_used} of ${slots} cores taken`,
                    memory_MB ? `${memory_asked_MB} of ${memory_MB} MB asked for` : "", `${queue.ready} tasks ready`,
@@ -110,7 +110,7 @@ export class Database {
         by_id("database-again").addEventListener("click", () => this.show(this.name, this.run));
     }
 
-    /// name: which table; run: whose, "" for the newest.
+    /// name: table; run: "" for the newest.
     async show(name, run) {
         this.name = name in columns ? name : "runs";
         this.run = run;
@@ -152,7 +152,7 @@ export class Database {
         if (this.name === name && this.run === wanted) this.fill(records, true);
     }
 
-    /// They change while one looks: called again whenever something may have.
+    /// Called again whenever the workers may have changed.
     async look_at_workers() {
         if (this.name !== "workers") return;
         by_id("database-csv").hidden = true;
@@ -162,7 +162,7 @@ export class Database {
         this.fill(answer.workers, true);
     }
 
-    /// Runs and transfers newest first, events oldest first, until there are no more or enough for now.
+    /// Runs and transfers newest first, events oldest first, up to the end or a limit.
     async load_pages(name) {
         by_id("database-csv").hidden = true;
         const records = [...this.records];

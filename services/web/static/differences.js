@@ -1,4 +1,4 @@
-// Two runs by numbers: which entries of their studies differ, and which results.
+// Compares two runs by numbers: different entries of their studies, and different results.
 import * as api from "./api.js";
 import { governing_of } from "./answer.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
@@ -9,13 +9,13 @@ import { DataTable } from "./table.js";
 
 export const differences_address = (...runs) => `#/differences/${runs.filter(Boolean).map(encodeURIComponent).join("/")}`;
 
-const not_input = ["name", "title", "notes", "format", "priority", "resources", "reuse", "report"]; // nothing of these changes a number
+const not_input = ["name", "title", "notes", "format", "priority", "resources", "reuse", "report"]; // no effect on numbers
 const longest = 200; // characters of a value
 const compared = { factor_of_safety: "factor of safety", factor_of_safety_liquefied: "factor of safety, liquefied", runout: "runout [m]",
                    runout_beyond_toe: "passed the toe [m]", runout_largest: "farthest [m]", area_beyond_toe: "deposit beyond the toe [m²]", depth_beyond_toe: "depth beyond the toe [m]",
                    volume_ratio: "volume ratio", numerical_share: "numerical share", cpu_seconds: "CPU [s]" };
 
-/// Map of name -> member; null where there are none. Things with names go by these in lists; other lists are one value.
+/// Map of name -> member; null: not a container. Lists of named objects are compared by name; other lists are one value.
 function members_of(value) {
     if (Array.isArray(value)) return value.length > 0 && value.every((each) => each?.name) ? new Map(value.map((each) => [each.name, each])) : null;
     return value !== null && typeof value === "object" ? new Map(Object.entries(value).filter(([name]) => !not_input.includes(name))) : null;
@@ -26,7 +26,7 @@ function text_of(value) {
     return text.length > longest ? `${text.slice(0, longest)}…` : text;
 }
 
-/// [{where, left, right}]: the entries that differ; what one side lacks is one of them.
+/// [{where, left, right}]: the entries that differ, including those that one side lacks.
 export function input_differences(left, right, parts = []) {
     if (JSON.stringify(left) === JSON.stringify(right)) return [];
     const [a, b] = [left, right].map(members_of);
@@ -34,10 +34,10 @@ export function input_differences(left, right, parts = []) {
     return [...new Set([...a.keys(), ...b.keys()])].flatMap((name) => input_differences(a.get(name), b.get(name), [...parts, name]));
 }
 
-/// As it was sent: without the variants that the service made.
+/// The study as it was sent: without the variants that the service generated.
 const input_of = ({ study }) => ({ ...study, variants: (study.variants ?? []).filter(({ made_by: by }) => !by) });
 
-/// [{point, quantity, left, right, change, percent}] of pairs of rows [point, left, right]; only what differs.
+/// [{point, quantity, left, right, change, percent}] of pairs of rows [point, left, right]; only differences.
 export const result_differences = (pairs) => pairs.flatMap(([point, left, right]) =>
     Object.entries(compared).filter(([column]) => number(left[column]) !== number(right[column]))
         .map(([column, quantity]) => ({ point, quantity, left: left[column], right: right[column], ...change_of(left[column], right[column]) })));
@@ -58,13 +58,13 @@ export class Differences {
         });
     }
 
-    /// ids: of two runs; the second may be left out: then it is to be chosen.
+    /// ids: of two runs; without a second one the user chooses it.
     async show(ids) {
         if (this.settled === ids.join()) return;
         const [runs, ...sides] = await Promise.all([api.list_runs(), ...ids.map((id) => Promise.all([api.read_run_alone(id), api.read_results(id)]))]);
         [0, 1].forEach((side) => this.offer(side, runs, sides[side]?.[0]));
         const both = sides.length === 2;
-        this.settled = sides.some(([run]) => is_active(run.state)) ? null : ids.join(); // nothing of it changes any more
+        this.settled = sides.some(([run]) => is_active(run.state)) ? null : ids.join(); // neither changes any more
         for (const part of ["input", "results"]) by_id(`differences-${part}`).parentElement.hidden = !both;
         set_text(by_id("differences-says"), both ? "" : "Choose the second run.");
         if (!both) return;

@@ -1,7 +1,6 @@
-// Elements made and kept up to date. Nothing here knows what Breachline is.
+// Makes and updates elements. Independent of Breachline.
 
-/// element("a", {href: "#", class: "plain", onclick: f}, "text", child) -> the new element. Attributes that are null
-/// or false are left out.
+/// element("a", {href: "#", class: "plain", onclick: f}, "text", child) -> the new element. Ignores attributes that are null or false.
 export function element(tag, attributes = {}, ...children) {
     const made = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes)) {
@@ -25,13 +24,13 @@ export function svg(tag, attributes = {}, ...children) {
 
 export const by_id = (id) => document.getElementById(id);
 
-/// Writes text only when it differs, so that a screen reader hears changes and nothing else.
+/// Writes text only when it differs, so that a screen reader reads only changes.
 export function set_text(target, text) {
     if (target.textContent !== text) target.textContent = text;
 }
 
-/// Makes the children of `parent` mirror `items`: one child per key, in order. Children of known keys are updated in
-/// place, so focus and open details survive a refresh.
+/// Makes the children of `parent` mirror `items`: one child per key, in order. Updates children with known keys in place, so that focus and
+/// open details survive.
 export function mirror(parent, items, key_of, create, update) {
     const known = new Map([...parent.children].map((child) => [child.dataset.key, child]));
     let place = parent.firstElementChild;

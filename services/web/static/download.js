@@ -1,4 +1,4 @@
-// Files that the page itself makes.
+// Saves files that the page makes.
 
 export function offer_file(name, blob) {
     const link = document.createElement("a");
@@ -8,5 +8,5 @@ export function offer_file(name, blob) {
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/// Words as part of a file's name.
+/// A text for file names.
 export const file_word = (text) => text.normalize("NFKD").replaceAll(/[^\w.-]+/g, "_").replaceAll(/^_+|_+$/g, "").slice(0, 80) || "breachline";

@@ -1,6 +1,6 @@
-// The fields of snapshots: what people call them, in which unit they are shown, and what is to be known of them.
+// Fields of snapshots: names, displayed units, and notes.
 
-/// factor: from the server's SI to the unit that is shown. note: what the values are, where that is not plain.
+/// factor: from the server's SI to the displayed unit. note: meaning of the values, if it is not obvious.
 const known = {
     epsilon_q: { name: "deviatoric strain ε_q", unit: "–", mesh: "nodal mean of the elements around each node" },
     epsilon_q_plastic: { name: "plastic strain ε_q", unit: "–" },
@@ -28,10 +28,10 @@ export const field_label = (field) => field_name(field) + (unit_of(field) ? ` [$
 export const note_of = (field, is_mesh) => known[field]?.[is_mesh ? "mesh" : "points"] ?? "";
 /// The fields of a snapshot that can be shown, in the server's order.
 export const fields_of = (snapshot) => Object.keys(snapshot.columns).filter((field) => !places.includes(field));
-/// Those of them that have a scale.
+/// Fields with a numeric scale.
 export const numbers_of = (snapshot) => fields_of(snapshot).filter((field) => !is_named(field));
 
-/// A snapshot as it came, made ready: values in the units that are shown, and which material each point is of.
+/// Converts a snapshot to the displayed units, and adds each point's material.
 export function prepared(snapshot, materials_of_regions) {
     for (const [field, values] of Object.entries(snapshot.columns)) {
         const factor = known[field]?.factor;
@@ -41,7 +41,7 @@ export function prepared(snapshot, materials_of_regions) {
     return snapshot;
 }
 
-/// From its region: a colour of its own where regions share materials.
+/// From the point's region: one colour for regions that share a material.
 function add_material(snapshot, materials_of_regions) {
     const of_region = snapshot.regions.map((name, i) => snapshot.region_materials?.[i] ?? materials_of_regions.get(name) ?? "unknown");
     const names = [...new Set(of_region)];
@@ -61,7 +61,7 @@ export function extremes_of(values) {
     return low <= high ? [low, high] : null;
 }
 
-/// The values that only one in a hundred is below and above, zero included: a few wild points do not own the scale.
+/// The 1st and 99th percentiles, extended to zero: a few outliers do not determine the scale.
 export function reach_of(values) {
     const step = Math.max(1, Math.floor(values.length / 2000));
     const picked = new Float32Array(Math.ceil(values.length / step));

@@ -1,4 +1,4 @@
-// Figures as files: SVG with its styles inside, and PNG of that.
+// Saves figures as SVG with inline styles, and as PNG.
 import { svg } from "./dom.js";
 import { file_word, offer_file } from "./download.js";
 import { wrapped } from "./sheet.js";
@@ -8,7 +8,7 @@ const styles = ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-widt
 const sharpness = 2; // pixels per CSS pixel
 const row_height = 22; // of the legend [CSS px]
 
-/// A copy that looks the same without the page's style sheet.
+/// A copy with the same look without the page's style sheet.
 function styled_copy(original) {
     const copy = original.cloneNode(true);
     const copies = [copy, ...copy.querySelectorAll("*")];
@@ -19,7 +19,7 @@ function styled_copy(original) {
     return copy;
 }
 
-/// A plot with its title and legend as one SVG. of: what it is of.
+/// A plot with its title and legend as one SVG. of: its subject.
 export function figure_of({ picture, legend, labels, width, height }, of) {
     const page = getComputedStyle(document.documentElement);
     const font = getComputedStyle(legend);

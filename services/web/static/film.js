@@ -1,4 +1,4 @@
-// A film of an animation: every picture drawn on a canvas in turn, recorded by the browser as WebM.
+// Records an animation as WebM in the browser, from pictures drawn on a canvas.
 import { file_word, offer_file } from "./download.js";
 import { draw_sheet } from "./sheet.js";
 
@@ -8,14 +8,14 @@ const bits_per_second = 8e6;
 
 const rest = (length) => new Promise((resume) => setTimeout(resume, length));
 
-/// count pictures; show(i): shows the i-th, sheet(): it as a sheet; told(i): the i-th is in the film; stopped(): a person has had enough.
-/// The film as a Blob. Throws when the browser cannot record.
+/// count: number of pictures; show(i): shows the i-th; sheet(): its sheet; told(i): called when it is recorded; stopped(): the user
+/// cancelled. Returns the film as a Blob. Throws when the browser cannot record.
 export async function film_of({ count, show, sheet, told, stopped }) {
     if (!window.MediaRecorder) throw new Error("this browser cannot record films");
     const kind = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((each) => MediaRecorder.isTypeSupported(each));
     if (!kind) throw new Error("this browser cannot record WebM");
     const canvas = document.createElement("canvas");
-    // Every snapshot is fetched before its time comes, so that waiting for the server does not slow the film; the tallest sheet fits.
+    // Fetches every snapshot before the recording, so that no wait slows the film; sizes the canvas for the tallest sheet.
     for (let i = 0; i < count && !stopped(); i += 1) {
         await show(i);
         if (i === 0 || i === count - 1) draw_sheet(canvas, sheet(), 1);
@@ -36,7 +36,7 @@ export async function film_of({ count, show, sheet, told, stopped }) {
         await rest(Math.max(0, 1000 / pictures_per_second - (performance.now() - began)));
     }
     await rest(last_stays);
-    draw_sheet(canvas, sheet(), 1); // or the last picture would have no length
+    draw_sheet(canvas, sheet(), 1); // otherwise the last picture has no duration
     track.requestFrame();
     await rest(100);
     recorder.stop();
@@ -45,7 +45,7 @@ export async function film_of({ count, show, sheet, told, stopped }) {
     return new Blob(parts, { type: "video/webm" });
 }
 
-/// How film time and the snapshots' time go together, in words.
+/// The relation of film time and snapshot time, in words.
 export function pace_text(times) {
     const steps = times.slice(1).map((time, i) => time - times[i]);
     const mean = steps.reduce((sum, step) => sum + step, 0) / Math.max(steps.length, 1);

@@ -1,5 +1,4 @@
-// The form beside the JSON: made from the served schemas, shows what the text says, and edits the text. The text is the
-// document; the form keeps nothing of its own.
+// The form beside the JSON, made from the served schemas: shows and edits the text. The text is the document; the form stores nothing.
 import { by_id, element, set_text } from "./dom.js";
 import { FileField, is_file } from "./form_files.js";
 import { List, Scalar, Text, Tuple } from "./form_fields.js";
@@ -14,17 +13,17 @@ import { VariantsTable } from "./variants_table.js";
 
 const makers = { scalar: Scalar, tuple: Tuple, numbers: List, words: List, points: Points, rows: Rows, map: NamedRows, group: Group, choice: Choice, text: Text };
 
-/// Entries that name a material or a region of the scene.
+/// Entries with the name of a material or a region.
 const names_materials = new Set(["material", "to", "saturated", "like"]);
 const names_regions = new Set(["region", "regions"]);
 
-/// Of an entry that is missing the service names the object that lacks it; the form has a field for it.
+/// The service reports a missing entry at its object; the form shows it at the entry's field.
 function place_of(pointer, cause) {
     const missing = cause.match(/^lacks "([^"]+)"/)?.[1];
     return missing ? pointer + pointer_of([missing]) : pointer;
 }
 
-/// At a part of the form.
+/// Shows a fault at a part of the form.
 export function say_fault(part, { cause, remedy, is_warning }) {
     part.slot?.append(element("p", {}, element("strong", {}, cause), remedy ? ` ${remedy}` : ""));
     if (is_warning || !part.control?.matches("input, select")) return;
@@ -40,8 +39,8 @@ export function forget_faults(root) {
 }
 
 export class Form {
-    /// edit(change, kind): has the text changed by change(text); edits of one kind in a row are one step back. looked_at(pointer): where
-    /// the reader is. enter(pointer): the step of a place is looked at.
+    /// edit(change, kind): replaces the text by change(text); consecutive edits of one kind are one undo step. looked_at(pointer): called
+    /// with the user's place. enter(pointer): called to show the step of a place.
     constructor(edit, looked_at, enter) {
         Object.assign(this, { edit_text: edit, enter, element: by_id("form"), faults: [], is_own: false, cells: new Map() });
         this.names = { materials: element("datalist", { id: "names-of-materials" }), regions: element("datalist", { id: "names-of-regions" }) };
@@ -63,7 +62,7 @@ export class Form {
         if (this.place(parts) === "/scene/materials") return new Soils(this, entry, parts, options);
         return new makers[shape_of(entry)](this, entry, parts, options);
     }
-    /// In the whole study.
+    /// Pointer within the study.
     place(parts) { return pointer_of(this.is_study ? parts : ["scene", ...parts]); }
     steps_of(parts) { return parts.length > 3 ? null : steps_of(this.place(parts)).join(" "); }
     title_of(parts) { return title_of(this.place(parts)); }
@@ -83,7 +82,7 @@ export class Form {
     insert(parts, at, value) { this.edit((text) => insert_item(text, parts, at, value)); }
     swap(parts, one, other) { this.edit((text) => swap_items(text, parts, one, other)); }
 
-    /// Entries that named it by the old name get the new one.
+    /// Renames references to the entry as well.
     rename(parts, name) {
         const old = parts.at(-1);
         const uses = [];
@@ -95,7 +94,7 @@ export class Form {
         this.edit((text) => uses.reduce((changed, way) => set_value(changed, way, name), rename_member(text, parts, name)));
     }
 
-    // ---- what the text says
+    // ---- content of the text
 
     scene() { return this.is_study ? this.value?.scene : this.value; }
     names_for(parts) {
@@ -103,7 +102,7 @@ export class Form {
         return names_materials.has(name) ? this.names.materials.id : names_regions.has(name) ? this.names.regions.id : null;
     }
 
-    /// text: the text in the editor. If it is not JSON, the last form stays, and waits.
+    /// text: of the editor. If it is not JSON, the form stays unchanged.
     show(text) {
         if (!this.schemas) return;
         let value;
@@ -154,14 +153,14 @@ export class Form {
 
     // ---- faults
 
-    /// Faults of one source ("drawing", "submission") in place of that source's earlier ones.
+    /// Replaces the faults of one source ("drawing", "submission").
     take_faults(source, faults) {
         const fresh = faults.map((fault) => ({ ...fault, source, was: JSON.stringify(this.value_at(fault.pointer)) }));
         this.faults = [...this.faults.filter((fault) => fault.source !== source), ...fresh];
         this.mark();
     }
 
-    /// The parts of the form on the way to a place, as far as they go; makes them.
+    /// Parts of the form on the path to a place, as far as they exist; creates them.
     way_to(pointer) {
         const way = [];
         let part = this.root;
@@ -193,7 +192,7 @@ export class Form {
         this.counted = counts;
     }
 
-    /// Opens the way to a place and scrolls there; true when the form has it.
+    /// Opens the path to a place and scrolls there; true: the form has it.
     reveal(pointer, { focus = false } = {}) {
         const fault = this.faults.find((each) => each.pointer === pointer);
         const place = fault ? place_of(pointer, fault.cause) : pointer;

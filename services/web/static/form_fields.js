@@ -1,5 +1,5 @@
-// Single entries of the form: a number, a word, a few numbers side by side, a list of either. Each is an element with its
-// label, unit, range and help; update(value) shows what the document has, an input tells form.set or form.remove.
+// Single entries of the form: a number, a word, a few numbers side by side, or a list. Each is an element with label, unit, range and help.
+// update(value) shows the document's value; an input calls form.set or form.remove.
 import { element, set_text } from "./dom.js";
 import { default_of, doubt_about, range_of, shape_of, takes_number, unit_of, words_of } from "./schema.js";
 
@@ -7,15 +7,15 @@ let count = 0;
 export const new_id = () => `field-${(count += 1)}`;
 
 const unit_endings = { MPa: "MPa", kPa: "kPa", deg: "deg", MB: "MB", s: "s", kN: "kN/m" };
-/// A name as people read it: without the unit that stands beside the field.
+/// A name for display, without the unit that is shown beside the field.
 export function label_of(name, entry) {
     const [, stem, ending] = name.match(/^(.+)_([A-Za-z]+)$/) ?? [];
     return (stem && unit_endings[ending] === unit_of(entry) ? stem : name).replaceAll("_", " ");
 }
 
-const short = 60; // [characters] of help that are shown without being asked for
+const short = 60; // [characters] of help shown without opening
 
-/// What explains an entry: one line, all of it when asked for.
+/// The help of an entry: one line, in full when opened.
 export function help_of(text, id) {
     if (!text) return null;
     const line = element("p", { class: "help", id: `${id}-help` }, text);
@@ -26,7 +26,7 @@ export function help_of(text, id) {
     return element("div", { class: "help-row" }, line, more);
 }
 
-/// Label and help beside `inputs`, with room for what is wrong.
+/// Label and help beside `inputs`, with room for faults.
 export function field_of(part, id, inputs) {
     const { entry, name, required } = part;
     const title = `/${part.parts.join("/")}`;
@@ -43,7 +43,7 @@ function say_doubt(part, text) {
     part.note.hidden = text === "";
 }
 
-/// Numbers and words as typed: {value}, {} when empty, null when it is no such thing (yet).
+/// Parses typed numbers and words: {value}; {}: empty; null: invalid so far.
 function read(entry, text) {
     const trimmed = text.trim();
     if (trimmed === "") return {};
@@ -96,7 +96,7 @@ export class Scalar {
         const found = read(this.entry, this.control.value);
         say_doubt(this, found ? doubt_about(this.entry, found.value) : is_done ? "this is not a number" : "");
         if (!found) return;
-        if (found.value === this.value) return; // also what a field says that is just being taken away
+        if (found.value === this.value) return; // also events of a field that is being removed
         if ("value" in found) this.form.set(this.parts, found.value);
         else if (is_done) this.form.remove(this.parts);
     }
@@ -107,7 +107,7 @@ export class Scalar {
         say_doubt(this, doubt_about(this.entry, value));
         const known = read(this.entry, this.control.value);
         if (known?.value === value && (document.activeElement === this.control || value !== undefined)) return;
-        if (document.activeElement === this.control && this.form.is_own) return; // half-typed
+        if (document.activeElement === this.control && this.form.is_own) return; // incomplete input
         this.control.value = written(value);
     }
     show_choice(value) {
@@ -127,7 +127,7 @@ function tuple_names(entry, name) {
     return Array.from({ length: entry.maxItems }, (_, i) => String(i + 1));
 }
 
-/// Two to four numbers: written once all are there.
+/// Two to four numbers, written once all are present.
 export class Tuple {
     constructor(form, entry, parts, { name, required = false }) {
         Object.assign(this, { form, entry, parts, name, required });
@@ -150,7 +150,7 @@ export class Tuple {
     }
 
     update(value) {
-        if (value === undefined && this.value === undefined) return; // what is not whole yet stays
+        if (value === undefined && this.value === undefined) return; // keep incomplete input
         this.value = value;
         this.inputs.forEach((input, i) => {
             if (read(this.entry.items, input.value)?.value !== value?.[i] && !(document.activeElement === input && this.form.is_own)) input.value = written(value?.[i]);
@@ -158,7 +158,7 @@ export class Tuple {
     }
 }
 
-/// Numbers or words in one line, with commas between.
+/// Numbers or words in one line, separated by commas.
 export class List {
     constructor(form, entry, parts, { name, required = false }) {
         Object.assign(this, { form, entry, parts, name, required });
@@ -173,7 +173,7 @@ export class List {
     child() { return null; }
 
     take() {
-        // Between semicolons a comma would be a decimal one: reported as a fault, not read as two numbers.
+        // Between semicolons a comma may be a decimal comma: a fault, not two numbers.
         const between = !this.numeric ? /\s*[,;]\s*/ : this.control.value.includes(";") ? /[\s;]+/ : /[\s,]+/;
         const pieces = this.control.value.split(between).filter(Boolean);
         const values = this.numeric ? pieces.map((piece) => read({ type: "number" }, piece)?.value) : pieces;
@@ -190,7 +190,7 @@ export class List {
     }
 }
 
-/// What has no shape that this form knows: as JSON.
+/// An entry without a known shape, as JSON.
 export class Text {
     constructor(form, entry, parts, { name, required = false }) {
         Object.assign(this, { form, entry, parts, name, required });

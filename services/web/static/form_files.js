@@ -1,10 +1,10 @@
-// A field that names a motion, a mesh or another file: chosen or dropped files are sent to the service, which says what
-// they hold, and the reference that it answers goes into the scene. A path on the service's machine may be typed.
+// A field for a motion, a mesh or another file. Uploads chosen or dropped files and puts the returned reference into the scene. A path on
+// the service's machine can be typed.
 import * as api from "./api.js";
 import { element, set_text } from "./dom.js";
 import { field_of, new_id } from "./form_fields.js";
 
-/// Entries whose help says that a sent file may stand there.
+/// Entries whose help mentions references to uploaded files.
 export const is_file = (entry) => entry.type === "string" && /file:sha256\//.test(entry.description ?? "");
 
 export class FileField {
@@ -16,7 +16,7 @@ export class FileField {
         this.sent = element("datalist", { id: `${id}-sent` });
         this.chooser = element("input", { type: "file", id: `${id}-file`, class: "unseen", onchange: () => this.send(this.chooser.files[0]) });
         this.state = element("p", { class: "file-state", role: "status" });
-        this.refused = element("div", { class: "file-faults", role: "alert" }); // not among the document's faults, which come and go with the text
+        this.refused = element("div", { class: "file-faults", role: "alert" }); // separate from the document's faults, which change with the text
         const drop = element("div", { class: "drop", ondragover: (event) => this.over(event), ondragleave: () => drop.classList.remove("over"), ondrop: (event) => this.drop(event) },
             element("label", { for: this.chooser.id, class: "button" }, "Send a file…"), this.chooser, element("span", { class: "muted" }, "or drop it here"));
         this.drop_place = drop;
@@ -64,7 +64,7 @@ export class FileField {
         this.known = reference;
         set_text(this.state, `${name}: ${about}`);
     }
-    /// Of the file alone: the scene has not changed.
+    /// Faults of the file only: the scene is unchanged.
     refuse(fault, name) {
         const faults = fault?.faults?.length ? fault.faults : fault ? [{ cause: fault.message }] : [];
         this.refused.replaceChildren(...faults.map(({ cause, remedy, pointer }) => element("p", {}, element("strong", {}, `${name}: ${pointer ? `${pointer}: ` : ""}${cause}`), remedy ? ` ${remedy}` : "")));

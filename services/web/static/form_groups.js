@@ -1,12 +1,12 @@
-// Entries that hold others: groups that fold, and choices between shapes. What is inside is made when it is first looked at.
+// Entries with members: collapsible groups, and choices between shapes. Members are created when they are first shown.
 import { element, mirror, set_text } from "./dom.js";
 import { field_of, help_of, label_of, new_id } from "./form_fields.js";
 import { branch_name, branch_of, shape_of, skeleton } from "./schema.js";
 
-/// Of a study and a scene: shown before they are set.
+/// In a study and a scene: shown even when not set.
 const always = new Set(["title", "transfer_times", "variants", "lem", "fem", "transfer", "mpm"]);
 
-/// The members of an object, in the schema's order: what is set or required first, the rest below "more".
+/// The members of an object in the schema's order: set or required ones first, the rest below "more".
 export class Members {
     constructor(form, entry, parts) {
         Object.assign(this, { form, entry, parts, inside: new Map(), element: element("div", { class: "members" }) });
@@ -31,14 +31,14 @@ export class Members {
         this.element.append(this.unknown);
         this.update(value);
     }
-    /// Of one step.
+    /// A fold for parts of one step.
     fold_of(parts) {
         const names = parts.map((part) => label_of(part.name, part.entry));
         const { steps } = parts[0].element.dataset;
         return element("details", { class: "more-members", "data-steps": steps },
             element("summary", {}, `${parts.length} more: ${names.slice(0, 5).join(", ")}${names.length > 5 ? ", …" : ""}`), element("div", { class: "members" }, ...parts.map((part) => part.element)));
     }
-    /// The fold that an entry lies below; null: none.
+    /// The fold that contains an entry; null: none.
     fold_around(name) {
         const fold = this.inside.get(name)?.element.closest(".more-members");
         return fold?.parentElement === this.element ? fold : null;
@@ -47,7 +47,7 @@ export class Members {
     update(value) {
         for (const [name, part] of this.inside) {
             part.update(value?.[name]);
-            // What another text sets is not left below "more".
+            // Entries that another text sets move out of "more".
             if (value?.[name] !== undefined && !this.form.is_own) this.fold_around(name)?.before(part.element);
         }
         const names = Object.keys(value ?? {}).filter((name) => !(name in this.entry.properties));
@@ -61,7 +61,7 @@ export class Members {
     }
 }
 
-/// A line that opens to a body. `fill(body)` is called once, when it is first opened or looked into.
+/// A title that opens a body. `fill(body)` is called once, when the body is first needed.
 export class Fold {
     constructor(title, { id, help = "", level = "group" }) {
         this.tag = element("span", { class: "tag" });
@@ -97,7 +97,7 @@ export class Group {
         this.update(this.value);
     }
 
-    /// An optional object that is not there has nothing but the button that adds it.
+    /// A missing optional object has only a button to add it.
     update(value) {
         this.value = value;
         const is_there = value !== undefined || this.required;
@@ -134,7 +134,7 @@ export class Group {
     }
 }
 
-/// A list of times and a range of times say the same in two ways.
+/// Converts between a list and a range of times.
 function converted(value, branch) {
     if (Array.isArray(value) && branch.properties?.step && value.length > 1) {
         const [from, to] = [Math.min(...value), Math.max(...value)];
@@ -147,7 +147,7 @@ function converted(value, branch) {
     return skeleton(branch);
 }
 
-/// An entry of one of several shapes: which, and that one's fields.
+/// An entry with one of several shapes: the choice, and the fields of the chosen shape.
 export class Choice {
     constructor(form, entry, parts, { name, required = false }) {
         Object.assign(this, { form, entry, parts, name, required, at: null });
@@ -162,7 +162,7 @@ export class Choice {
         const branch = this.entry.oneOf[Number(this.control.value)];
         if (this.control.value === "") return this.form.remove(this.parts);
         const type = branch.properties?.type?.const;
-        if (type && this.value) return this.form.set([...this.parts, "type"], type); // what both have stays
+        if (type && this.value) return this.form.set([...this.parts, "type"], type); // keep common members
         return this.form.set(this.parts, converted(this.value, branch));
     }
 

@@ -1,12 +1,12 @@
-// A line or polygon of the section as a table of its points, [m]. Cells copied from a spreadsheet are pasted as points.
+// A line or polygon of the section as a table of points [m]. Accepts cells pasted from a spreadsheet.
 import { element, mirror } from "./dom.js";
 import { Fold } from "./form_groups.js";
 import { label_of, new_id } from "./form_fields.js";
 
 const number_in = (text) => (text.trim() === "" ? NaN : Number(text));
 
-/// [[x, y], ...] of lines of two numbers; null when it is anything else. Between tabs or semicolons a comma is a decimal one; a lone column of
-/// 12,5 is no list of points.
+/// [[x, y], ...] from lines of two numbers; null: anything else. Between tabs or semicolons a comma is a decimal comma; a single column
+/// like 12,5 is not a list of points.
 function points_in(text) {
     const in_cells = /[\t;]/.test(text);
     if (!in_cells && !/[.\s]/.test(text.trim().replaceAll(/\r?\n/g, ""))) return null;
@@ -64,7 +64,7 @@ export class Points {
         const last = this.value.length - 1;
         const is_ring = last > 2 && this.value[0]?.every?.((each, k) => each === this.value[last]?.[k]) && /ring/i.test(this.entry.description);
         this.form.set([...this.parts, String(i), String(axis)], number);
-        // The first vertex of a closed ring is its last one, too.
+        // The first vertex of a closed ring is also its last.
         if (is_ring && (i === 0 || i === last)) this.form.set([...this.parts, String(last - i), String(axis)], number);
     }
     add(at) {
@@ -90,7 +90,7 @@ export class Points {
         this.form.set(this.parts, points);
     }
 
-    /// A fault of one point stands in its row.
+    /// A fault of one point is shown in its row.
     child(i) {
         this.draw();
         const row = this.rows.children[Number(i)];

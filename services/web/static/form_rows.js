@@ -1,4 +1,4 @@
-// Lists and maps of the document as rows that are added, copied, moved, renamed and removed.
+// Lists and maps of the document as rows to add, copy, move, rename and remove.
 import { element, set_text } from "./dom.js";
 import { Fold, Members } from "./form_groups.js";
 import { label_of, new_id } from "./form_fields.js";
@@ -6,7 +6,7 @@ import { shape_of, skeleton } from "./schema.js";
 
 const button = (text, name, act) => element("button", { type: "button", class: "small", "aria-label": name, title: name, onclick: act }, text);
 
-/// What a row is called: its name, its place, or what it is about.
+/// Title of a row: its name, its number, or its subject.
 function title_of(value, place) {
     if (value === null || typeof value !== "object") return String(value ?? place);
     const named = value.name ?? value.region ?? value.parameter ?? value.to ?? value.kind;
@@ -14,7 +14,7 @@ function title_of(value, place) {
     return `${typeof named === "string" ? named : place}${kind}`;
 }
 
-/// One row: its head with the tools, and its fields when it is opened. tools: buttons; head: a field before the others; one: what a row is.
+/// One row: its head with tools, and its fields when opened. tools: buttons; head: a field before the others; one: singular name of a row.
 class Row {
     constructor(form, entry, parts, { tools, head = null, one = "" }) {
         Object.assign(this, { form, entry, parts, one });
@@ -79,7 +79,6 @@ class Container {
     }
 }
 
-/// A list.
 export class Rows extends Container {
     adding() {
         const singular = label_of(this.name, this.entry).replace(/ies$/, "y").replace(/([^s])s$/, "$1");
@@ -130,7 +129,7 @@ export class Rows extends Container {
     child(i) { return this.rows[Number(i)] ?? null; }
 }
 
-/// Named entries: materials. A new name is written wherever the old one was meant.
+/// Named entries: materials. A rename also changes references to the old name.
 export class NamedRows extends Container {
     adding(id) {
         this.named = new Map();

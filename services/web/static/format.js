@@ -1,6 +1,6 @@
-// Numbers, times and states as people read them.
+// Numbers, times and states as text for people.
 
-/// Four significant digits, 2.5e6 for the very large and small; "–" for what is not there.
+/// Four significant digits, 2.5e6 for very large and small values; "–" for missing ones.
 export function number(value, digits = 4) {
     if (value === null || value === undefined || !Number.isFinite(value)) return "–";
     const size = Math.abs(value);
@@ -35,14 +35,14 @@ export function clock(iso) {
     return today ? time : `${when.toLocaleDateString()} ${time}`;
 }
 
-/// A length of time: "4.2 s", "12 min 5 s", "3 h 20 min".
+/// A duration: "4.2 s", "12 min 5 s", "3 h 20 min".
 export function span(length) {
     if (length < 60) return `${length.toFixed(length < 10 ? 1 : 0)} s`;
     if (length < 3600) return `${Math.floor(length / 60)} min ${Math.floor(length % 60)} s`;
     return `${Math.floor(length / 3600)} h ${Math.floor((length % 3600) / 60)} min`;
 }
 
-/// Wall time between two moments; the second may still be to come.
+/// Wall time between two moments; without the second, until now.
 export function elapsed(from, to) {
     if (!from) return "–";
     return span(Math.max(0, (to ? new Date(to) : new Date()) - new Date(from)) / 1000);
@@ -53,7 +53,7 @@ export const percent = (fraction) => `${Math.floor(100 * Math.min(1, Math.max(0,
 const ended = new Set(["succeeded", "questionable", "cached", "partial", "failed", "cancelled", "skipped", "not_reached", "lost"]);
 export const is_active = (state) => !ended.has(state);
 
-/// One colour family and one sign per state: never told by colour alone.
+/// One colour family and one sign per state, so that colour is never the only mark.
 export function state_look(state) {
     if (state.startsWith("ended: ")) return { family: "calm", sign: "■" };
     switch (state) {
@@ -87,8 +87,8 @@ export function state_look(state) {
     }
 }
 
-/// What a task's state is called: one that went well may have ended as a failing dam ends, or with a doubtful result; one that
-/// was skipped may lie beyond its FEM's regular end.
+/// A task's state for display: a successful task may have a questionable result or a regular early end; a skipped one may be beyond its
+/// FEM's regular end.
 export function task_state({ state, ended: how, end_time, questionable, not_reached }) {
     if (state === "skipped" && not_reached) return "not_reached";
     if (!["succeeded", "cached"].includes(state)) return state;
@@ -103,13 +103,13 @@ export function show_state(badge, state) {
     if (badge.textContent !== text) badge.textContent = text;
 }
 
-/// "t_T = 1.5 s, softened": which point of the sweep; "" for what all of them share.
+/// "t_T = 1.5 s, softened": a point of the sweep; "": shared by all points.
 export function point_name({ transfer_time, variant }) {
     const time = Number.isFinite(transfer_time) ? `t_T = ${number(transfer_time)} s` : "";
     return [time, variant].filter(Boolean).join(", ");
 }
 
-/// "MPM from t_T = 1.5 s, softened"; of points that fill the section "MPM, softened".
+/// "MPM from t_T = 1.5 s, softened"; for a filled section "MPM, softened".
 export const mpm_name = (task) => (Number.isFinite(task.transfer_time) ? `MPM from ${point_name(task)}` : ["MPM", task.variant].filter(Boolean).join(", "));
 
 /// "fem_solver", "mpm_solver, t_T = 1.5 s, softened"
@@ -121,6 +121,6 @@ export function variants_of(run) {
     return named.length ? named : [""];
 }
 
-/// Of two sweep points, which comes first.
+/// Sorts sweep points.
 export const by_point = (variants) => (a, b) =>
     (a.transfer_time ?? -1) - (b.transfer_time ?? -1) || variants.indexOf(a.variant) - variants.indexOf(b.variant);

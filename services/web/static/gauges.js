@@ -1,4 +1,4 @@
-// What the gauges saw beside the runout that is shown: flow depth and velocity against time, with a mark at the picture's time.
+// Gauges of the shown runout: flow depth and velocity against time, with a mark at the picture's time.
 import * as api from "./api.js";
 import { by_id, set_text } from "./dom.js";
 import { number, seconds } from "./format.js";
@@ -14,7 +14,7 @@ export class Gauges {
             [quantity, new Plot(by_id(host), { title: y, x: "time since the runout began [s]", y, x_name: "t", x_unit: "s" }, { height: 190, y_from_zero: true })]));
     }
 
-    /// Of a task of the run and the scene that it has; nothing for a FEM or a scene without gauges.
+    /// Shows a task of the run, with its scene; nothing for a FEM or a scene without gauges.
     async show(run, task, scene) {
         const gauges = task?.phase === "mpm_solver" ? scene?.mpm?.gauges ?? [] : [];
         by_id("gauges").hidden = gauges.length === 0;
@@ -36,7 +36,7 @@ export class Gauges {
                 return;
             }
             if (this.task !== task.id || this.next !== from) return;
-            if (answer.next < from) this.lines = []; // a new attempt began its own file
+            if (answer.next < from) this.lines = []; // a new attempt began a new file
             else this.lines.push(...answer.lines);
             this.next = answer.next;
             if (answer.lines.length === 0 || answer.next <= from) return;
@@ -58,7 +58,7 @@ export class Gauges {
               `Recorded to ${seconds(x.at(-1))}.`);
     }
 
-    /// The picture is at this time.
+    /// Moves the mark to the picture's time.
     mark(time) {
         this.now = time;
         for (const plot of Object.values(this.plots)) plot.mark_now(time);

@@ -1,11 +1,11 @@
-// The glossary: what the words of the dashboard mean, a line each, and the links to it.
+// The glossary of the dashboard, and links to its terms.
 import { read_glossary } from "./api.js";
 import { by_id, element } from "./dom.js";
 
 const terms = read_glossary().catch(() => ({}));
 const address = (anchor) => `#/glossary/${anchor}`;
 
-/// A word that leads to its line, and says it where a pointer rests on it.
+/// A word with a link to its term, and the meaning as a tooltip.
 export function term(anchor, text) {
     const link = element("a", { class: "term", href: address(anchor) }, text);
     terms.then((known) => { link.title = known[anchor]?.means ?? ""; });

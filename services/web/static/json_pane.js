@@ -1,11 +1,11 @@
-// The editor of the JSON text: numbers of its lines, marks at the lines at fault, and the way back from changes of the form.
+// The editor of the JSON text: line numbers, marks at faulty lines, and undo for changes by the form.
 import { by_id, element } from "./dom.js";
 import { find_pointer } from "./json_text.js";
 
 const most_steps = 200;
 
 export class JsonPane {
-    /// changed(text): after every change, whoever made it; it calls mark().
+    /// changed(text): called after every change; it calls mark().
     constructor(changed) {
         Object.assign(this, { box: by_id("study"), gutter: by_id("study-lines"), undo: by_id("form-undo"), changed, past: [], kind: null, faults: [] });
         this.box.addEventListener("input", () => this.tell());
@@ -19,7 +19,7 @@ export class JsonPane {
         this.changed(this.text);
     }
 
-    /// Another text altogether.
+    /// Replaces the whole text.
     take(text) {
         if (this.text.trim() !== "" && this.text !== text) this.remember();
         this.box.value = text;
@@ -27,7 +27,7 @@ export class JsonPane {
         this.tell();
     }
 
-    /// A change by the form. Changes of one kind in a row (typing in a field) are one step back.
+    /// A change by the form. Consecutive changes of one kind (typing in a field) are one undo step.
     edit(change, kind = null) {
         const text = change(this.text);
         if (text === this.text) return;
@@ -51,7 +51,7 @@ export class JsonPane {
     line_of(pointer) {
         return this.text.slice(0, find_pointer(this.text, pointer).start).split("\n").length;
     }
-    /// faults: {pointer, cause} whose lines are marked.
+    /// faults: {pointer, cause} whose lines to mark.
     mark(faults) {
         this.faults = faults;
         this.draw_lines();
@@ -82,7 +82,6 @@ export class JsonPane {
     scroll_to(pointer) {
         this.box.scrollTop = (this.line_of(pointer) - 4) * parseFloat(getComputedStyle(this.box).lineHeight);
     }
-    /// Selects the text that the pointer names.
     select(pointer) {
         const place = find_pointer(this.text, pointer);
         this.box.focus();

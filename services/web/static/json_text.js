@@ -1,13 +1,12 @@
-// The text of a JSON document: where a pointer (RFC 6901) leads in it, and edits that leave every byte alone that they
-// are not about.
+// Locates JSON pointers (RFC 6901) in a JSON text, and edits the text without changing any other byte.
 
 const width = 110; // [characters] that a value may take on one line
 
 export const parts_of = (pointer) => pointer.split("/").slice(1).map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"));
 export const pointer_of = (parts) => parts.map((part) => `/${String(part).replaceAll("~", "~0").replaceAll("/", "~1")}`).join("");
 
-/// The document as a tree of {start, end}, with `members` (name -> {name_start, name_end, node}) of an object and `items` of an
-/// array. Of text that is not JSON so far: what was found before the fault.
+/// The document as a tree of {start, end}, with `members` (name -> {name_start, name_end, node}) of an object and `items` of an array. For
+/// invalid JSON: the part before the error.
 export function scan(text) {
     let at = 0;
     const skip_space = () => {
@@ -54,14 +53,14 @@ export function scan(text) {
     try {
         fill(root);
     } catch (fault) {
-        if (!(fault instanceof SyntaxError)) throw fault; // a broken name: what was found before it
+        if (!(fault instanceof SyntaxError)) throw fault; // a broken name: keep what was found before it
     }
     return root;
 }
 
 const child_of = (node, part) => node.members?.get(part)?.node ?? node.items?.[Number(part)];
 
-/// The nodes on the way, as far as it goes.
+/// The nodes on the path, as far as it exists.
 function way_to(root, parts) {
     const way = [root];
     for (const part of parts) {
@@ -72,10 +71,10 @@ function way_to(root, parts) {
     return way;
 }
 
-/// {start, end} of the value, or of its nearest parent that is there.
+/// {start, end} of the value, or of its nearest existing parent.
 export const find_pointer = (text, pointer) => way_to(scan(text), parts_of(pointer)).at(-1);
 
-/// As people write it: what fits stands on one line, lists of numbers fill their lines.
+/// Prints short values on one line, and fills the lines of number lists.
 export function print(value, indent = "", unit = "    ") {
     if (value === null || typeof value !== "object") return JSON.stringify(value);
     const is_list = Array.isArray(value);
@@ -107,13 +106,13 @@ const splice = (text, start, end, by) => text.slice(0, start) + by + text.slice(
 const last_of = (node) => (node.members ? [...node.members.values()].at(-1)?.node : node.items.at(-1));
 const first_start = (node) => (node.members ? [...node.members.values()][0]?.name_start : node.items[0]?.start);
 
-/// What stands between two entries of a container: a new line where its first entry begins one.
+/// The separator between two entries of a container: a new line if its first entry begins one.
 function between(text, node) {
     const first = first_start(node);
     return text.slice(node.start, first).includes("\n") ? `\n${line_indent(text, first)}` : " ";
 }
 
-/// The text with one more entry at the container's end; `name` is null in a list.
+/// Appends an entry to the container; `name`: null in a list.
 function append(text, node, name, value) {
     const head = name === null ? "" : `${JSON.stringify(name)}: `;
     const unit = unit_of(text);
@@ -129,7 +128,7 @@ function append(text, node, name, value) {
     return splice(text, node.start, node.end, `${open}\n${indent}${unit}${head}${print(value, indent + unit, unit)}\n${indent}${close}`);
 }
 
-/// The text with `value` at `parts`; parents that are missing are made.
+/// Sets `value` at `parts`; creates missing parents.
 export function set_value(text, parts, value) {
     if (text.trim() === "") return print(parts.reduceRight((inner, part) => ({ [part]: inner }), value));
     const way = way_to(scan(text), parts);
@@ -142,7 +141,7 @@ export function set_value(text, parts, value) {
     return append(text, node, node.items ? null : missing[0], inner);
 }
 
-/// The text without the entry at `parts`, and its comma.
+/// Removes the entry at `parts`, and its comma.
 export function remove_value(text, parts) {
     const way = way_to(scan(text), parts);
     if (way.length <= parts.length) return text;
@@ -154,7 +153,7 @@ export function remove_value(text, parts) {
     return at + 1 < spans.length ? splice(text, spans[at][0], spans[at + 1][0], "") : splice(text, spans[at - 1][1], spans[at][1], "");
 }
 
-/// The text with `value` before the list's item `index`, or after its last.
+/// Inserts `value` before the list's item `index`, or after the last item.
 export function insert_item(text, parts, index, value) {
     const way = way_to(scan(text), parts);
     if (way.length <= parts.length) return set_value(text, parts, [value]);
@@ -165,7 +164,7 @@ export function insert_item(text, parts, index, value) {
     return splice(text, start, start, `${print(value, gap.length > 1 ? gap.slice(1) : "", gap.length > 1 ? unit_of(text) : "")},${gap}`);
 }
 
-/// The text with two items of a list exchanged.
+/// Swaps two items of a list.
 export function swap_items(text, parts, one, other) {
     const { items } = way_to(scan(text), parts).at(-1);
     const [first, second] = [items[Math.min(one, other)], items[Math.max(one, other)]];
@@ -173,7 +172,7 @@ export function swap_items(text, parts, one, other) {
         text.slice(first.start, first.end) + text.slice(second.end);
 }
 
-/// The text with another name of an object's member.
+/// Renames a member of an object.
 export function rename_member(text, parts, name) {
     const { members } = way_to(scan(text), parts.slice(0, -1)).at(-1);
     const { name_start, name_end } = members.get(parts.at(-1));

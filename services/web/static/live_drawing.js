@@ -1,12 +1,12 @@
-// The section of what stands in the editor, drawn by the server while one types. What cannot be drawn leaves the last
-// drawing, paler, and says why.
+// Draws the section of the editor's text by the server during typing. On failure the last drawing stays, paler, with the reason.
 import * as api from "./api.js";
 import { by_id, set_text } from "./dom.js";
 
-const pause = 300; // ms without a key before the server is asked
+const pause = 300; // [ms] pause in typing before a request
 
 export class LiveDrawing {
-    /// fault_item(fault, is_in_text): a list item, which leads to the fault's place; point_to(pointer): goes there; found(faults): of what is drawn.
+    /// fault_item(fault, is_in_text): a list item with a link to the fault's place; point_to(pointer): goes there; found(faults): called
+    /// with the drawing's faults.
     constructor(fault_item, point_to, found) {
         Object.assign(this, { fault_item, found });
         by_id("drawing-picture").addEventListener("click", (event) => {
@@ -16,12 +16,11 @@ export class LiveDrawing {
         by_id("drawing-mesh").addEventListener("change", () => this.changed(by_id("study").value));
     }
 
-    /// From what show_foreign drew.
+    /// Replaces the drawing of show_foreign.
     return_to(text) {
         if (this.is_foreign) this.changed(text);
     }
 
-    /// The text is another one.
     changed(text) {
         this.is_foreign = false;
         clearTimeout(this.timer);
@@ -58,7 +57,7 @@ export class LiveDrawing {
         this.tell(number === 0 ? "" : `${number === 1 ? "1 fault, marked" : `${number} faults, marked`} in red where it has a place`, faults);
     }
 
-    /// What is wrong with a file that is not in the text: its picture (SVG, or null), and the faults that were answered.
+    /// Shows the faults of an imported file: its picture (SVG, or null), and the reported faults.
     show_foreign(text, fault) {
         clearTimeout(this.timer);
         this.asked?.abort();
@@ -67,14 +66,14 @@ export class LiveDrawing {
         this.tell(fault.message, fault.faults ?? [], "elsewhere");
     }
 
-    /// The faults that it marks; null when there is no picture.
+    /// The faults marked in the drawing; null: no picture.
     place(text) {
         const drawn = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
         if (drawn.localName !== "svg") return this.keep("The server's drawing cannot be read", []), null;
         const title = drawn.querySelector("title")?.textContent ?? "";
         drawn.setAttribute("role", "img");
         drawn.setAttribute("aria-label", `Section: ${title}`);
-        for (const size of ["width", "height"]) drawn.removeAttribute(size); // as wide as the page has room
+        for (const size of ["width", "height"]) drawn.removeAttribute(size); // fill the available width
         by_id("drawing-picture").replaceChildren(document.importNode(drawn, true));
         const faults = [...drawn.querySelectorAll("[data-cause]")].map(({ dataset }) => (
             { pointer: dataset.pointer, cause: dataset.cause, remedy: dataset.remedy }));
@@ -95,7 +94,7 @@ export class LiveDrawing {
         this.tell(something ? `${why}. This is the last drawing that was possible.` : why, faults);
     }
 
-    /// about: the faults are of the "document" or "elsewhere".
+    /// about: whether the faults belong to the "document" or are "elsewhere".
     tell(note, faults, about = "document") {
         set_text(by_id("drawing-note"), note);
         this.found(about === "document" ? faults : []);

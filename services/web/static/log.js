@@ -1,4 +1,4 @@
-// The log of one attempt of a task: its end, followed while it is written.
+// The end of the log of one attempt, updated while it grows.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 
@@ -32,7 +32,7 @@ export class LogView {
         if (this.task) await this.extend();
     }
 
-    /// Adds what was written since the last look, and stays at the end if it was there.
+    /// Appends new text, and keeps the end in view if it was.
     async extend() {
         const attempt = by_id("log-attempt").value;
         const key = `${this.task.id}/${attempt}`;

@@ -1,4 +1,4 @@
-// A study with draws: rows of means over moved lattices, shown like rows of runs, and which draws a mean is made of.
+// Studies with repeats: means over repeats shown like rows of results, and the repeats of each mean.
 
 const names_in = (text) => (text ?? "").split("; ").filter(Boolean);
 
@@ -6,7 +6,7 @@ function flag_of_draws(code, draws, message) {
     return draws.length ? [{ code, severity: "questionable", message: `${message}: ${draws.join(", ")}`, pointer: "" }] : [];
 }
 
-/// The service's means as the table of results shows rows; what is doubtful in a draw is doubtful in the mean.
+/// The service's means as rows of the table of results; a questionable repeat makes the mean questionable.
 export function mean_rows(means) {
     return means.map((mean) => {
         const missing = names_in(mean.missing_draws);
@@ -17,13 +17,12 @@ export function mean_rows(means) {
     });
 }
 
-/// The variant that a draw repeats; "" for the draws of a study without variants.
+/// The variant of a repeat; "" for repeats in a study without variants.
 export function repeated_variant(name, study) {
     const made = (study?.variants ?? []).find((variant) => variant.name === name);
     return made?.made_by === "draws" ? name.replace(/_?d\d+$/, "") : name;
 }
 
-/// The draws that a mean is made of.
 export function draws_of(mean, rows, study) {
     return rows.filter((row) => row.transfer_time === mean.transfer_time && repeated_variant(row.variant, study) === mean.variant);
 }

@@ -1,4 +1,4 @@
-// What a person entered, carried over to a study that is made anew.
+// Carries a user's edits over to a newly generated study.
 import { pointer_of } from "./json_text.js";
 
 const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
@@ -6,8 +6,8 @@ const is_object = (value) => value !== null && typeof value === "object" && !Arr
 const is_named = (list) => Array.isArray(list) && list.every((each) => typeof each?.name === "string");
 const by_name = (list) => Object.fromEntries(list.map((each) => [each.name, each]));
 
-/// base: as it was made before; mine: base with later edits; theirs: as it is made now. {value, lost: pointers of entries that could not be
-/// carried over}: those whose place is gone, and lists of numbers that are made anew.
+/// base: as generated before; mine: base with the user's edits; theirs: as generated now. Returns {value, lost: pointers of edits that
+/// could not be carried over, because their place is gone or a list of numbers was generated again}.
 export function carried(base, mine, theirs) {
     const lost = [];
     const merge = (was, own, made, way) => {

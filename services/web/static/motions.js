@@ -1,4 +1,4 @@
-// What a study of several motions says, as the service has found it.
+// Findings of a study of several motions, from the service.
 import { read_motions } from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { number } from "./format.js";

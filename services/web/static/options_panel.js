@@ -1,5 +1,4 @@
-// Options from which a scene is made (a template's, an imported section's), each in the step that it belongs to. The text and its
-// drawing follow them.
+// Options of a generated scene (of a template, an imported section), each in its step. Text and drawing follow their changes.
 import { by_id, set_text } from "./dom.js";
 import { forget_faults, say_fault } from "./form.js";
 import { Scalar } from "./form_fields.js";
@@ -9,7 +8,7 @@ import { carried } from "./merge.js";
 
 const pause = 250; // ms after the last key before the server is asked
 
-/// Stands where a Form would: the fields of Members write into `values`.
+/// Acts as a Form: the fields of Members write into `values`.
 class Options {
     constructor(properties, changed) {
         Object.assign(this, { changed, properties, values: {}, is_own: true, shows_all: true });
@@ -34,15 +33,15 @@ class Options {
 }
 
 export class OptionsPanel {
-    /// pane: where the made text goes; refuse(fault): what is not about an option; closed(): no options are shown any more;
-    /// shaped(study): the made study without the parts that the question does not need.
+    /// pane: receives the generated text; refuse(fault): for faults of no option; closed(): called when the options are hidden;
+    /// shaped(study): removes parts that the question does not need.
     constructor(pane, refuse, closed, shaped) {
         Object.assign(this, { pane, refuse, closed, shaped, opened: 0, source: null });
     }
 
-    /// source: {title, properties: schemas by name, base: what stands in the text and gives way, make(values, signal): {study, note},
-    /// follow(values, control_of): shows defaults that follow other options, failed(values): another way to show what is wrong}; base and
-    /// the last two may be left out.
+    /// source: {title, properties: schemas by name, base: the present text to replace, make(values, signal): {study, note}, follow(values,
+    /// control_of): shows defaults that follow other options, failed(values): another way to show faults}; base, follow and failed are
+    /// optional.
     open(source) {
         this.close();
         this.source = source;
@@ -76,7 +75,7 @@ export class OptionsPanel {
         this.timer = setTimeout(() => this.make(), pause);
     }
 
-    /// What was entered by hand since stays.
+    /// Keeps edits by hand.
     async make() {
         this.asked?.abort();
         this.asked = new AbortController();

@@ -1,5 +1,5 @@
-// What is drawn over the soil in vectors: the section as built, the toe, gauges, the phreatic line, displacement vectors, the
-// cut of a profile. Each takes the canvas's context, the view's to_screen and its device pixels per CSS pixel.
+// Drawings over the soil: the original section, the toe, gauges, the phreatic line, displacement vectors, the cut of a profile. Each takes
+// the canvas's context, the view's to_screen and its device pixels per CSS pixel.
 
 const vector_room = 26; // [CSS px] between vectors
 const longest_vector = 44; // [CSS px]
@@ -37,7 +37,7 @@ function draw_wedge({ context, to_screen, ratio }, at, filled) {
 
 export const draw_toe = (pen, toe) => draw_wedge(pen, toe, true);
 
-/// gauges: [{name, x, y}], open wedges with their names.
+/// gauges: [{name, x, y}], drawn as open wedges with their names.
 export function draw_gauges(pen, gauges) {
     const { context, ratio } = pen;
     context.font = `${11 * ratio}px system-ui, sans-serif`;
@@ -49,7 +49,7 @@ export function draw_gauges(pen, gauges) {
     }
 }
 
-/// halo: the ground's colour, so that it is seen on soil of any colour.
+/// halo: background colour, so that the line is visible on any soil.
 export function draw_water({ context, to_screen, ratio }, line, halo) {
     const colour = context.strokeStyle;
     context.strokeStyle = halo;
@@ -67,7 +67,7 @@ export function longest_of({ columns: { u_x, u_y } }) {
     return u_x.reduce((longest, each, i) => Math.max(longest, Math.hypot(each, u_y[i])), 0);
 }
 
-/// Displacements at nodes that are far enough apart to see each arrow, the longest of all nodes `longest_vector` long.
+/// Displacements at nodes with enough distance to see each arrow; the longest is `longest_vector` long.
 export function draw_vectors({ context, to_screen, ratio }, snapshot, halo) {
     const { columns: { x, y, u_x, u_y }, count } = snapshot;
     const longest = longest_of(snapshot);
@@ -104,7 +104,6 @@ function draw_arrow(context, x, y, dx, dy, ratio) {
     }
 }
 
-/// The cut with its ends named.
 export function draw_cut({ context, to_screen, ratio }, ends) {
     context.lineWidth = 2 * ratio;
     trace(context, to_screen, ends);

@@ -1,5 +1,5 @@
-// Which telemetry fields are drawn together, in what order, and what people call them. A panel appears when at least one
-// of its fields is in the lines; fields that no panel names get one each under "all other monitors".
+// Telemetry fields by plot, in order, with their names. A plot appears when at least one of its fields has data; other fields get one plot
+// each under "all other monitors".
 export const panels = [
     { title: "Crest displacement", y: "displacement [m]", unit: "m",
       fields: { crest_dx: "horizontal", crest_dy: "vertical", crest_displacement: "total" } },

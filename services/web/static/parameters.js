@@ -1,19 +1,19 @@
-// What differs between the variants of a study as a number, so that results can be drawn against it.
+// Numeric differences between the variants of a study, as abscissas for results.
 
-/// What a JSON pointer names in a document; undefined when it is not there.
+/// The value at a JSON pointer; undefined: missing.
 function value_at(document, pointer) {
     return pointer.split("/").slice(1).map((part) => part.replaceAll("~1", "/").replaceAll("~0", "~"))
         .reduce((inside, part) => (inside !== null && typeof inside === "object" ? inside[part] : undefined), document);
 }
 
-/// {pointer: number} of what a variant overrides with a number.
+/// {pointer: number} of a variant's numeric overrides.
 function numbers_in(overrides) {
     const pairs = overrides.map((each) => [each.slice(0, each.indexOf("=")), each.slice(each.indexOf("=") + 1)]);
     return new Map(pairs.filter(([, text]) => text.trim() !== "" && Number.isFinite(Number(text))).map(([pointer, text]) => [pointer, Number(text)]));
 }
 
-/// [{pointer, value_of(variant): a number, or null where neither the variant nor the scene that was sent says one}], those with at least
-/// two different numbers.
+/// [{pointer, value_of(variant): a number, or null where neither the variant nor the scene has one}], those with at least two different
+/// numbers.
 export function parameters_of(study) {
     const variants = study?.variants ?? [];
     const numbers = new Map(variants.map(({ name, overrides }) => [name, numbers_in(overrides ?? [])]));

@@ -1,5 +1,4 @@
-// The moving picture of a run: which task, which snapshot, coloured by what. The snapshots are in snapshots.js, the
-// drawing itself in points.js.
+// The animation of a run: task, snapshot and coloured field. snapshots.js fetches the snapshots, points.js draws.
 import { AnimationFiles } from "./animation_files.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { field_name, fields_of, is_named } from "./fields.js";
@@ -16,10 +15,10 @@ import { sheet_of } from "./sheet.js";
 import { Snapshots } from "./snapshots.js";
 
 const frames_per_second = 12;
-const ahead = 2;                // snapshots fetched before a playing picture needs them
+const ahead = 2;                // snapshots fetched ahead while playing
 
 export class Particles {
-    /// row_of(task): the row of results that the task made, if it is known.
+    /// row_of(task): the task's row of results, if known.
     constructor(row_of) {
         this.row_of = row_of;
         this.view = new PointView(by_id("view"));
@@ -30,7 +29,7 @@ export class Particles {
             count: () => this.frames.length, at: () => this.at, show: (i) => this.seek(i), sheet: (film) => this.sheet(film),
             name: () => `${this.run.name}_${this.field}_${this.snapshot.time}s`,
         });
-        this.source = null; // Snapshots of the task that is shown
+        this.source = null; // Snapshots of the shown task
         this.at = -1;
         by_id("view-source").addEventListener("change", (event) => this.choose(event.target.value));
         by_id("view-field").addEventListener("change", (event) => {
@@ -60,7 +59,7 @@ export class Particles {
         return this.source?.frames ?? [];
     }
 
-    /// Another run, or the same one further on. governing: the task to begin with, once it is known.
+    /// Another run, or an update of the same one. governing: the first task to show, if known.
     async show(run, governing) {
         const same = this.run?.id === run.id;
         this.run = run;
@@ -70,7 +69,7 @@ export class Particles {
                (task) => element("option", { value: task.id }), (option, task) => set_text(option, source_name(task)));
         by_id("particles").hidden = sources.length === 0;
         const current = sources.find((task) => task.id === this.task);
-        // Until a person chooses or plays, the governing variant is shown; before there is one, a running one.
+        // Until the user chooses or plays, show the governing variant, or before it exists a running one.
         const chosen = (this.by_hand && current) || (sources.find((task) => task.id === governing) ?? first_with_frames(sources));
         if (!chosen) return;
         const news = is_active(chosen.state) || this.frames.length === 0 || this.was_active;
@@ -79,7 +78,7 @@ export class Particles {
         this.was_active = is_active(chosen.state);
     }
 
-    /// The particles of one point of the sweep, asked for elsewhere on the page.
+    /// Shows the particles of a point of the sweep.
     show_point(row) {
         if (row.mpm_task) this.choose(row.mpm_task);
     }
@@ -100,7 +99,7 @@ export class Particles {
         this.files.stop();
         this.source?.close();
         this.source = null;
-        this.at = -1; // the wanted picture; the snapshot is of the shown one
+        this.at = -1; // the requested picture; `snapshot` is the shown one
         this.snapshot = null;
         this.shown = -1;
         this.box_frames = "";
@@ -132,7 +131,7 @@ export class Particles {
         await this.seek(this.at);
     }
 
-    /// Looks for new snapshots; stays with the newest one when it was shown.
+    /// Looks for new snapshots; moves to the newest one if the last was shown.
     async extend() {
         const source = this.source;
         const at_end = this.at === this.frames.length - 1;
@@ -147,10 +146,10 @@ export class Particles {
         if (grew) await this.find_box();
         if (this.at < 0 || (at_end && grew && !this.playing)) await this.seek(this.frames.length - 1);
         else this.update_controls();
-        if (grew) source.survey(() => source === this.source && this.paint()); // goes on beside
+        if (grew) source.survey(() => source === this.source && this.paint()); // continues in the background
     }
 
-    /// The picture must not jump while it plays: it shows where the soil begins and where it ends.
+    /// A fixed box for all pictures: the soil at its begin and its end.
     async find_box() {
         const source = this.source;
         const ends = [this.frames[0].name, this.frames.at(-1).name];
@@ -209,7 +208,7 @@ export class Particles {
         const began = performance.now();
         await this.seek(this.at + 1);
         if (!this.playing) return;
-        for (const frame of this.frames.slice(this.at + 1, this.at + 1 + ahead)) this.source.fetch(frame.name).catch(() => {}); // seek tells
+        for (const frame of this.frames.slice(this.at + 1, this.at + 1 + ahead)) this.source.fetch(frame.name).catch(() => {}); // seek reports errors
         if (this.at >= this.frames.length - 1) {
             this.pause();
             return;
@@ -224,7 +223,7 @@ export class Particles {
         this.update_controls();
     }
 
-    // ---- what is seen around the canvas
+    // ---- around the canvas
 
     tell(text) {
         set_text(by_id("view-message"), text);
@@ -268,7 +267,7 @@ export class Particles {
         return task ? picture_verdict(task, this.row_of(task.id)) : "";
     }
 
-    /// What is seen, with all that must be known of it, for a file.
+    /// The picture with all notes as a sheet, for a file.
     sheet(film) {
         if (!this.snapshot) return null;
         this.view.paint();
@@ -295,7 +294,7 @@ export class Particles {
         set_text(play, this.playing ? "❚❚ Pause" : "▶ Play");
     }
 
-    /// The time of the picture that is seen; the wanted one may still be on its way.
+    /// The time of the shown picture; the requested one may still be loading.
     now_text() {
         if (!this.frames[this.at]) return "–";
         const coming = `number ${this.at + 1} is on its way`;
@@ -305,13 +304,11 @@ export class Particles {
     }
 }
 
-/// A flat runout gets a flat picture.
 export function size_canvas(canvas, box) {
     const slenderness = (box.y[1] - box.y[0]) / Math.max(box.x[1] - box.x[0], 1e-9);
     canvas.style.setProperty("--slenderness", Math.min(0.75, Math.max(0.2, slenderness * 1.04)));
 }
 
-/// The tasks of a run that leave snapshots.
 export function picture_tasks(run) {
     return run.tasks.filter((task) => task.phase === "fem_solver" || task.phase === "mpm_solver").sort(by_point(variants_of(run)));
 }
@@ -321,7 +318,7 @@ export function source_name(task) {
     return ["succeeded", "cached"].includes(task.state) ? what : `${what} (${task.state})`;
 }
 
-/// Prefers the last finished runout; before there is one, a running one.
+/// The last finished runout; before there is one, a running one.
 export function first_with_frames(tasks) {
     return tasks.findLast((task) => task.phase === "mpm_solver" && !is_active(task.state) && task.state !== "skipped") ??
            tasks.find((task) => task.phase === "mpm_solver" && task.state === "running") ??

@@ -1,4 +1,4 @@
-// The steps from nothing to a submitted run, and which entries of a study and its scene each one asks for.
+// The steps of a new run, and the entries of a study and its scene in each step.
 import { by_id, element, set_text } from "./dom.js";
 
 const steps = [
@@ -9,7 +9,7 @@ const steps = [
     { name: "check", title: "Check", help: "Name the run, look at the drawing and the warnings, submit." },
 ];
 
-/// What is below a place goes with it; all other entries belong to the question.
+/// Entries below a place belong to its step; all others to the question.
 const places = {
     "/scene/name": "section", "/scene/title": "section", "/scene/notes": "section", "/scene/section": "section", "/scene/thickness": "section", "/scene/gravity": "section",
     "/scene/materials": "soils",
@@ -21,14 +21,14 @@ const titles = { "/scene/section": "Every entry of the section", "/scene/materia
                  "/scene/fem": "Shaking and pore pressure (FEM)", "/scene/transfer": "Transfer from FEM to MPM", "/scene/mpm": "Runout (MPM)" };
 const is_below = (pointer, place) => pointer === place || pointer.startsWith(`${place}/`);
 
-/// Of a group; undefined: its own name.
+/// Title of a group; undefined: its own name.
 export const title_of = (pointer) => titles[pointer];
 export const step_of = (pointer) => Object.entries(places).find(([place]) => is_below(pointer, place))?.[1] ?? "question";
-/// The steps that show something of an entry: its own, and those of places below it.
+/// The steps that show a part of an entry: its own, and those of places below it.
 export const steps_of = (pointer) => [...new Set([step_of(pointer), ...Object.entries(places).filter(([place]) => is_below(place, pointer)).map(([, step]) => step)])];
 
 export class Path {
-    /// entered(step): another step is looked at.
+    /// entered(step): called when another step is shown.
     constructor(entered) {
         Object.assign(this, { entered, pane: by_id("path") });
         this.buttons = new Map(steps.map(({ name, title }, i) => [name, element("button", { type: "button", onclick: () => this.show(name) },

@@ -1,5 +1,5 @@
-// A plot of curves against one abscissa, as SVG: axes with units, gaps where values are missing, marks on the
-// abscissa, hover and keyboard readout. Knows nothing of where the numbers come from.
+// A plot of curves as SVG: axes with units, gaps for missing values, marks on the abscissa, readout by mouse and keyboard. Independent of
+// the data's source.
 import { element, set_text, svg } from "./dom.js";
 import { figure_of, offer_png, offer_svg } from "./figure_files.js";
 import { looks } from "./flags.js";
@@ -7,22 +7,22 @@ import { number } from "./format.js";
 import { band, curve, ends_at, error_at, legend, level, margin, mark, series_class, verticals } from "./plot_parts.js";
 import { log_ticks, range_of, tick_label, ticks, widened } from "./plot_scale.js";
 
-const character = 7.6; // width of a digit at the plot's font size [px]
-const longest_name = 20; // characters of a named tick; the rest is in its title
+const character = 7.6; // digit width at the plot's font size [px]
+const longest_name = 20; // characters of a tick's name; the full name is its title
 
-/// The values, and the ends of their errors where those are known.
+/// The values and the ends of their error bars, where known.
 function with_errors(series) {
     const ends = (side) => series.y.map((_, i) => ends_at(series, i)?.[side] ?? null);
     return series.errors || series.low ? [series.y, ends(0), ends(1)] : [series.y];
 }
 
 export class Plot {
-    /// What the figures of this page are of, for those that are saved.
+    /// Subject of this page's figures, for saved files.
     static of = () => "";
 
-    /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: what the
-    /// verticals without a text are. choose(x, key) is called when a person picks a point with a click or Enter; key is
-    /// the point's entry in its series' `keys`, null for a mark.
+    /// host: an empty element. labels: {title, x, y} with units; x_name, x_unit, hint for the readout; lines: meaning of the verticals
+    /// without a text. choose(x, key): called when the user picks a point with a click or Enter; key: the point's entry in its series'
+    /// `keys`, null for a mark.
     constructor(host, labels, { height = 260, choose = null, y_from_zero = false } = {}) {
         this.labels = labels;
         this.plain_height = height;
@@ -30,7 +30,7 @@ export class Plot {
         this.y_from_zero = y_from_zero;
         this.data = { series: [], marks: [], lines: [], levels: [], bands: [] };
         this.at = null; // index into stops
-        this.curve_at = 0; // the series that Enter and the arrow keys up and down mean
+        this.curve_at = 0; // the series of Enter and the arrow keys up and down
         this.picture = svg("svg", { class: "plot", role: "img", tabindex: 0 });
         this.readout = element("p", { class: "readout", "aria-live": "polite" });
         this.legend = element("ul", { class: "legend" });
@@ -47,12 +47,11 @@ export class Plot {
         this.picture.addEventListener("keydown", (event) => this.key(event));
     }
 
-    /// data: {series: [{name, unit, x, y, points, scatter, keys, names, looks, notes, errors}], marks: [{x, kind, label}],
-    /// lines: [{x, label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}], names: [{x, label}] when the
-    /// abscissa has names at 0, 1, 2, ... instead of numbers, x_label: what they are, x_log: a logarithmic abscissa}. points: markers; scatter: no line between
-    /// them; names: what each point is called; looks, notes: what is to be known of it (flags.js); errors: how far it may be off, to either side,
-    /// or low and high: where it may be instead. Marks sit on the abscissa
-    /// (kind: failed, skipped, running, pending), lines are verticals, levels horizontals, bands shaded stretches.
+    /// data: {series: [{name, unit, x, y, points, scatter, keys, names, looks, notes, errors}], marks: [{x, kind, label}], lines: [{x,
+    /// label, text, kind}], levels: [{y, label}], bands: [{from, to, label, kind}], names: [{x, label}] of an abscissa with names at 0, 1,
+    /// 2, ..., x_label: its title, x_log: logarithmic}. Of a series: points: markers; scatter: no line; names, looks, notes: of each point
+    /// (flags.js); errors: error bars to either side, or low and high: ranges. Marks sit on the abscissa (kind: failed, skipped, running,
+    /// pending), lines are verticals, levels horizontals, bands shaded ranges.
     show(data) {
         this.data = { marks: [], lines: [], levels: [], bands: [], ...data };
         const stops = new Set(this.data.marks.map((each) => each.x));
@@ -92,7 +91,7 @@ export class Plot {
         this.mark_now(this.now);
     }
 
-    /// A vertical that moves along with something else that is shown; null: none. One beyond the axis stays at its end.
+    /// A vertical at the time of another view; null: none. Outside the axis it stays at its end.
     mark_now(x) {
         this.now = x;
         if (!this.now_line) return;
@@ -104,7 +103,7 @@ export class Plot {
         this.now_line.setAttribute("d", `M${at},${margin.top}V${this.height - this.bottom}`);
     }
 
-    /// Named ticks that do not fit side by side are turned, and the picture grows for them.
+    /// Turns the names of ticks that do not fit side by side, and makes room for them.
     turn_names() {
         const { names } = this.data;
         this.turned = 0;
@@ -192,8 +191,8 @@ export class Plot {
 
     // ---- readout
 
-    /// [index of the stop, index of the series, index in it] next to the pointer; of markers the next in both directions. Without the last
-    /// one: the first that stands there.
+    /// [index of the stop, of the series, of the point in it] nearest to the pointer; for markers in both directions. Without the last
+    /// index: the first point there.
     nearest(event) {
         if (!this.stops || this.stops.length === 0 || !this.x_range) return [null, 0];
         const box = this.picture.getBoundingClientRect();
@@ -203,7 +202,7 @@ export class Plot {
             const distance = Math.abs(this.px(stop) - x);
             if (distance < best.distance) best = { stop: i, distance, series: this.curve_at };
         });
-        const reach = best.distance + 6; // markers above each other: the one that is pointed at
+        const reach = best.distance + 6; // markers above each other: the one below the pointer
         let nearest = Infinity;
         this.data.series.forEach((series, k) => series.points && series.x.forEach((at, i) => {
             const dx = Math.abs(this.px(at) - x);
@@ -232,8 +231,8 @@ export class Plot {
         this.choose(x, meant?.series.keys?.[meant.i] ?? null);
     }
 
-    /// The series that have a value at x; of the one that is meant, where several of its points stand there, the i-th. A step has two: from x on
-    /// it is the second.
+    /// The series that have a value at x. meant, at: series and index of the chosen point. A step has two points at its x: the second
+    /// counts.
     at_stop(x, meant = null, at = null) {
         return this.data.series.map((series, index) => ({ series, index, i: index === meant && at !== null ? at : series.scatter ? series.x.indexOf(x) : series.x.lastIndexOf(x) }))
             .filter(({ series, i }) => i >= 0 && Number.isFinite(series.y[i]));

@@ -1,11 +1,11 @@
-// The parts of a plot's picture: curves, marks on the abscissa, verticals, levels, bands, and their legend. Each takes
-// the plot for its scales: px(x), py(y), left, width, height.
+// The parts of a plot: curves, marks on the abscissa, verticals, levels, bands, and the legend. Each uses the plot's scales: px(x), py(y),
+// left, width, height.
 import { element, svg } from "./dom.js";
 import { looks } from "./flags.js";
 import { number } from "./format.js";
 import { thinned } from "./plot_scale.js";
 
-export const margin = { right: 14, top: 12, bottom: 46 }; // below: more where ticks have long names, see plot.bottom
+export const margin = { right: 14, top: 12, bottom: 46 }; // bottom: more where ticks have long names, see plot.bottom
 const label_width = 15; // verticals closer than this share one label [px]
 
 const marker_shapes = ["M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-4,-4h8v8h-8z", "M0,-5.5L5,3.5H-5z", "M0,-5.5L5,0L0,5.5L-5,0z",
@@ -14,7 +14,7 @@ const marker_shapes = ["M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0", "M-4,-4h8v8h-8z", "
                        "M0,-6L1.5,-2L5.7,-1.9L2.4,.8L3.5,4.9L0,2.5L-3.5,4.9L-2.4,.8L-5.7,-1.9L-1.5,-2z",
                        "M-5.5,0L3.5,-5V5z", "M5.5,0L-3.5,-5V5z", "M-4.5,-5H4.5L-4.5,5H4.5z",
                        "M0,-2.4L2.9,-5.3L5.3,-2.9L2.4,0L5.3,2.9L2.9,5.3L0,2.4L-2.9,5.3L-5.3,2.9L-2.4,0L-5.3,-2.9L-2.9,-5.3z"];
-const arrow_shape = "M0,-7V-16M-3.5,-12.5L0,-16L3.5,-12.5"; // upwards from a marker: the value is a lower bound
+const arrow_shape = "M0,-7V-16M-3.5,-12.5L0,-16L3.5,-12.5"; // lower bound: an arrow upwards from a marker
 const mark_shapes = {
     failed: "M-5,-5L5,5M-5,5L5,-5",
     skipped: "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0M-3.5,3.5L3.5,-3.5",
@@ -23,7 +23,7 @@ const mark_shapes = {
 };
 export const series_colours = 12;
 export const series_class = (index) => `series-${index % series_colours}`;
-/// After the twelfth series the colours begin again with other shapes.
+/// After the last colour the colours repeat with other shapes.
 const shape_of = (index) => marker_shapes[(index + 5 * Math.floor(index / series_colours)) % marker_shapes.length];
 
 export function curve(plot, data, index) {
@@ -35,17 +35,17 @@ export function curve(plot, data, index) {
     return [...parts, ...drawn.flatMap((i) => marker(data, index, i, `translate(${plot.px(data.x[i])},${plot.py(data.y[i])})`))];
 }
 
-/// Half the width of the band at a point; null: its error is not known.
+/// Half the error band at a point; null: unknown.
 export const error_at = (data, i) => (Number.isFinite(data.errors?.[i]) && Number.isFinite(data.y[i]) ? data.errors[i] : null);
 
-/// Both ends of the band at a point, by its error or as they are given; null: not known.
+/// Both ends of the band at a point, from its error or its range; null: unknown.
 export function ends_at(data, i) {
     if (Number.isFinite(data.low?.[i]) && Number.isFinite(data.high?.[i])) return [data.low[i], data.high[i]];
     const error = error_at(data, i);
     return error === null ? null : [data.y[i] - error, data.y[i] + error];
 }
 
-/// How far the values may be off: a whisker at each point, and a band where neighbours both have one. Ends that are given have no whiskers.
+/// A whisker at each point with a known error, and a band between neighbours that both have one. Ranges have no whiskers.
 function error_parts(plot, data, index, drawn) {
     const at = (i, side) => `${plot.px(data.x[i]).toFixed(1)},${plot.py(ends_at(data, i)[side]).toFixed(1)}`;
     const known = new Set(drawn.filter((i) => ends_at(data, i) !== null));
@@ -56,7 +56,7 @@ function error_parts(plot, data, index, drawn) {
     return band ? [svg("path", { class: `error-band ${series_class(index)}`, d: band }), ...parts] : parts;
 }
 
-/// One point: filled when it is sound, hollow and so on as its look says, with its note as a title.
+/// One point in the style of its look, with its note as a title.
 function marker(data, index, i, transform) {
     const look = data.looks?.[i] ?? "";
     const note = data.notes?.[i] ? [svg("title", {}, data.notes[i])] : [];
@@ -90,7 +90,7 @@ export function mark(plot, { x, kind, label }) {
                svg("title", {}, label));
 }
 
-/// Verticals, and the texts of those that have one; neighbours' texts are put together.
+/// Verticals and their texts; joins the texts of neighbours.
 export function verticals(plot, lines) {
     const bottom = plot.height - plot.bottom;
     const parts = lines.map((line) => svg("path", { class: `event ${line.kind ?? ""}`, d: `M${plot.px(line.x)},${margin.top}V${bottom}` },
@@ -122,7 +122,7 @@ export function level(plot, { y, label }, index) {
     return outside ? [text] : [svg("path", { class: "level", d: `M${plot.left},${at}H${right}` }), text];
 }
 
-/// A shaded stretch of the abscissa, its name at the top.
+/// A shaded range of the abscissa, with its name at the top.
 export function band(plot, { from, to, label, kind }, index) {
     const clamp = (x) => Math.min(plot.x_range[1], Math.max(plot.x_range[0], x));
     const [left, right] = [plot.px(clamp(from)), plot.px(clamp(to))];

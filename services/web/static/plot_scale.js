@@ -1,4 +1,4 @@
-// Numbers behind a plot: round values for axes, ranges, thinning of long curves.
+// Round values for axes, ranges, and thinning of long curves.
 import { number } from "./format.js";
 
 /// About `wanted` round values that cover [low, high].
@@ -11,7 +11,7 @@ export function ticks(low, high, wanted) {
     return { values, step };
 }
 
-/// Powers of ten in [low, high], with their 2 and 5 folds where those are few.
+/// Powers of ten in [low, high], with their multiples by 2 and 5 if there are few.
 export function log_ticks(low, high) {
     const few = Math.log10(high / low) < 3;
     const values = [];
@@ -23,7 +23,7 @@ export function log_ticks(low, high) {
 
 export function tick_label(value, step) {
     if (Math.abs(value) < 1e-9 * step) return "0";
-    // As many digits as tell one tick from the next: coordinates may be 456,230 m with ticks of 10 m.
+    // As many digits as distinguish the ticks: coordinates may be 456,230 m with ticks of 10 m.
     const digits = 1 + Math.floor(Math.log10(Math.abs(value)) + 1e-9) - Math.floor(Math.log10(step) + 1e-9);
     if ((Math.abs(value) >= 1e5 && digits <= 3) || Math.abs(value) >= 1e7 || step < 1e-4) return number(value, Math.max(3, digits + 1));
     const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
@@ -31,7 +31,7 @@ export function tick_label(value, step) {
     return value.toFixed(fits ? decimals : decimals + 1);
 }
 
-/// Range of the finite values, a little wider; `least` values are always inside.
+/// Range of the finite values, slightly widened; always includes `least`.
 export function range_of(lists, least) {
     let low = Infinity;
     let high = -Infinity;
@@ -47,9 +47,9 @@ export function range_of(lists, least) {
     return [low, high];
 }
 
-const most_widened = 3; // a level that would make the range longer than this many times stays outside
+const most_widened = 3; // limit for widening the range to show a level
 
-/// The range, widened to the levels that it can take in without pressing the curves flat.
+/// The range, widened to the levels that do not flatten the curves.
 export function widened(range, levels) {
     let [low, high] = range;
     for (const level of [...levels].sort((a, b) => Math.abs(a - (low + high) / 2) - Math.abs(b - (low + high) / 2))) {
@@ -59,7 +59,7 @@ export function widened(range, levels) {
     return [low, high];
 }
 
-/// Points per pixel column that a long curve is thinned to: the lowest and highest stay, so no peak is lost.
+/// Indices of a thinned curve: keeps the lowest and highest point per pixel column, so no peak is lost.
 export function thinned(xs, ys, columns) {
     if (xs.length <= 4 * columns) return xs.map((_, i) => i);
     const kept = [];

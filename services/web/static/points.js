@@ -7,9 +7,9 @@ import { draw_edge, fill_quad, fill_square } from "./raster.js";
 
 const unknown = packed(unknown_css);
 const region_packed = Uint32Array.from({ length: 256 }, (_, i) => packed(region_css(i)));
-const least_edge = 4; // [CSS px] shorter edges of elements are not drawn
+const least_edge = 4; // [CSS px] shorter edges are not drawn
 
-const edge = { left: 52, right: 10, top: 10, bottom: 34 }; // room for the axes [CSS px]
+const edge = { left: 52, right: 10, top: 10, bottom: 34 }; // margins for the axes [CSS px]
 
 /// {x: [low, high], y: [low, high]} of several snapshots; null without points.
 export function extents_of(snapshots) {
@@ -25,8 +25,8 @@ export function extents_of(snapshots) {
     return box.x[0] <= box.x[1] ? box : null;
 }
 
-/// Distance to the fourth-nearest other point, upper tenth of a sample [m]: on a rectangular arrangement the longer of its
-/// two spacings, so squares of this size leave no gaps.
+/// Distance to the fourth-nearest point, upper tenth of a sample [m]: in a rectangular pattern the longer spacing, so that squares of this
+/// size leave no gaps.
 export function spacing_of({ columns: { x, y }, count }) {
     const sample = Math.min(60, count);
     const distances = [];
@@ -47,9 +47,9 @@ export function spacing_of({ columns: { x, y }, count }) {
 }
 
 export class PointView {
-    /// overlay, drawn over the soil: {outlines: [[[x, y], ...], ...], toe: [x, y] | null, gauges: [{name, x, y}], water: [[x, y], ...] | null,
-    /// vectors: true | false, cut: [[x, y], [x, y]] | null}. moved(view): a hand has moved the picture. pick([x, y]): a person clicks and
-    /// someone waits for it; null otherwise.
+    /// overlay, drawn over the soil: {outlines: [[[x, y], ...], ...], toe: [x, y] | null, gauges: [{name, x, y}], water: [[x, y], ...] |
+    /// null, vectors: true | false, cut: [[x, y], [x, y]] | null}. moved(view): called after the user moved the picture. pick([x, y]):
+    /// receives a click; null: none wanted.
     constructor(canvas) {
         this.canvas = canvas;
         this.context = canvas.getContext("2d", { alpha: false });
@@ -65,8 +65,8 @@ export class PointView {
         this.listen();
     }
 
-    /// colour: {field, low, high, contours} of numbers (contours: nodal values of a mesh in bands, else one colour per element), or
-    /// {field, named: true} of indices into a list of names.
+    /// colour: {field, low, high, contours} for numbers (contours: nodal values of a mesh in bands, else one colour per element), or
+    /// {field, named: true} for indices into a list of names.
     show(snapshot, colour, spacing) {
         this.snapshot = snapshot;
         this.colour = colour;
@@ -74,7 +74,7 @@ export class PointView {
         this.redraw();
     }
 
-    /// The part of the world that fit() shows.
+    /// The box that fit() shows.
     set_box(box) {
         this.box = box;
         if (this.fitted) this.fit();
@@ -110,7 +110,7 @@ export class PointView {
         this.redraw();
     }
 
-    /// dx, dy in CSS pixels, as the hand moves.
+    /// dx, dy: movement in CSS pixels.
     pan(dx, dy) {
         if (!this.scale) return;
         this.centre = [this.centre[0] - (dx * this.ratio) / this.scale, this.centre[1] + (dy * this.ratio) / this.scale];
@@ -175,7 +175,7 @@ export class PointView {
         this.paint_time = performance.now() - began;
     }
 
-    /// Index into the number scale for every point, or into the names.
+    /// Index into the colour scale, or into the names, for every point.
     shades() {
         const values = this.snapshot.columns[this.colour.field];
         const shades = new Int16Array(this.snapshot.count).fill(-1);
@@ -217,7 +217,7 @@ export class PointView {
         }
     }
 
-    /// The nodes' places [device pixels].
+    /// Node positions [device pixels].
     nodes() {
         const { columns } = this.snapshot;
         const [origin_x, origin_y] = this.to_screen(0, 0);
@@ -233,7 +233,7 @@ export class PointView {
         this.paint_edges(image, x, y, () => packed(line), 0.18);
     }
 
-    /// Every element in the mean of its corners' shades, its edges drawn towards the line's colour.
+    /// Fills every element with the mean of its corners' shades, with edges mixed with the line's colour.
     paint_quads(image, shades, palette, line) {
         const { quads } = this.snapshot;
         const { x, y } = this.nodes();
@@ -247,7 +247,7 @@ export class PointView {
         this.paint_edges(image, x, y, (q) => colour_of(q, edges, unknown_edge));
     }
 
-    /// Unless the elements are so small that nothing else would be seen. share: how much of the line's colour goes over what is there.
+    /// Draws edges unless the elements are too small. share: opacity of the line's colour.
     paint_edges(image, x, y, colour_of, share = 1) {
         const { quads } = this.snapshot;
         if (this.mean_edge(x, y) <= least_edge * this.ratio) return;
@@ -257,7 +257,7 @@ export class PointView {
         }
     }
 
-    /// Of the corners that have one; -1 when none has.
+    /// Mean of the corners with a shade; -1: none.
     shade_of(corners, shades) {
         let [sum, known, least] = [0, 0, 256];
         for (const corner of corners) {
@@ -270,7 +270,7 @@ export class PointView {
         return this.colour.named ? least : Math.round(sum / known);
     }
 
-    /// [device pixels], of a sample.
+    /// Mean edge length of a sample [device pixels].
     mean_edge(x, y) {
         const { quads } = this.snapshot;
         const step = 4 * Math.max(1, Math.floor(quads.length / 4 / 100));
@@ -307,7 +307,7 @@ export class PointView {
         const area = this.plot_area();
         const bottom = area.top + area.height;
         const right = area.left + area.width;
-        context.fillStyle = ground; // what ran over the margins
+        context.fillStyle = ground; // clears the margins
         context.fillRect(0, 0, area.left, canvas.height);
         context.fillRect(right, 0, canvas.width - right, canvas.height);
         context.fillRect(0, 0, canvas.width, area.top);
@@ -343,12 +343,12 @@ export class PointView {
         context.stroke();
     }
 
-    // ---- hands
+    // ---- mouse and touch
 
     listen() {
         const { canvas } = this;
         const hands = new Map();
-        let pressed = null; // where a click may have begun
+        let pressed = null; // start of a possible click
         canvas.addEventListener("pointerdown", (event) => {
             canvas.setPointerCapture(event.pointerId);
             hands.set(event.pointerId, event);
@@ -374,7 +374,7 @@ export class PointView {
             canvas.addEventListener(end, (event) => hands.delete(event.pointerId));
         }
         canvas.addEventListener("wheel", (event) => {
-            // The page scrolls past the picture unless it was clicked or Ctrl is held.
+            // The page scrolls past the picture unless it has the focus or Ctrl is held.
             if (document.activeElement !== canvas && !event.ctrlKey) return;
             event.preventDefault();
             this.zoom(1.0015 ** -event.deltaY, this.place_of(event));
@@ -382,7 +382,7 @@ export class PointView {
         canvas.addEventListener("keydown", (event) => this.key(event));
     }
 
-    /// [device pixels]
+    /// Position of an event [device pixels].
     place_of(event) {
         const box = this.canvas.getBoundingClientRect();
         return [(event.clientX - box.left) * this.ratio, (event.clientY - box.top) * this.ratio];

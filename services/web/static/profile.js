@@ -1,4 +1,4 @@
-// The profile along a cut through the soil: its ends by two clicks or as numbers, its curve, its CSV.
+// The profile along a cut through the soil: ends by two clicks or as numbers, curve, CSV.
 import { by_id, set_text } from "./dom.js";
 import { values_along } from "./cut.js";
 import { field_label, field_name, is_named, unit_of } from "./fields.js";
@@ -9,7 +9,7 @@ import { Plot } from "./plot.js";
 const inputs = ["cut-x1", "cut-y1", "cut-x2", "cut-y2"];
 
 export class Profile {
-    /// view: the PointView that the cut is drawn on and clicked in.
+    /// view: the PointView that shows the cut and receives the clicks.
     constructor(view) {
         this.view = view;
         this.plot = new Plot(by_id("profile-plot"), { title: "Profile", x: "distance from A along the cut [m]", y: "", x_name: "from A", x_unit: "m" },
@@ -55,7 +55,7 @@ export class Profile {
         this.read_inputs();
     }
 
-    /// Of the picture that is seen now. of: what it is of, in words.
+    /// Shows the profile of the present picture. of: its subject in words.
     show(snapshot, field, spacing, of) {
         Object.assign(this, { snapshot, field, spacing, of });
         this.draw();

@@ -1,5 +1,5 @@
-// Where a number comes from: the chain of phases behind one point of the sweep, from its runout back to its FEM, each
-// with its settings, inputs, files and hashes, and the command that makes it again.
+// Where a number comes from: the tasks behind one point of the sweep, from its runout back to its FEM, with settings, inputs, files,
+// hashes, and the command to repeat them.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
 import { flag_items } from "./flags.js";
@@ -12,10 +12,10 @@ const column_names = {
     overlap: ["overlap", "–"], factor_of_safety: ["factor of safety", ""],
     factor_of_safety_liquefied: ["factor of safety, liquefied", ""], cpu_seconds: ["CPU time of the MPM run", "s"],
 };
-const result_paths = { numerical_share: "energy.numerical.share", factor_of_safety_liquefied: "stages[-1].factor_of_safety" }; // others stand in result.json under their own name
+const result_paths = { numerical_share: "energy.numerical.share", factor_of_safety_liquefied: "stages[-1].factor_of_safety" }; // other columns have the same name in result.json
 
 export class Provenance {
-    /// look_at(row): a person wants to see this point's particles.
+    /// look_at(row): called to show this point's particles.
     constructor(look_at) {
         this.dialog = by_id("provenance");
         by_id("provenance-close").addEventListener("click", () => this.dialog.close());
@@ -47,12 +47,12 @@ export class Provenance {
     }
 }
 
-/// The stability analysis of a row's variant, or the one that serves all.
+/// The stability analysis of a row's variant, or the shared one.
 export const stability_of = (run, { variant }) => run.tasks.find((task) => task.phase === "lem_tool" && [variant, ""].includes(task.variant));
 
-let known = { run: null, count: 0, fems: new Map() }; // of the run that was looked at last
+let known = { run: null, count: 0, fems: new Map() }; // of the last run
 
-/// Which FEM task each transfer task of a run was taken from; asked again when the run has more transfers.
+/// Map of a run's transfer tasks to their FEM tasks; read again when the run has more transfers.
 export async function fems_of(run) {
     const count = run.tasks.filter(({ phase }) => phase === "transfer_tool").length;
     if (known.run !== run.id || known.count !== count)
@@ -60,16 +60,16 @@ export async function fems_of(run) {
     return known.fems;
 }
 
-/// The id of the FEM task behind a transfer. One that serves several variants has the name of the first: by its name it is
-/// found only where the server does not tell.
+/// The id of the FEM task behind a transfer. A FEM shared by several variants has the name of the first, so the name is used only if the
+/// server does not report the FEM.
 export function fem_of(run, transfer, fems, variant = transfer?.variant) {
     if (fems.has(transfer?.id)) return fems.get(transfer.id);
     const all = run.tasks.filter(({ phase }) => phase === "fem_solver");
     return (all.find((task) => task.variant === variant) ?? (all.length === 1 ? all[0] : null))?.id;
 }
 
-/// The tasks from the runout back to the FEM (of a factor of safety, its analysis), each as {task, provenance: of its result.json, or of the fault.json of one
-/// that broke down, or null}.
+/// The tasks from the runout back to the FEM, or the analysis of a factor of safety, each as {task, provenance: from its result.json, or
+/// from fault.json after a breakdown, or null}.
 async function chain_of(run, row, stability) {
     const transfer = run.tasks.find((task) => task.id === row.transfer_task);
     const fem_id = stability ? null : fem_of(run, transfer, await fems_of(run), transfer?.variant || row.variant);
@@ -83,7 +83,7 @@ async function chain_of(run, row, stability) {
     }));
 }
 
-/// What made this transfer: a time in the study, or a trigger with what it saw.
+/// The reason of this transfer: a time in the study, or a trigger with its values.
 function asked_for(run, row, steps) {
     const trigger = run.triggers.find(({ name }) => name && name === row.trigger);
     const firing = trigger?.firings.find((each) => Math.abs(each.transfer_time - row.transfer_time) < 1e-6);
@@ -134,7 +134,7 @@ const facts = (lines) => element("dl", { class: "facts" }, ...lines.map(([name, 
 const hash_link = (sha256, name) => element("a", { href: api.artifact_path(sha256), download: name }, element("code", {}, sha256));
 const file_name = (path) => path.split("/").at(-1);
 
-/// A task that ended without a result says why, and what that leaves unknown.
+/// Why a task has no result, and what is unknown therefore.
 function no_result(task) {
     if (is_active(task.state)) return "No result.json yet.";
     if (task.not_reached) return `Not reached: ${task.fault?.summary ?? ""}.`;
@@ -170,7 +170,7 @@ function files(task) {
                 element("td", {}, element("a", { href: api.provenance_path(file.sha256), download: `${file.name}.prov.json` }, "provenance"))))))));
 }
 
-/// The completed scene has the overrides in it already.
+/// The completed scene includes the overrides.
 function again(task, provenance) {
     if (!provenance) return null;
     const inputs = (provenance.inputs ?? []).map(({ path }) => ` --input ${file_name(path)}`).join("");

@@ -1,4 +1,4 @@
-// What a study asks: the parts of the document that each question needs are put in or taken out; what is taken out comes back with its question.
+// The question of a study: inserts and removes the parts of the document that it needs. Removed parts return with their question.
 import { by_id, element, set_text } from "./dom.js";
 
 const kinds = [
@@ -11,14 +11,14 @@ const kinds = [
 const kind_of = ({ fem, mpm }) => (fem ? "seismic" : mpm ? "static" : "stability");
 const defined = (entries) => Object.fromEntries(Object.entries(entries).filter(([, value]) => value !== undefined));
 
-/// Residual strengths of undrained soils, in the runout and in the stability analysis alike.
+/// Pointers of the residual strengths of undrained soils, in the runout and the stability analysis.
 function residual_strengths({ materials = {}, lem }) {
     const soils = Object.entries(materials).filter(([, { law }]) => law?.phi_deg === 0 && law.c_kPa > 0).map(([name]) => `/materials/${name}/law/c_kPa`);
     return [...soils, ...(lem?.liquefaction ?? []).flatMap((_, i) => ["residual_strength_kPa", "residual_coefficient_kPa"].filter((name) => name in lem.liquefaction[i]).map((name) => `/lem/liquefaction/${i}/${name}`))];
 }
 
 export class Question {
-    /// edit(change): change(study) -> the study that is wanted; template: {is_shaken(): true, false or null where it has no earthquake, make(is_shaken)}.
+    /// edit(change): replaces the study by change(study); template: {is_shaken(): true, false or null (no earthquake), make(is_shaken)}.
     constructor(edit, template) {
         Object.assign(this, { edit, template, parked: null });
         this.rows = kinds.map((kind) => {
@@ -56,7 +56,7 @@ export class Question {
         this.template.make(name === "seismic");
     }
 
-    /// A study as it was made, without what is not asked; that is kept.
+    /// A generated study without the parts that the question does not need; they are kept.
     shaped(study) {
         if (this.parked === null) return study;
         const { transfer_times, triggers, variants, scene: { fem, transfer, mpm, ...scene }, ...others } = study;

@@ -1,8 +1,8 @@
-// Pixels of soil: squares for particles, quads and their edges for a mesh, written straight into an image. Faster than a
-// canvas's paths by far, without a GPU. A colour is 32 bits as ImageData holds them; coordinates are device pixels.
+// Pixels of soil: squares for particles, quads and their edges for a mesh, drawn into an image; much faster than a canvas's paths, without
+// a GPU. Colours are 32-bit values as in ImageData; coordinates are device pixels.
 import { mixed } from "./colours.js";
 
-const short_span = 24; // pixels; a loop is quicker than fill() below
+const short_span = 24; // pixels; shorter spans are faster in a loop than with fill()
 
 function span(image, row, first, end, colour) {
     const { pixels, width } = image;
@@ -21,7 +21,7 @@ export function fill_square(image, left, top, size, colour) {
     for (let row = Math.max(top, 0); row < last_row; row += 1) span(image, row, first, end, colour);
 }
 
-/// The quad through nodes a, b, c, d, whose places are in x and y. Neighbours share their edge without gap or overlap.
+/// The quad through the nodes a, b, c, d at x and y. Neighbours share their edge without gap or overlap.
 export function fill_quad(image, x, y, [a, b, c, d], colour) {
     const lowest = Math.min(y[a], y[b], y[c], y[d]);
     const highest = Math.max(y[a], y[b], y[c], y[d]);
@@ -44,7 +44,7 @@ export function fill_quad(image, x, y, [a, b, c, d], colour) {
     }
 }
 
-/// A line one pixel wide from node a to node b; share: how much of its colour goes over what is there.
+/// A line one pixel wide from node a to node b; share_of_colour: its opacity.
 export function draw_edge(image, x, y, a, b, colour, share_of_colour = 1) {
     const { pixels, width, height } = image;
     const [dx, dy] = [x[b] - x[a], y[b] - y[a]];

@@ -1,14 +1,14 @@
-// Another title for a run.
+// The dialog for a run's title.
 import * as api from "./api.js";
 import { by_id, set_text } from "./dom.js";
 
 export class RenameDialog {
-    /// renamed(): the run has another title.
+    /// renamed(): called after the title changed.
     constructor(renamed) {
         this.dialog = by_id("rename-dialog");
         by_id("rename-keep").addEventListener("click", () => this.dialog.close());
         this.dialog.querySelector("form").addEventListener("submit", async (event) => {
-            event.preventDefault(); // closed when the server has taken it
+            event.preventDefault(); // closed when the server accepted it
             try {
                 await api.rename_run(this.run.id, by_id("rename-text").value.trim());
                 this.dialog.close();

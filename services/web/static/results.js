@@ -1,4 +1,4 @@
-// Runout against transfer time: one curve per variant, the window and the plateau of the triggers, its table, its CSV.
+// Runout against transfer time: one curve per variant, window and plateau of the triggers, table, CSV.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_codes, flag_note, look_of, rest_text, trust_of } from "./flags.js";
@@ -21,11 +21,11 @@ const columns = [...of_runout, "factor_of_safety", "factor_of_safety_liquefied",
 const unit_of = (measure) => (is_safety(measure) ? "" : "m");
 const y_label_of = (measure) => (is_safety(measure) ? "factor of safety [–]" : "runout from the toe [m]");
 
-/// Left out where the table has no room for them, until a person asks for all.
+/// Hidden where the table has no room, until the user shows all.
 const folded = new Set(["runout_largest", "volume_ratio", "overlap"]);
 
 export class Results {
-    /// look_at(row): a person wants to see this point's particles. ask(row, column): where its numbers come from.
+    /// look_at(row): called to show this point's particles. ask(row, column): called to show where its numbers come from.
     constructor({ look_at, ask }) {
         Object.assign(this, { look_at, ask, rows: [], means: [], of_mean: null });
         this.plot = new Plot(by_id("runout-plot"), {
@@ -46,7 +46,7 @@ export class Results {
         });
     }
 
-    /// Where a number comes from: of a mean the draws that it is made of.
+    /// Shows where a number comes from; for a mean, its repeats.
     trace(row, column) {
         if (!row?.mean) {
             this.ask(row, column);
@@ -61,7 +61,7 @@ export class Results {
         return this.means.length > 0 && by_id("runout-draws").value === "means";
     }
 
-    /// Of a study with draws: the means, each draw, or those of one mean.
+    /// In a study with repeats: the means, all repeats, or those of one mean.
     chosen() {
         if (this.shows_means()) return this.means;
         return this.of_mean ? draws_of(this.of_mean, this.rows, this.run.study) : this.rows;
@@ -79,7 +79,7 @@ export class Results {
         return [...(this.shows_means() ? this.means : []), ...this.rows].find((row) => key_of(row) === key);
     }
 
-    /// Returns the rows, for those who want to draw other things of them.
+    /// Returns the rows for other views.
     show(run, { rows, means, without_transfer: without }) {
         if (this.run?.id !== run.id) {
             this.of_mean = null;
@@ -90,7 +90,7 @@ export class Results {
         this.run = run;
         this.variants = variants_of(run);
         this.rows = rows.sort(by_point(this.variants));
-        by_id("runouts").hidden = Boolean(run.study?.uncertainty); // its samples are shown elsewhere
+        by_id("runouts").hidden = Boolean(run.study?.uncertainty); // the uncertainty view shows its samples
         if (by_id("runouts").hidden) return this.rows;
         this.offer_what_there_is();
         this.offer_parameters();
@@ -101,17 +101,17 @@ export class Results {
             : several ? `runs (transfer times × ${this.variants.length} variants)` : "transfer times";
         const draws = this.means[0]?.draws;
         set_text(by_id("runout-progress"), `${finished} of ${rows.length} ${draws ? `runs (${draws} repeats each)` : what} finished`);
-        by_id("runout-plot").hidden = rows.length < 2; // one number stands at the top
+        by_id("runout-plot").hidden = rows.length < 2; // a single number is in the head
         by_id("runout-table").parentElement.hidden = rows.length === 0 && without?.length > 0;
         return this.rows;
     }
 
-    /// A scene without a FEM has no transfer times: its variants stand side by side.
+    /// Without a FEM there are no transfer times: the abscissa has the variants.
     is_static() {
         return !this.run.tasks.some(({ phase }) => phase === "fem_solver" || phase === "transfer_tool");
     }
 
-    /// What the run cannot have is not asked about: runouts of a stability analysis alone, factors of safety without one.
+    /// Offers only measures that the run has: no runout for a stability analysis alone, no factor of safety without one.
     offer_what_there_is() {
         const has = (phase) => this.run.tasks.some((task) => task.phase === phase);
         const liquefies = this.rows.some((row) => Number.isFinite(row.factor_of_safety_liquefied));
@@ -126,7 +126,7 @@ export class Results {
         shown.toggle("no-time", this.is_static());
     }
 
-    /// What can stand on the abscissa instead: the numbers that differ between the variants.
+    /// Offers the numeric differences between variants as abscissas.
     offer_parameters() {
         this.parameters = parameters_of(this.run.study);
         const select = by_id("runout-abscissa");
@@ -142,7 +142,7 @@ export class Results {
         return this.parameters.find(({ pointer }) => pointer === by_id("runout-abscissa").value);
     }
 
-    /// The rows that a person wants to see: all, or without the finished ones that are not known to be sound.
+    /// The rows to show: all, or without finished ones that are not sound.
     shown() {
         if (by_id("runout-trust").value === "all") return this.chosen();
         return this.chosen().filter((row) => !is_finished(row) || trust_of(row) === "sound");
@@ -161,7 +161,7 @@ export class Results {
         this.draw();
     }
 
-    /// Variants that have no place on a parameter's axis are not silently left out.
+    /// Names the variants that have no place on a parameter's axis.
     unplaced_note() {
         const parameter = this.parameter();
         const without = parameter ? this.shown_variants().filter((variant) => parameter.value_of(variant) === null) : [];
@@ -169,7 +169,7 @@ export class Results {
             `${without.map((variant) => variant || "the scene itself").join(", ")}.`;
     }
 
-    /// One colour and one shape per variant, over a number that differs between them.
+    /// One colour and one shape per variant, over the parameter.
     draw_against({ pointer, value_of }, lines, points, marks, errors_name) {
         const placed = lines.filter(({ variant }) => value_of(variant) !== null);
         this.plot.labels.x_name = pointer.split("/").at(-1);
@@ -205,7 +205,7 @@ export class Results {
         const side_by_side = this.is_static() || (several && lines.length > 1 && new Set(rows.map((row) => row.transfer_time)).size === 1);
         set_text(by_id("runout-title"), what + (!side_by_side ? " against transfer time" : several ? " by variant" : ""));
         if (side_by_side) {
-            // One transfer time: the variants stand side by side.
+            // One transfer time: the abscissa has the variants.
             const at = (row) => lines.findIndex(({ variant }) => variant === row.variant);
             this.plot.show({
                 series: [{ name: [measures[measure], point_name({ ...rows[0], variant: "" })].filter(Boolean).join(", "), scatter: true,
@@ -242,18 +242,19 @@ export class Results {
 
 export const key_of = (row) => `${row.transfer_time}/${row.variant}${row.mean ? "/mean" : ""}`;
 
-/// Of a row that runs a factor of safety may be there before its runout.
+/// A row may have a factor of safety before its runout.
 const is_finished = (row) => Number.isFinite(row.runout) || (Number.isFinite(row.factor_of_safety) && !row.transfer_task &&
                                                             ["succeeded", "questionable"].includes(row.state));
 
-/// An accuracy study says whose error it measured; draws are of the runout. Of a mean: how its draws scatter.
+/// Error of a measure: an accuracy study names its quantity; otherwise the error is that of the runout. For a mean, the scatter of its
+/// repeats.
 function error_of(row, measure) {
     if (row.mean) return row[`${measure}_deviation`] ?? null;
     const judged = /: of (\w+)/.exec(row.runout_error_from ?? "")?.[1] ?? "runout";
     return judged === measure ? row.runout_error ?? null : null;
 }
 
-/// What is to be known of a point before its number is believed.
+/// Caution about a point's number.
 function note_of(row, measure) {
     if (!is_finished(row)) return "";
     const error = error_of(row, measure);
@@ -264,7 +265,7 @@ function note_of(row, measure) {
             flag_note(row)].filter(Boolean).join("\n");
 }
 
-/// A factor of safety is no lower bound where the runout beside it is one.
+/// A factor of safety is not a lower bound, even if the row's runout is.
 const look_of_measure = (row, measure) => (is_safety(measure) ? look_of(row).replace(/\bbound\b/, "").trim() : look_of(row));
 
 function mean_note(row, measure, deviation) {
@@ -290,7 +291,7 @@ function mark_of(row, several) {
              label: [several ? row.variant : "", row.state.replace("_", " "), row.reason].filter(Boolean).join(": ") };
 }
 
-/// "12.5", of a mean "12.5 ± 0.3".
+/// "12.5"; for a mean "12.5 ± 0.3".
 function cell_text(values, column) {
     const deviation = values.mean ? values[`${column}_deviation`] : null;
     return number(values[column]) + (Number.isFinite(deviation) ? ` ± ${number(deviation, 2)}` : "");

@@ -1,4 +1,4 @@
-// The list of runs at the side, and the head of the run that is open.
+// The list of runs, and the head of the open run.
 import { brief_answer } from "./answer.js";
 import * as api from "./api.js";
 import { differences_address } from "./differences.js";
@@ -10,10 +10,10 @@ export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
 
 const state_of = (run) => (run.paused && is_active(run.state) ? "paused" : run.state);
 
-/// What a person searches for; "" is nothing.
+/// The search text; "": none.
 export const searched = () => by_id("run-search").value.trim();
 
-/// {runs, next} as api.find_runs gives them.
+/// {runs, next}: from api.find_runs.
 export function draw_list({ runs, next }, open_id) {
     by_id("no-runs").hidden = runs.length > 0;
     set_text(by_id("no-runs"), searched() ? "None has this in its name, title or id." : "None yet.");
@@ -51,17 +51,17 @@ function fill_item(item, run, open_id) {
     else link.removeAttribute("aria-current");
 }
 
-/// The verdict with its worst reason where it is against the results of a run; "" otherwise.
+/// The verdict with its worst reason if the results are questionable or unusable; else "".
 const doubt_of = ({ verdict: { usable, words, reasons } }) => (["questionable", "no"].includes(usable) ? `${words}: ${reasons[0]?.brief}` : "");
 
-/// What the run's message says besides the reasons of its verdict.
+/// The parts of the run's message that are not reasons of its verdict.
 function beside_the_verdict({ verdict, message }) {
     const told = new Set(verdict.reasons.flatMap(({ brief }) => brief.split("; ")));
     return (message ?? "").split("; ").filter((part) => !told.has(part)).join("; ");
 }
 
 export class RunHead {
-    /// changed(): the run was given an order. edit(study): a person wants to run it again with changes.
+    /// changed(): called after an order to the run. edit(study): called to run it again with changes.
     constructor(changed, edit) {
         this.changed = changed;
         by_id("again").addEventListener("click", () => edit(this.run.study));
@@ -75,7 +75,7 @@ export class RunHead {
         for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
     }
 
-    /// What the list knows of a run, before the rest of it has come.
+    /// Shows what the list knows of a run before the rest arrives.
     begin(run) {
         set_text(by_id("run-title"), run.title || run.name);
         document.title = `${percent(run.progress)} ${run.name} – Breachline`;
@@ -110,7 +110,7 @@ export class RunHead {
         if (choice === "cancel-run") await this.command("cancel");
     }
 
-    /// Says how much disk it would give back; the server looks at the files for that, which may take a moment.
+    /// Shows the disk space that the removal frees; the server may need a moment.
     async ask_removal() {
         const { id } = this.run;
         const say = (text) => set_text(by_id("remove-frees"), text);

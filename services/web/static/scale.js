@@ -1,12 +1,11 @@
-// The scale of a field: from where to where it goes, what that is the range of, and its legend, in the page's PREFIX-scale (of numbers,
-// filled here) and PREFIX-regions (of names).
+// The scale of a field: its range, the range's origin, and the legend, in the page's PREFIX-scale (numbers) and PREFIX-regions (names).
 import { band_gradient, region_css, scale_gradient } from "./colours.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { extremes_of, field_label, is_named, note_of, reach_of, unit_of } from "./fields.js";
 import { number } from "./format.js";
 
 export class Scale {
-    /// changed(): a person wants another range.
+    /// changed(): called when the user changes the range.
     constructor(prefix, changed) {
         this.prefix = prefix;
         const id = (name) => `${prefix}-${name}`;
@@ -25,9 +24,9 @@ export class Scale {
         return by_id(`${this.prefix}-${name}`);
     }
 
-    // shown: what was drawn last: {colour, names, grey: some have no value, notes: [what the range is of, what the values are]}
+    // shown: the last drawn: {colour, names, grey: some have no value, notes: [origin of the range, meaning of the values]}
 
-    /// The colours of a field in these snapshots, which are shown at once; sources: the Snapshots that they are of. Draws the legend.
+    /// The colours of a field for snapshots shown together; sources: their Snapshots. Draws the legend.
     of(field, snapshots, sources, { contours = false } = {}) {
         const named = is_named(field);
         this.part("scale").hidden = named;
@@ -75,7 +74,7 @@ export class Scale {
     }
 
     draw_names(names) {
-        // A region and a material may share their name and not their colour: the place in the list is the key.
+        // A region and a material may have the same name with different colours: the index is the key.
         mirror(this.part("regions"), names.map((name, i) => ({ name, i })), ({ name, i }) => `${i}/${name}`,
                ({ name, i }) => element("li", {}, element("span", { class: "chip", style: `background: ${region_css(i)}` }), ` ${name}`),
                () => {});

@@ -1,7 +1,7 @@
-// What pictures of the soil show of the scene it began with.
+// Parts of a scene for pictures of the soil.
 import { parts_of } from "./json_text.js";
 
-/// The scene as a variant of the study has it: with what the study sets, and the variant after it.
+/// The scene of a variant: with the study's overrides, then the variant's.
 export function scene_of(study, variant) {
     const scene = structuredClone(study?.scene ?? {});
     const own = (study?.variants ?? []).find(({ name }) => name === variant)?.overrides ?? [];
@@ -9,7 +9,7 @@ export function scene_of(study, variant) {
     return scene;
 }
 
-/// "/pointer=value", as the phases take it: the value is JSON, else text; "-" is a list's new entry.
+/// Applies "/pointer=value" like the phases: the value is JSON, else text; "-" appends to a list.
 function set(scene, override) {
     const [pointer, text] = [override.slice(0, override.indexOf("=")), override.slice(override.indexOf("=") + 1)];
     const parts = parts_of(pointer);
@@ -32,14 +32,14 @@ export const materials_in = (scene) => new Map((scene?.section?.regions ?? []).m
 
 const outlines_in = (scene) => (scene?.section?.regions ?? []).map((region) => region.polygon ?? []);
 
-/// The section as built, the toe, the gauges.
+/// The original section, the toe, the gauges.
 export function overlay_of(scene) {
     const ground = level_of_ground(scene);
     return { outlines: outlines_in(scene), toe: scene?.mpm?.runout?.toe ?? null,
              gauges: (scene?.mpm?.gauges ?? []).map(({ name, x }) => ({ name, x, y: ground(x) })) };
 }
 
-/// The phreatic line that the scene begins with, level beyond its first and last point, as wide as the section; null: the scene has none.
+/// The initial phreatic line, extended horizontally to the section's width; null: none.
 export function water_of(scene) {
     const line = scene?.fem?.water?.line ?? scene?.transfer?.phreatic_line ?? scene?.lem?.water?.line;
     const xs = outlines_in(scene).flat().map(([x]) => x);
@@ -58,7 +58,7 @@ export function level_at(line, x) {
     return y1 + ((x - x1) / Math.max(x2 - x1, 1e-12)) * (y2 - y1);
 }
 
-/// Where gauges stand: on the terrain, else on the level floor.
+/// Level of gauges: the terrain, else the level floor.
 function level_of_ground(scene) {
     const terrain = scene?.mpm?.terrain;
     const line = Array.isArray(terrain) ? terrain : terrain?.line;

@@ -1,14 +1,14 @@
-// What the served JSON Schemas say of an entry: its shape, unit, range, default and help. Nothing here draws.
+// Reads entries of the served JSON Schemas: shape, unit, range, default and help.
 import * as api from "./api.js";
 
-/// {study, scene}, with every $ref replaced by what it names; a study's scene is the scene's schema.
+/// {study, scene} with every $ref resolved; a study's scene has the scene's schema.
 export async function read_schemas() {
     const [scene, study] = (await Promise.all([api.read_schema("scene"), api.read_schema("study")])).map((root) => expand(root, root, []));
     study.properties.scene = { ...scene, description: study.properties.scene.description };
     return { scene, study };
 }
 
-/// A definition that holds itself becomes an entry of any shape, to be written as JSON.
+/// A recursive definition becomes an entry of any shape, edited as JSON.
 function expand(entry, root, trail) {
     if (Array.isArray(entry)) return entry.map((each) => expand(each, root, trail));
     if (entry === null || typeof entry !== "object") return entry;
@@ -22,10 +22,10 @@ const is_number = (entry) => entry?.type === "number" || entry?.type === "intege
 const is_scalar = (entry) => is_number(entry) || ["string", "boolean"].includes(entry.type) || "enum" in entry;
 const is_point = (entry) => entry?.type === "array" && is_number(entry.items) && entry.minItems === 2 && entry.maxItems === 2;
 
-/// A word without a comma in it, not a sentence.
+/// A name without commas, not a sentence.
 const is_name = (entry) => entry?.type === "string" && ("enum" in entry || !entry.description || /name/.test(entry.description));
 
-/// How an entry is edited: constant, scalar, choice, group, map, tuple, points, numbers, words, rows or text (plain JSON).
+/// The editor of an entry: constant, scalar, choice, group, map, tuple, points, numbers, words, rows or text (plain JSON).
 export function shape_of(entry) {
     if ("const" in entry) return "constant";
     if (entry.oneOf) return entry.oneOf.every(is_scalar) ? "scalar" : "choice";
@@ -41,7 +41,7 @@ export function shape_of(entry) {
     return is_scalar(entry) ? "scalar" : "text";
 }
 
-/// Which of a choice's branches a value is; the first when it is none.
+/// The branch of a choice that a value belongs to; the first if none.
 export function branch_of(branches, value) {
     const kind = Array.isArray(value) ? "array" : typeof value;
     const at = branches.findIndex((branch) => {
@@ -53,7 +53,7 @@ export function branch_of(branches, value) {
 }
 export const branch_name = (branch) => branch.properties?.type?.const ?? branch.description ?? branch.type;
 
-/// The words that a scalar takes, besides numbers.
+/// The words that a scalar accepts, besides numbers.
 export const words_of = (entry) => entry.enum ?? (entry.oneOf ?? []).flatMap((branch) => branch.enum ?? []);
 export const takes_number = (entry) => is_number(entry) || Boolean(entry.oneOf?.some(is_number));
 
@@ -74,13 +74,13 @@ export function range_of(entry) {
         .filter(([limit]) => limit !== undefined).map(([limit, sign]) => sign + shown(limit)).join(", ");
 }
 
-/// "1000 to 3200", what is mostly meant; empty where the schema does not say.
+/// "1000 to 3200", the usual range; "": not in the schema.
 export function plausible_of(entry) {
     const usual = of_number(entry)["x-plausible"];
     return usual ? `${shown(usual[0])} to ${shown(usual[1])}` : "";
 }
 
-/// Why a number would be refused or implausible, or "".
+/// Why a number is invalid or implausible; "": it is neither.
 export function doubt_about(entry, value) {
     const limits = of_number(entry);
     if (typeof value !== "number") return "";
@@ -100,7 +100,7 @@ export function default_of(entry) {
     return `default ${text} ${typeof value === "string" ? "" : unit_of(entry)}`.trim();
 }
 
-/// The least value of that shape to begin with: constants, and what is required inside.
+/// A minimal value of that shape: constants and required members.
 export function skeleton(entry) {
     if ("const" in entry) return entry.const;
     if (entry.oneOf) return skeleton(entry.oneOf[0]);

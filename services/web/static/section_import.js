@@ -1,4 +1,4 @@
-// A section that was drawn elsewhere (DXF, CSV) in place of the scene's: the soils are those that stand in the text, or one for each layer.
+// Replaces the scene's section by a drawing (DXF, CSV). Soils are those in the text, or one for each layer.
 import * as api from "./api.js";
 import { number } from "./format.js";
 
@@ -17,7 +17,7 @@ const pieces = (text) => (text ?? "").split(";").map((each) => each.trim()).filt
 
 const unit_sources = { asked: "as asked", drawing: "the drawing's $INSUNITS", header: "the table's header", default: "metres, as nothing says otherwise" };
 
-/// What the service took, healed and took upon itself, as one line.
+/// What the service read, healed and guessed, in one line.
 function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [] }) {
     const largest = Math.max(...healed.map(({ size: off }) => off));
     return [size ? `read in ${unit} (${unit_sources[unit_from]}): the section is ${number(size[0])} m long and ${number(size[1])} m high` : "",
@@ -28,7 +28,7 @@ function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [
 const stand_in = { density: 1900, law: { type: "mohr_coulomb", E_MPa: 20, nu: 0.3, c_kPa: 1, phi_deg: 30 } };
 const is_whole = ({ density, law, strength }) => density > 0 && (law?.type !== "mohr_coulomb" || (law.E_MPa > 0 && law.nu >= 0 && (strength || (law.c_kPa >= 0 && law.phi_deg >= 0))));
 
-/// Soils as they were before an earthquake completed them: NAME_runout is NAME again.
+/// Soils before an earthquake was added: NAME_runout becomes NAME again.
 function at_rest(soils) {
     const shaken = Object.keys(soils).filter((name) => soils[`${name}_runout`]);
     if (shaken.length === 0) return soils;
@@ -36,7 +36,7 @@ function at_rest(soils) {
     return Object.fromEntries(Object.entries(soils).filter(([name]) => !added.includes(name)).map(([name, soil]) => [name, soils[`${name}_runout`] ?? soil]));
 }
 
-/// Soil that stands in for values would become sand of other values.
+/// Placeholders would become sand with wrong values.
 function need_values(soils) {
     const missing = Object.keys(soils).filter((name) => !is_whole(soils[name]));
     if (missing.length)
@@ -44,7 +44,8 @@ function need_values(soils) {
 }
 
 export class SectionImport {
-    /// panel: an OptionsPanel; drawing: the LiveDrawing, which shows what is wrong with the file; wants_soils(): layers became soils without values.
+    /// panel: an OptionsPanel; drawing: the LiveDrawing, which shows the file's faults; wants_soils(): called when layers became soils
+    /// without values.
     constructor(panel, drawing, wants_soils) {
         Object.assign(this, { panel, drawing, wants_soils });
     }
@@ -56,7 +57,7 @@ export class SectionImport {
             const own = this.panel.study()?.scene?.materials ?? {};
             return with_fem ? own : at_rest(own);
         };
-        // The search of the stability analysis is placed with the service's help, which needs whole soils: those without values stand in with others.
+        // The service places the search of the stability analysis, which needs complete soils: placeholders replace those without values.
         const asked = ({ map, layers, ...others }, own) => ({ drawing, file, map: pieces(map), layers: pieces(layers), ...others,
             materials: Object.fromEntries(Object.entries(own).map(([name, soil]) => [name, is_whole(soil) ? soil : stand_in])) });
         this.panel.open({
@@ -80,7 +81,7 @@ export class SectionImport {
         });
     }
 
-    /// The service's picture of the file has every fault at its place.
+    /// Shows the service's picture of the file with every fault at its place.
     async show_faults(body, fault) {
         const picture = await api.picture_of_import(body).catch(() => null);
         this.drawing.show_foreign(picture, fault);

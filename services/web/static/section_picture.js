@@ -1,16 +1,15 @@
-// The section before and after in one picture: as built and as the soil lies at the end, with the slip surface, the water, the toe,
-// the runout and its band, the gauges.
+// The section before and after the runout in one picture, with the slip surface, the water, the toe, the runout and its band, the gauges.
 import { element, svg } from "./dom.js";
 import { level_at } from "./scene.js";
 import { tick_label, ticks } from "./plot_scale.js";
 
-const flat = 140;          // [px] a section lower than this is drawn with its heights multiplied
+const flat = 140;          // [px] lower sections are drawn with exaggerated heights
 const most_stretched = 5;
 const chords = 60;
-const character = 7.6;     // [px] of a name
+const character = 7.6;     // [px] of a character
 const margin = { side: 14, top: 30, bottom: 24 };
 
-/// The slip surface of a stability analysis as points; [] where its result has none.
+/// The slip surface of a stability analysis as points; []: none.
 export function slip_surface(result, floor) {
     if (result?.points) return result.points;
     if (!result?.circle) return [];
@@ -44,8 +43,8 @@ export class SectionPicture {
         new ResizeObserver(() => this.draw()).observe(host);
     }
 
-    /// parts: {outlines, after: the soil's surface and back along the ground, after_name, slip, slip_name, water: [[x, y]], toe, gauges: [{name, x, y}], runout: {reach, low, high, text}, says}; what is
-    /// null or empty is not drawn.
+    /// parts: {outlines, after: the soil's surface and back along the ground, after_name, slip, slip_name, water: [[x, y]], toe, gauges:
+    /// [{name, x, y}], runout: {reach, low, high, text}, says}. null or empty parts are not drawn.
     show(parts) {
         this.parts = parts;
         this.draw();
@@ -73,7 +72,7 @@ export class SectionPicture {
         if (parts.water) add("path", { class: "water", d: path(parts.water) });
         if (parts.slip.length) add("path", { class: "slip", d: path(parts.slip) });
         const under = py(Math.max(...gauges.map(({ y }) => y))); // all names
-        const taken = []; // how far to the right, by the names of each line
+        const taken = []; // right end of the names in each line
         for (const { name, x, y } of [...gauges].sort((a, b) => a.x - b.x)) {
             const half = (name.length * character) / 2;
             const free = taken.findIndex((end) => end < px(x) - half);

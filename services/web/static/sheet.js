@@ -1,5 +1,5 @@
-// A sheet with pictures of the soil, what they are of, their scale and what must be known of them: as shapes that are drawn the same
-// on a canvas (PNG, films) and as SVG. Pixels of the soil stay pixels in both.
+// A sheet with pictures of the soil, their subject, scale and notes, as shapes that look the same on a canvas (PNG, films) and in SVG. The
+// soil stays a bitmap in both.
 import { band_css, region_css, scale_css } from "./colours.js";
 import { svg } from "./dom.js";
 import { field_label, is_named } from "./fields.js";
@@ -14,7 +14,7 @@ function width_of(text, size, weight = "normal") {
     return measure.measureText(text).width;
 }
 
-/// The text as lines that fit.
+/// Breaks a text into lines of this width.
 export function wrapped(text, size, room, weight = "normal") {
     const lines = [""];
     for (const word of text.split(" ")) {
@@ -25,8 +25,8 @@ export function wrapped(text, size, room, weight = "normal") {
     return lines;
 }
 
-/// {title, parts: [{view, caption}] side by side, colour: as a PointView takes it, names: of a named field, grey: some have no value,
-/// notes: [text]} -> {width, height, shapes, ground}. view: a PointView that has just been painted.
+/// {title, parts: [{view, caption}] side by side, colour: as for PointView.show, names: of a named field, grey: some have no value, notes:
+/// [text]} -> {width, height, shapes, ground}. view: a PointView that was just painted.
 export function sheet_of({ title, parts, colour, names, grey, notes }) {
     const style = getComputedStyle(document.documentElement);
     const [text, muted, ground] = ["--text", "--muted", "--card"].map((name) => style.getPropertyValue(name).trim());
@@ -55,7 +55,7 @@ export function sheet_of({ title, parts, colour, names, grey, notes }) {
     return { width: Math.ceil(width), height: Math.ceil(y + pad), shapes, ground };
 }
 
-/// Returns where the sheet goes on.
+/// Returns the lower end.
 function add_legend({ shapes, colour, names, grey, text, muted, width }, y) {
     const write = (words, x, at, size, colour_of) => shapes.push({ text: words, x, y: at, size, colour: colour_of, weight: "normal" });
     if (is_named(colour.field)) {
@@ -85,7 +85,7 @@ function add_legend({ shapes, colour, names, grey, text, muted, width }, y) {
     return y + 62;
 }
 
-/// Draws the sheet. The canvas gets its size, but never less height than it has: a film keeps its own.
+/// Draws the sheet. The canvas gets its size but never shrinks in height: a film has one size.
 export function draw_sheet(canvas, { width, height, shapes, ground }, ratio = 2) {
     const [wide, high] = [2 * Math.ceil((width * ratio) / 2), 2 * Math.ceil((height * ratio) / 2)];
     if (canvas.width !== wide) canvas.width = wide;

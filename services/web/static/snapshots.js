@@ -1,30 +1,29 @@
-// The snapshots of one task: which there are, fetched when needed and kept for a while, and how far each field reaches
-// over all of them. Shows nothing.
+// The snapshots of one task: lists them, fetches and caches them, and finds the range of each field over all of them.
 import * as api from "./api.js";
 import { numbers_of, prepared, reach_of } from "./fields.js";
 
 const kept_bytes = 192e6;       // snapshots kept in memory
-const easy_count = 250000;      // more points than this are thinned at first sight
-const most_surveyed = 60;       // snapshots that are looked at for the reach of the fields
+const easy_count = 250000;      // more points are thinned at first
+const most_surveyed = 60;       // snapshots read for the ranges of fields
 const surveyed_points = 2000;   // of each
 
 export class Snapshots {
-    /// materials: region -> material, for servers that do not tell.
+    /// materials: region -> material, for servers that do not report it.
     constructor(task, materials = new Map()) {
         Object.assign(this, { task, materials, frames: [], stride: 1, is_thinned: false });
         this.kept = new Map();    // "name/stride" -> {snapshot, bytes}, oldest first
-        this.coming = new Map();  // the same -> what is being fetched
+        this.coming = new Map();  // the same -> pending request
         this.times = new Map();   // name -> time in the file
         this.reaches = new Map(); // name -> {field: [low, high]}
         this.abort = new AbortController();
     }
 
-    /// No answer that is still to come is waited for any more.
+    /// Aborts all pending requests.
     close() {
         this.abort.abort();
     }
 
-    /// Looks which there are; true when there are more than before.
+    /// Updates the list; true: there are more snapshots.
     async list() {
         const frames = last_state_last(await api.list_frames(this.task));
         for (const frame of frames) frame.time = this.times.get(frame.name) ?? frame.time;
@@ -33,12 +32,12 @@ export class Snapshots {
         return grew;
     }
 
-    /// The snapshot, or null when nobody waits for it any more.
+    /// The snapshot; null: aborted.
     async fetch(name) {
         const key = `${name}/${this.stride}`;
         const entry = this.kept.get(key);
         if (entry) {
-            this.kept.delete(key); // to the young end
+            this.kept.delete(key); // mark as recently used
             this.kept.set(key, entry);
             return entry.snapshot;
         }
@@ -88,7 +87,7 @@ export class Snapshots {
         this.reaches.set(name, Object.fromEntries(numbers_of(snapshot).map((field) => [field, reach_of(snapshot.columns[field])])));
     }
 
-    /// [low, high] of a field over the snapshots that were looked at.
+    /// [low, high] of a field over the surveyed snapshots.
     reach(field) {
         let [low, high] = [0, 0];
         for (const reaches of this.reaches.values()) {
@@ -98,14 +97,14 @@ export class Snapshots {
         return [low, high];
     }
 
-    /// What reach() is of, in words.
+    /// The snapshots behind reach(), in words.
     reach_text() {
         const [seen, all] = [this.reaches.size, this.frames.length];
         return seen >= all ? `all ${all} snapshots` : `${seen} of ${all} snapshots`;
     }
 
-    /// Looks at snapshots that nobody has asked for, a few points of each, so that scales need not move while it plays. Evenly over all
-    /// when there are many. told(): after each that moved a reach.
+    /// Reads a few points of each snapshot, so that scales are fixed during playback; evenly spaced ones if there are many. told(): called
+    /// after each change of a range.
     async survey(told) {
         if (this.surveying) return;
         this.surveying = true;
@@ -119,13 +118,13 @@ export class Snapshots {
                 told();
             }
         } catch {
-            // The picture tells of a snapshot that cannot be read; its reach stays unknown, which the legend says.
+            // The picture reports an unreadable snapshot; its range stays unknown, as the legend says.
         } finally {
             this.surveying = false;
         }
     }
 
-    /// The newest snapshot that is not later than t; the first when all are. Index into frames, -1 without any.
+    /// Index of the newest snapshot not later than t, or of the first; -1: none.
     at_time(t) {
         let found = Math.min(0, this.frames.length - 1);
         this.frames.forEach((frame, i) => {
@@ -135,7 +134,7 @@ export class Snapshots {
     }
 }
 
-/// "final.vtkhdf" has no time in its name, so it is listed with 0.
+/// "final.vtkhdf" has no time in its name and is listed with 0.
 function last_state_last(frames) {
     const timed = (frame) => /\d/.test(frame.name);
     return [...frames.filter(timed), ...frames.filter((frame) => !timed(frame))];

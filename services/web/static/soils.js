@@ -1,4 +1,4 @@
-// The soils of a scene as a table: density, strength and stiffness of each, with units and plausible ranges, and presets with their source.
+// The soils of a scene as a table: density, strength and stiffness with units and plausible ranges, and presets with their source.
 import { read_example } from "./api.js";
 import { element, mirror, set_text } from "./dom.js";
 import { Scalar } from "./form_fields.js";
@@ -13,13 +13,13 @@ const columns = [
     { way: ["law", "E_MPa"], title: "E", of: "deformation and runout" }, { way: ["law", "nu"], title: "ν", of: "deformation and runout" },
 ];
 
-/// The schema's entry of a soil's place; undefined where the soil's law has none.
+/// The schema's entry at a soil's place; undefined: the soil's law has none.
 function entry_of(entry, soil, [name, inner]) {
     const own = entry.properties[name];
     return !inner ? own : (own.oneOf ? own.oneOf[branch_of(own.oneOf, soil[name])] : own).properties[inner];
 }
 
-/// The entry of all materials: the table, and below it each with everything.
+/// All materials: the table, and below it each material with all entries.
 export class Soils extends NamedRows {
     constructor(form, entry, parts, options) {
         super(form, entry, parts, options);
@@ -77,7 +77,7 @@ export class Soils extends NamedRows {
         return line;
     }
 
-    /// The preset's soil or that of a shipped scene, with its source as the first note.
+    /// Sets the preset's soil or that of a shipped scene, with its source as the first note.
     async take_preset(name, { title, example, material, source, soil: own }) {
         const { notes = [], ...soil } = own ?? (await read_example(example)).scene.materials[material];
         this.form.set([...this.parts, name], { notes: [`${title}: ${source}`, ...notes], ...soil });

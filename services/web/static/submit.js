@@ -1,5 +1,5 @@
-// The dialog of a new run: five steps from a section to a submitted study, beside them the drawing and, when asked for, the JSON. Every
-// fault that the server finds is shown at its field and its line, and listed.
+// The dialog of a new run: steps from a section to a submitted study, the drawing and, on request, the JSON. Shows every fault of the
+// server at its field and its line, and in a list.
 import * as api from "./api.js";
 import { by_id, element, set_text } from "./dom.js";
 import { Form } from "./form.js";
@@ -21,7 +21,7 @@ function format_of(text) {
 }
 
 export class SubmitDialog {
-    /// submitted(run): the server took it.
+    /// submitted(run): called when the server accepted it.
     constructor(submitted) {
         this.submitted = submitted;
         this.dialog = by_id("submit-dialog");
@@ -80,7 +80,7 @@ export class SubmitDialog {
         by_id("json-show").setAttribute("aria-pressed", String(is_shown));
     }
 
-    /// A study that was run, to be changed and run again: without the variants that the service made of it.
+    /// Edits a previous study to run it again, without the variants that the service generated.
     async edit({ variants = [], ...study }) {
         await this.open();
         this.take_text(print({ ...study, variants: variants.filter(({ made_by: by }) => !by) }));
@@ -92,7 +92,6 @@ export class SubmitDialog {
         this.pane.take(text);
     }
 
-    /// Called after every change of the text.
     changed(text) {
         this.show_text(text);
         this.show_mended();
@@ -108,7 +107,7 @@ export class SubmitDialog {
         if (this.path.step === "check") this.show_cost();
     }
 
-    /// Of what was refused.
+    /// Marks corrected faults of the refused submission.
     show_mended() {
         const left = new Set(this.form.faults.map(({ pointer, cause }) => pointer + cause));
         const items = [...by_id("fault-list").children];
@@ -130,13 +129,13 @@ export class SubmitDialog {
         input.value = "";
         await this.take_files(files);
     }
-    /// A motion is dropped on its field.
+    /// Motions are dropped on their field instead.
     drop(event) {
         event.preventDefault();
         return this.take_files([...event.dataTransfer.files]);
     }
 
-    /// Studies, their scenes, or sections drawn elsewhere; a study before its scene.
+    /// Reads studies, their scenes, or section drawings; a study before its scene.
     async take_files(files) {
         const read = await Promise.all(files.map(async (file) => ({ name: file.name, text: await file.text() })));
         const is_scene = ({ text }) => format_of(text).startsWith("breachline-scene/");
@@ -146,7 +145,7 @@ export class SubmitDialog {
             else this.take_study(each.text);
         }
     }
-    /// Whole, it is checked; else its scene is asked for.
+    /// Shows the check for a complete study, else asks for its scene.
     take_study(text) {
         this.take_text(text);
         this.path.show(this.wants_scene() ? "section" : "check");
@@ -156,12 +155,12 @@ export class SubmitDialog {
         try {
             scene = JSON.parse(text);
         } catch {
-            return this.take_text(text); // the form says what is wrong with it
+            return this.take_text(text); // the form shows the fault
         }
         const study = this.wants_scene() ? this.form.value : { format: "breachline-study/1", name: scene.name };
         return this.take_study(print({ ...study, scene }));
     }
-    /// Of a study file; what the service keeps it finds itself.
+    /// Whether a study file needs its scene; the service finds stored scenes itself.
     wants_scene() {
         const scene = this.form.is_study && this.form.value?.scene;
         return typeof scene === "string" && scene !== "" && !scene.startsWith("scene:");
@@ -169,7 +168,7 @@ export class SubmitDialog {
 
     async take_example(example) {
         if (!example) return;
-        by_id("examples").value = ""; // to be chosen again
+        by_id("examples").value = ""; // allows another choice
         try {
             const study = example.study ?? await api.read_example(example.name);
             this.take_study(print(study));
@@ -178,7 +177,7 @@ export class SubmitDialog {
         }
     }
 
-    /// Of what stands in the text.
+    /// Shows the cost of the text's study.
     async show_cost() {
         this.asked?.abort();
         this.asked = new AbortController();
@@ -217,12 +216,12 @@ export class SubmitDialog {
             by_id("plan").scrollIntoView({ block: "nearest" });
             by_id("plan").focus({ preventScroll: true });
         } catch (fault) {
-            for (const one of fault.faults ?? []) one.pointer = `/scene${one.pointer}`; // what was sent is a part of the study
+            for (const one of fault.faults ?? []) one.pointer = `/scene${one.pointer}`; // only the scene was sent
             this.refuse(fault);
         }
     }
 
-    /// A plan's lines are columns of text: on or left out, what, why, and the place in the scene that decided.
+    /// A plan's lines are columns: on or left out, feature, reason, and the deciding place in the scene.
     plan_table(phase, text) {
         const rows = text.split("\n").filter((line) => line.trim() !== "").map((line) => {
             const [state, what = "", why = "", place = ""] = line.trim().split(/\s{2,}/);
@@ -268,7 +267,7 @@ export class SubmitDialog {
                        one.remedy ? element("span", { class: "remedy" }, one.remedy) : null);
     }
 
-    /// Opens the field of a place and, where the text is shown or there is no field, selects it in the text.
+    /// Opens the field of a place; selects it in the text if the text is shown or there is no field.
     point_to(pointer) {
         const is_found = this.form.reveal(pointer, { focus: true });
         if (!is_found) this.show_json(true);

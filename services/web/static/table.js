@@ -1,11 +1,11 @@
-// A table of records that people sort, filter, page through and take away as CSV. Knows nothing of what the records are.
+// A table of records to sort, filter, page through and save as CSV. Independent of their meaning.
 import { element, mirror, set_text } from "./dom.js";
 import { number } from "./format.js";
 
 const rows_per_page = 50;
 
 export class DataTable {
-    /// host: an empty element. The table shows what open() is given.
+    /// host: an empty element. open() fills the table.
     constructor(host) {
         this.filter = element("input", { type: "search", placeholder: "words, or column=text", "aria-label": "filter", oninput: () => {
             this.page = 0;
@@ -23,8 +23,7 @@ export class DataTable {
                              this.region, element("div", { class: "row" }, this.back, this.forth));
     }
 
-    /// columns: [{name, title, unit, number, cell(record) -> element}]; a record is an object. more: there is more on the
-    /// server than `records`.
+    /// columns: [{name, title, unit, number, cell(record) -> element}]; a record is an object. more: the server has more records.
     open(name, columns, records, more) {
         const same = this.name === name;
         Object.assign(this, { name, columns, records, more });
@@ -47,7 +46,7 @@ export class DataTable {
         this.draw();
     }
 
-    /// Records that have every word of the filter; "state=failed" looks into one column only.
+    /// Records that match every word of the filter; "state=failed" searches one column only.
     wanted() {
         const words = this.filter.value.toLowerCase().split(/\s+/).filter(Boolean);
         const has = (record, word) => {
@@ -107,7 +106,7 @@ function cell_of(record, column) {
     return element("td", { class: column.number ? "number" : column.wide ? "message" : null }, content);
 }
 
-/// Numbers by size, all else by letters; what is missing comes last.
+/// Numbers by size, texts alphabetically; missing values last.
 function compare(a, b) {
     const [no_a, no_b] = [a ?? null, b ?? null].map((value) => value === null);
     if (no_a || no_b) return no_a - no_b;

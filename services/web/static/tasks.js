@@ -1,11 +1,11 @@
-// The tasks of a run: a compact picture of the workflow, a table, and one task in detail.
+// The tasks of a run: a picture of the workflow, a table, and one task in detail.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { by_point, bytes, clock, elapsed, is_active, number, percent, seconds, show_state, state_look, task_name, task_state, variants_of } from "./format.js";
 import { flag_codes, flag_items, flag_note } from "./flags.js";
 import { LogView } from "./log.js";
 
-const most_in_flow = 40; // variants, each a row of the picture
+const most_in_flow = 40; // variants; more would be too many rows
 
 const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
 
@@ -33,7 +33,7 @@ export class Tasks {
         if (chosen) await this.detail(chosen);
     }
 
-    /// LEM and FEM, then one column per transfer time: its transfers above its runouts, one row per variant.
+    /// LEM and FEM, then one column per transfer time: transfers above runouts, one row per variant.
     draw_flow(tasks) {
         by_id("flow").hidden = variants_of(this.run).length > most_in_flow;
         if (by_id("flow").hidden) return;
@@ -97,7 +97,7 @@ export class Tasks {
     }
 }
 
-/// Rows of the flow picture: each phase of a transfer time, each variant that it has tasks of.
+/// Rows of the picture: one per phase of a transfer and variant.
 function rows_of(tasks) {
     const phases = [["transfer_tool", "transfer"], ["mpm_solver", "MPM"]];
     return phases.flatMap(([phase, name]) => {
@@ -143,7 +143,7 @@ function fill_row(row, task) {
     set_text(message, task.fault?.summary || flagged || (task.message ?? ""));
 }
 
-/// Of a task that went well: its flags, or that it carries none to go by.
+/// For a successful task: its flags, or that they are unknown.
 function draw_flags(task) {
     const went_well = ["succeeded", "cached"].includes(task.state);
     by_id("task-flags").hidden = !went_well || task.flags?.length === 0;
@@ -174,7 +174,7 @@ function new_artifact(file) {
                                                     title: "how it came to be: W3C PROV-JSON" }, "provenance")));
 }
 
-/// The numbers of result.json that stand at its top level; the whole file is among the artifacts.
+/// The top-level values of result.json; the whole file is among the artifacts.
 function draw_facts(result) {
     const facts = Object.entries(result ?? {}).filter(([, value]) => ["number", "string", "boolean"].includes(typeof value));
     by_id("task-facts").hidden = facts.length === 0;

@@ -1,5 +1,5 @@
-// Telemetry of a phase as small curves against time, growing while it runs, with the thresholds of the run's triggers
-// and the moments at which they fired.
+// Telemetry of a phase as small curves against time, updated while it runs, with the thresholds of the run's triggers and the times at
+// which they fired.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { by_point, is_active, mpm_name, number, variants_of } from "./format.js";
@@ -20,13 +20,13 @@ export class Telemetry {
     }
 
     forget() {
-        this.columns = new Map(); // field -> values, one per line; null where a line has none
+        this.columns = new Map(); // field -> one value per line; null: missing
         this.count = 0;
         this.next = 0;
         this.refusal = "";
     }
 
-    /// governing: the row whose FEM, or else MPM, to begin with; null: none yet.
+    /// governing: the row whose FEM, or else MPM, is shown first; null: none yet.
     async show(run, governing) {
         if (this.run?.id !== run.id) this.task = this.by_hand = null;
         this.run = run;
@@ -35,7 +35,7 @@ export class Telemetry {
             .sort(by_point(variants_of(run)));
         mirror(by_id("telemetry-source"), sources, (task) => task.id, (task) => element("option", { value: task.id }),
                (option, task) => set_text(option, source_name(task)));
-        by_id("telemetry").hidden = sources.length === 0; // a stability analysis alone has none
+        by_id("telemetry").hidden = sources.length === 0; // a stability analysis has none
         const fems = await fems_of(run);
         if (this.run !== run) return;
         this.fems = fems;
@@ -61,7 +61,7 @@ export class Telemetry {
         return this.run.tasks.find((candidate) => candidate.id === this.task);
     }
 
-    /// Takes the lines written since the last look.
+    /// Reads the new lines.
     async extend() {
         const task = this.chosen();
         const alone = is_alone(this.run, task);
@@ -77,7 +77,7 @@ export class Telemetry {
             }
             const { lines, next } = answer;
             if (this.task !== task.id || this.next !== from) return;
-            if (next < from) this.forget(); // a new attempt began its own file
+            if (next < from) this.forget(); // a new attempt began a new file
             else this.append(lines);
             this.next = next;
             if (lines.length === 0 || next <= from) break;
@@ -118,7 +118,7 @@ export class Telemetry {
         by_id("telemetry-more").hidden = others.length === 0;
     }
 
-    /// What belongs over the curves of the chosen FEM, and to no other one; triggers watch nothing else.
+    /// Marks for the curves of the chosen FEM; triggers watch nothing else.
     find_overlay() {
         const task = this.chosen();
         this.overlay = { levels: [], lines: [], bands: [] };
@@ -156,6 +156,6 @@ function source_name(task) {
     return mpm_name(task);
 }
 
-/// No other task of the run shares its phase and transfer time.
+/// Whether no other task of the run has the same phase and transfer time.
 export const is_alone = (run, task) =>
     run.tasks.filter((other) => other.phase === task.phase && other.transfer_time === task.transfer_time).length === 1;

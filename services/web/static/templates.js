@@ -1,11 +1,11 @@
-// A new scene from one of the service's templates.
+// Makes a new scene from one of the service's templates.
 import * as api from "./api.js";
 import { by_id, element } from "./dom.js";
 import { default_of } from "./schema.js";
 
 const entry_of = ({ topic, type, unit, default: usual, minimum, maximum, help, rule }) => ({ topic, type, unit, default: usual, minimum, maximum, description: rule ? `${help} (default: ${rule})` : help });
 
-/// Defaults that are a share of another option.
+/// Shows defaults that are a share of another option.
 function follow(options, values, control_of) {
     for (const { name, follows, share, minimum, maximum, unit } of options.filter((each) => each.follows)) {
         const other = values[follows] ?? options.find((each) => each.name === follows)?.default;
@@ -40,7 +40,7 @@ export class Templates {
         by_id("template-choice").value = name;
     }
 
-    /// Of the template whose options are shown: shaken by an earthquake or not; null: it has none, or no template is shown.
+    /// Whether the shown template has an earthquake; null: not an option, or no template is shown.
     is_shaken() {
         const { source, options } = this.panel;
         return source?.properties.with_fem ? options.values.with_fem ?? false : null;

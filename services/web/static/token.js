@@ -1,5 +1,5 @@
-// The service's bearer token: asked for when the service refuses to answer without one, kept for this tab only. A link
-// cannot carry it, so files that the page links to are fetched with it and handed over by the page.
+// The service's bearer token: requested when the service needs one, stored for this tab only. Links cannot send it, so the page fetches
+// linked files.
 import * as api from "./api.js";
 import { by_id, set_text } from "./dom.js";
 
@@ -9,13 +9,13 @@ export class TokenDialog {
     constructor() {
         this.dialog = by_id("token-dialog");
         this.asking = null;
-        this.dialog.addEventListener("cancel", (event) => event.preventDefault()); // without it there is nothing to see
+        this.dialog.addEventListener("cancel", (event) => event.preventDefault()); // nothing works without a token
         this.dialog.addEventListener("close", () => this.take(by_id("token").value.trim()));
         document.addEventListener("click", (event) => this.hand_over(event));
         api.authorise(sessionStorage.getItem(kept_as), (refused) => this.ask(refused));
     }
 
-    /// Resolves to the token that the reader gives; many refused requests ask once.
+    /// Resolves to the token that the user enters; many refused requests open one dialog.
     ask(refused) {
         this.asking ??= new Promise((resume) => {
             this.resume = resume;

@@ -1,4 +1,4 @@
-// Bars to either side of a middle, the longest on top: what one parameter does while the others stay where they are.
+// Bars to both sides of a centre, the longest on top: the effect of each parameter alone.
 import { element, svg } from "./dom.js";
 import { figure_of, offer_png, offer_svg } from "./figure_files.js";
 import { number } from "./format.js";
@@ -23,7 +23,7 @@ export class Tornado {
         new ResizeObserver(() => this.draw()).observe(host);
     }
 
-    /// data: {at_median, bars: [{parameter, p10, p90}]}; label: what the values are, with their unit.
+    /// data: {at_median, bars: [{parameter, p10, p90}]}; label: of the values, with their unit.
     show(data, label) {
         this.data = data;
         this.label = label;
@@ -57,7 +57,7 @@ export class Tornado {
             svg("text", { class: "label", x: (left + width - right) / 2, y: height - 8, "text-anchor": "middle" }, this.label));
     }
 
-    /// Both halves, the longer one below where they lie on the same side, with the values at their ends.
+    /// Both halves with their values, the longer one below if they are on the same side.
     bar(bar, y, px, middle, left) {
         const halves = sides.map(({ key, look }) => ({ value: bar[key], look })).sort((a, b) => Math.abs(b.value - middle) - Math.abs(a.value - middle));
         const same = Math.sign(bar.p10 - middle) === Math.sign(bar.p90 - middle);

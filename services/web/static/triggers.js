@@ -1,17 +1,17 @@
-// What the triggers of a run say: the thresholds in their conditions, the moments at which they fired, the window and
-// the plateau that they found. Pure, but for the table at the end.
+// Thresholds in the conditions of a run's triggers, the times at which they fired, and the window and plateau that they found. No DOM,
+// except for the table at the end.
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { number, show_state } from "./format.js";
 import { term } from "./glossary.js";
 
 const value = "([+-]?(?:\\d+\\.?\\d*|\\.\\d+)(?:e[+-]?\\d+)?)";
 const field = "([a-z_]\\w*)";
-const begins = "(?<![*/+-]\\s*)(?<![\\w.])"; // not in the middle of a formula or of a word
+const begins = "(?<![*/+-]\\s*)(?<![\\w.])"; // not inside a formula or a word
 const ends = "(?!\\s*[(*/+-]|[\\w.])";
 const forwards = new RegExp(`${begins}${field}\\s*[<>]=?\\s*${value}${ends}`, "gi");
 const backwards = new RegExp(`${begins}${value}\\s*[<>]=?\\s*${field}${ends}`, "gi");
 
-/// Comparisons of one field with one number in a condition: [{field, y}]. What is compared as a formula has no line.
+/// Comparisons of one field with one number in a condition: [{field, y}]. Formulas have no line.
 export function thresholds_in(condition) {
     const found = [];
     for (const [, name, y] of condition.matchAll(forwards)) found.push({ field: name, y: Number(y) });
@@ -30,7 +30,7 @@ export function thresholds(triggers) {
         thresholds_in(text ?? "").map((each) => ({ ...each, label }))));
 }
 
-/// Verticals of telemetry: when a trigger was met. A bisect's firings are transfers, no moments of the FEM.
+/// Verticals of telemetry: when a trigger was met. Firings of a bisection are transfers, not events of the FEM.
 export function moments(triggers) {
     return triggers.filter(({ kind }) => kind !== "bisect").flatMap(({ name, kind, firings }) =>
         firings.map((firing) => ({ x: firing.wanted_time, text: name, kind: "fired",
@@ -40,7 +40,7 @@ export function moments(triggers) {
 
 const edge_times = (crossed) => [crossed?.lower?.time, crossed?.upper?.time];
 
-/// [{from, to, label}]: where a window lay.
+/// [{from, to, label}]: the found windows.
 export function windows(triggers) {
     return triggers.filter(({ kind }) => kind === "window").flatMap(({ name, firings }) => firings.flatMap((firing) => {
         const [from, to] = edge_times(firing.crossed);
@@ -48,7 +48,7 @@ export function windows(triggers) {
     }));
 }
 
-/// [{from, to, label}]: the plateau of the runout as far as a bisect knows it.
+/// [{from, to, label}]: the plateau of the runout found so far by a bisection.
 export function plateaus(triggers) {
     return triggers.filter(({ kind, result }) => kind === "bisect" && Number.isFinite(result?.lower?.on))
         .map(({ spec, result }) => ({ from: result.lower.on, to: result.upper.on, kind: "plateau",
@@ -56,7 +56,7 @@ export function plateaus(triggers) {
                                              (result.complete ? "" : ", so far") }));
 }
 
-/// In words: what a trigger waits for.
+/// The condition of a trigger in words.
 export function condition_text({ kind, spec }) {
     switch (kind) {
         case "criterion": return spec.when + (spec.hold_s ? `, held ${number(spec.hold_s)} s` : "");

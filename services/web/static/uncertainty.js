@@ -1,5 +1,4 @@
-// A study over distributions: how far with which probability, what decides it, what stands along x, every sample; and beside each number
-// what it rests on.
+// A study over distributions: probabilities, importance of parameters, values along x, all samples; each number with its basis.
 import * as api from "./api.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { flag_note, look_of } from "./flags.js";
@@ -11,7 +10,7 @@ import { Tornado } from "./tornado.js";
 
 const along_x = { largest_depth: "largest depth", largest_velocity: "largest velocity", largest_momentum_flux: "largest h v²", arrival: "first arrival",
                   time_of_peak: "time of the largest depth", final_depth: "final deposit" };
-const long_span = 5; // times from the least to the largest value, from which on a parameter is drawn on a logarithmic axis
+const long_span = 5; // ratio of the largest to the least value from which a parameter's axis is logarithmic
 const golden = 0.618033988749895;
 
 const labelled = ({ name, unit }) => `${name}${unit ? ` [${unit}]` : ""}`;
@@ -20,7 +19,7 @@ const has_result = (row) => Object.values(row.results ?? {}).some(Number.isFinit
 const plural = (count, word) => `${count} ${word}${count === 1 ? "" : "s"}`;
 
 export class Uncertainty {
-    /// open_task(id), ask(sample): the task behind a sample; where its numbers come from.
+    /// open_task(id): called to show the task of a sample; ask(sample): called to show where its numbers come from.
     constructor({ open_task, ask }) {
         Object.assign(this, { open_task, ask });
         this.exceedance = new Plot(by_id("uncertainty-exceedance"), { title: "Probability of more", x: "", y: "probability of more [–]", x_name: "more than", x_unit: "" }, { y_from_zero: true });
@@ -32,7 +31,7 @@ export class Uncertainty {
         for (const id of ["quantity", "parameter", "column"]) by_id(`uncertainty-${id}`).addEventListener("change", () => this.draw());
     }
 
-    /// rows: the results of the run, which say how each sample ended.
+    /// rows: the results of the run, with the end of each sample.
     async show(run, rows) {
         const is_one = Boolean(run.study?.uncertainty);
         by_id("uncertainty").hidden = !is_one;
@@ -42,14 +41,14 @@ export class Uncertainty {
         }
         const ended = run.tasks.filter(({ state }) => !is_active(state)).length;
         const seen = `${run.id} ${ended} ${run.state}`;
-        if (seen === this.seen) return; // nothing has ended since: the same answer
+        if (seen === this.seen) return; // nothing has ended since
         const [answer, envelopes] = await Promise.all([api.read_uncertainty(run.id), api.read_envelopes(run.id)]);
         if (this.run?.id !== run.id) this.forget();
         Object.assign(this, { run, answer, envelopes, seen, results: new Map(rows.map((row) => [row.variant, row])) });
         this.draw();
     }
 
-    /// {p10, p50, p90} of a run's runout; null where they are not known.
+    /// {p10, p50, p90} of a run's runout; null: unknown.
     quantiles_of_runout(id) {
         const known = this.run?.id === id ? this.answer.quantities.runout?.percentiles : null;
         const [p10, p50, p90] = [10, 50, 90].map((p) => Array.isArray(known) && known.find((each) => each.p === p)?.value);
@@ -65,12 +64,12 @@ export class Uncertainty {
         if (task) this.open_task(task);
     }
 
-    /// What does not grow while soil moves is no lower bound.
+    /// A quantity that does not grow while soil moves is not a lower bound.
     look_of_quantity(row) {
         return this.grows ? this.look(row) : this.look(row).replace(/\bbound\b/, "").trim();
     }
 
-    /// What a sample's number is worth; "" is sound.
+    /// The look of a sample's number; "": sound.
     look(row) {
         const result = this.results.get(row.sample);
         return result && has_result(row) ? look_of(result) : "";
@@ -82,11 +81,11 @@ export class Uncertainty {
         offer(by_id("uncertainty-quantity"), named.map(({ value, name, label }) => ({ value, text: name, title: label })), answer.quantity);
         offer(by_id("uncertainty-parameter"), answer.parameters.map(({ name }) => ({ value: name, text: name })), answer.parameters[0]?.name);
         this.quantity = by_id("uncertainty-quantity").value || answer.quantity;
-        const { grows = true, bound_from = null } = answer.quantities[this.quantity] ?? {}; // of a search: none
+        const { grows = true, bound_from = null } = answer.quantities[this.quantity] ?? {}; // a search has none
         Object.assign(this, { grows, bound_from });
         for (const kind of ["csv", "hdf5"]) by_id(`uncertainty-${kind}`).href = api.uncertainty_file(this.run.id, kind);
         this.draw_counts();
-        const quantity = named.find(({ value }) => value === this.quantity); // none: the samples are steps of a search
+        const quantity = named.find(({ value }) => value === this.quantity); // undefined: the samples are steps of a search
         by_id("uncertainty-figures").hidden = !quantity;
         by_id("uncertainty-search").hidden = !answer.inverse;
         by_id("uncertainty-quantity").parentElement.hidden = Boolean(answer.inverse);
@@ -102,7 +101,7 @@ export class Uncertainty {
         this.draw_samples(quantity);
     }
 
-    /// How many there are, and what the numbers below do not say by themselves.
+    /// The number of samples, and findings that the numbers do not show.
     draw_counts() {
         const { samples, sentences, cautions, until } = this.answer;
         set_text(by_id("uncertainty-counts"), `${samples.done} of ${plural(samples.planned, "sample")} ended with a result`);
@@ -119,7 +118,7 @@ export class Uncertainty {
             set_text(item.lastElementChild, ` ${state}${reason ? `: ${reason}` : ""}`));
     }
 
-    /// From the least lower bound among the samples on, a percentile is a lower bound, too.
+    /// Whether a percentile is a lower bound: at or above the least lower bound of the samples.
     is_bound(value) {
         return this.bound_from !== null && this.bound_from <= value;
     }
@@ -142,7 +141,7 @@ export class Uncertainty {
         });
     }
 
-    /// What is fitted or ranked takes bounds for values.
+    /// Fits and rankings use lower bounds as values.
     bounds_note() {
         return this.bound_from === null ? "" : ` ${this.answer.samples.moving} of the samples behind it are lower bounds, taken as they are.`;
     }
@@ -168,7 +167,7 @@ export class Uncertainty {
         if (!tornado.refused) this.tornado.show(tornado, labelled(quantity));
     }
 
-    /// The values that were run, each with the least and the largest result of its lattices.
+    /// The computed values, each with the least and the largest result over its lattices.
     draw_search({ vary, quantity, unit, target, value, low, high, steps, bound }) {
         const done = steps.filter(({ result }) => Number.isFinite(result));
         const what = labelled({ name: measures[quantity] ?? quantity, unit });
@@ -186,7 +185,7 @@ export class Uncertainty {
         mirror(by_id("uncertainty-found"), this.answer.sentences, (line) => line, () => element("li"), set_text);
     }
 
-    /// Values of choices and lattices stand beside each other, spread so that each can be pointed at.
+    /// Spreads the values of choices and lattices, so that each point can be selected.
     draw_scatter(quantity) {
         const parameter = this.answer.parameters.find(({ name }) => name === by_id("uncertainty-parameter").value);
         if (!parameter) return;
@@ -220,7 +219,7 @@ export class Uncertainty {
         const chosen = by_id("uncertainty-column").value;
         const { unit, p10, p50, p90, rests_on: count } = envelopes.bands[chosen];
         const most = envelopes.samples;
-        // Fewer samples are another curve, which begins where the first one ends.
+        // Fewer samples form another curve, which begins at the end of the first.
         const part = (name, is_in) => ({ name, unit, x: envelopes.x, y: p50.map((y, i) => (is_in(i) ? y : null)), low: p10, high: p90,
                                          names: count.map((each) => `${each} of ${most} samples came`) });
         const is_whole = (i) => count[i] === most;
@@ -254,13 +253,13 @@ export class Uncertainty {
     }
 }
 
-/// The share of samples above each value stays until the next one.
+/// The share of samples above a value is constant up to the next value.
 function in_steps(exceedance) {
     const points = exceedance.flatMap((each, i) => (i === 0 ? [each] : [{ ...exceedance[i - 1], value: each.value }, each]));
     return { x: points.map(({ value }) => value), y: points.map(({ probability }) => probability), low: points.map(({ low }) => low), high: points.map(({ high }) => high) };
 }
 
-/// The options of a select, with what was chosen still chosen.
+/// Fills a select and keeps its choice.
 function offer(select, options, first) {
     const before = select.value;
     mirror(select, options, ({ value }) => value, ({ value }) => element("option", { value }), (option, { text, title }) => {
@@ -270,10 +269,10 @@ function offer(select, options, first) {
     select.value = options.some(({ value }) => value === before) ? before : first;
 }
 
-/// Options of a choice have no order and so no rank correlation.
+/// The options of a choice have no order, so no rank correlation.
 const weight_of = ({ rank_correlation: rank, first_order: explained }) => (Number.isFinite(rank) ? Math.abs(rank) : Math.sqrt(Math.max(explained ?? 0, 0)));
 
-/// What decides: by rank, with what the others explain taken away, and the share of the variance; pale where it is not told from none.
+/// Importance: rank correlation, partial rank correlation, and share of the variance; pale if it does not exceed the noise.
 function draw_importance({ importance, count, of }, bounds) {
     const told = importance.some(({ rank_correlation: rank, first_order: explained }) => Number.isFinite(rank) || Number.isFinite(explained));
     by_id("uncertainty-importance").hidden = !told;

@@ -1,4 +1,4 @@
-// The variants of a study as a table: a row for each, a column for each place of the scene that some of them change.
+// The variants of a study as a table: one row each, one column for each place of the scene that some of them change.
 import { element, mirror, set_text } from "./dom.js";
 import { Fold } from "./form_groups.js";
 import { new_id } from "./form_fields.js";
@@ -12,7 +12,7 @@ const split = (override) => {
 const overrides_of = (variant) => (Array.isArray(variant?.overrides) ? variant.overrides : []).filter((each) => typeof each === "string");
 const plain = (text) => text.toLowerCase().replace(/[^a-z0-9_-]+/g, "_").replace(/^[^a-z0-9]+/, "");
 
-/// Every single value that a scene has or may have: pointer -> its schema's entry.
+/// All single values that a scene has or may have: pointer -> its schema's entry.
 export function places_of(entry, value, parts = []) {
     const kind = shape_of(entry);
     if (kind === "scalar" || kind === "tuple" || kind === "numbers") return [[pointer_of(parts), entry]];
@@ -179,7 +179,7 @@ export class VariantsTable {
         });
     }
 
-    /// Faults of a variant and of what is in it stand at its name.
+    /// Faults of a variant and its members are shown at its name.
     child(i) {
         this.draw();
         const row = this.rows.children[Number(i)];
