@@ -97,12 +97,11 @@ std::string as_accuracy_table(const json& answer) {
                   {"their CPU [s]", Align::right},
                   {"", Align::left}},
                  rows);
-    text +=
-        "errors relative to " + cell(answer, "reference") +
-        "; \"of a run\": with what the reference is off, the other ladders' error at the "
-        "base, and the scatter; \"repeats for\": so many are averaged for nine of ten means to be "
-        "within that, -: not even 20 are enough\n" +
-        legend_of(answer) + "\n";
+    text += "errors relative to " + cell(answer, "reference") +
+            "; \"of a run\": including the error of the reference, of the other ladders at the "
+            "base, and the scatter; \"repeats for\": repeats whose mean is within that error nine "
+            "times in ten, -: more than 20\n" +
+            legend_of(answer) + "\n";
     for (const json& ladder : answer.at("ladders"))
         text += cell(ladder, "name") + ": " + cell(ladder, "message") + "\n";
     return text + "\n" + cell(answer, "recommendation") + "\n";

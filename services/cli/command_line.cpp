@@ -357,8 +357,8 @@ class CommandLine {
             ->needs(of);
         CLI::Option* check =
             sub->add_option("--check", options.repeats,
-                            "run the recommended setting blind, on lattices that the study has not "
-                            "used: so many runs (or means, where it recommends means)")
+                            "test the recommended setting on this many new lattices (or means of "
+                            "lattices, if it recommends means)")
                 ->check(CLI::Range(1, 100))
                 ->needs(of);
         sub->add_option("--rung", options.rung, "check this rung instead, LADDER:STEP: cells:2")
@@ -591,8 +591,8 @@ class CommandLine {
         MotionOptions& options = a_.motion;
         CLI::App* sub = add(
             "motion",
-            "what records are measured by: PGA, PGV, Arias, MASI, spectrum; or what a study of "
-            "several says",
+            "measures of a record (PGA, PGV, Arias, MASI, spectrum), or the findings of a study of "
+            "several",
             "record.AT2 --scale-to-pga-g 0.3",
             [this](Server& server, const Console& c) { return show_motion(server, a_.motion, c); });
         CLI::Option_group* what = sub->add_option_group("what");
@@ -668,8 +668,8 @@ class CommandLine {
         rm->add_flag("--cancel", a_.cancel_first,
                      "cancel runs that have not ended, then remove them");
         rm->add_flag("-y,--yes", a_.confirmed, "do not ask, for scripts");
-        add("du", "what holds the server's disk, and what removing each run would free", "--json",
-            [](Server& s, const Console& c) { return disk_use(s, c); });
+        add("du", "disk space that the server uses, and what removing each run would free",
+            "--json", [](Server& s, const Console& c) { return disk_use(s, c); });
         CLI::App* files =
             add("files", "the motions and meshes that were sent; with FILE: send it", "motion.csv",
                 [this](Server& s, const Console& c) {

@@ -166,7 +166,7 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
     }
     for (const json& each : written) console.out << each.get<std::string>() << "\n";
     const std::string study = (folder / "study.json").string();
-    console.notes << "What is assumed says so in the notes of scene.json. Next:\n"
+    console.notes << "The notes of scene.json list the assumptions. Next:\n"
                   << "  breach draw " << study << " --output " << (folder / "section.svg").string()
                   << "    # look at it, and at what it will cost\n"
                   << "  breach submit " << study << " --watch\n"

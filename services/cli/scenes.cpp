@@ -116,7 +116,7 @@ void take_scene_words(CLI::App& word, ScenesOptions& options,
                           "scene.json --name dam", add_scene);
     store->add_option("SCENE", options.file, "scene file (JSON)")->required();
     store->add_option("--name", options.name,
-                      "that stands for it from now on; another scene becomes its next version");
+                      "name of the scene; another scene of this name becomes its next version");
     store->add_flag("--send-files", options.send_files,
                     "send its motions and meshes even to a server on this machine");
     add("rm", "remove a name with all versions, or a content that nothing needs", "dam",

@@ -360,7 +360,7 @@ Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>
     const Snapped fit = snapped(chains, tolerance);
     if (!fit.settled) {
         result.faults.push_back({"tolerance",
-                                 "the outlines do not come to fit within " + metres(tolerance) +
+                                 "the outlines cannot be joined within " + metres(tolerance) +
                                      ": too many lines cross or nearly touch",
                                  "give a smaller tolerance, or draw each border once and copy it"});
         return result;

@@ -301,8 +301,8 @@ class Import {
         take(read);
         if (request_.unit.empty() && !read.says_unit && drawing_.unit != read.unit)
             remark(as_utf8(sent.name) + " was read in " + read.unit +
-                   ", as nothing says otherwise, the drawing in " + drawing_.unit +
-                   "; a unit that is asked for holds for both");
+                   " because it names no unit, the drawing in " + drawing_.unit +
+                   "; --unit sets that of both");
         if (sound) take_line(std::move(read.outlines), role, as_utf8(sent.name));
     }
 

@@ -383,7 +383,7 @@ Json scene_of(const Values& values, const Outline& outline, const std::string& n
                      (all.with_fem ? ", shaken" : ", liquefied at rest");
     scene["notes"] = {
         "made by: breach new " + values.of().name + "; the toe lies at (0, 0), x points downstream",
-        "what is marked as assumed stands for no site: put your own values there"};
+        "replace the values marked as assumed by those of your site"};
     scene["materials"] = all.with_fem ? materials_shaken(all) : materials_at_rest(all);
     for (Json& material : scene["materials"])
         if (material.at("law").contains("softening") || material.contains("strength"))

@@ -360,7 +360,7 @@ test("a run that is over is pinned, or removed when asked twice", async () => {
     await page.click("#remove");
     assert.equal(await page.evaluate(() => document.activeElement.textContent), "Keep it");
     await until("what it gives back", async () =>
-        (await text_of("#remove-frees")) === "That gives back 12.3 MB of disk; 4 MB more are shared with other runs and stay with those.");
+        (await text_of("#remove-frees")) === "This frees 12.3 MB of disk; 4 MB more are shared with other runs and stay.");
     await page.keyboard.press("Enter");
     await page.waitForSelector("#remove-dialog:not([open])", { state: "attached" });
     assert.ok(!api.requests.includes(`DELETE /v1/runs/${run.id}`));

@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 
 const end_of_time = 85; // [m] where runs were cut off
 const quantity_names = { runout_beyond_toe: ["the same of the soil beyond the toe; 0: there is none", "m"],
-                         runout: ["99 % of the mobile soil lies at most so far beyond the toe; negative: before it", "m"] };
+                         runout: ["99 % of the mobile soil lies within this distance of the toe; negative: upstream of it", "m"] };
 
 /// The same numbers every time: a linear congruential generator (Numerical Recipes, "quick and dirty").
 function numbers_from(seed) {

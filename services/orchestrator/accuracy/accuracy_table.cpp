@@ -123,7 +123,7 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
                 noise && off < statistics::smallest_told_difference(*noise, row->value->count);
         }
         if (ladder.lacks_sizes)
-            add_reason(*row, "what the finest rung is off is not known: give the ladder \"sizes\"");
+            add_reason(*row, "error of the finest rung unknown: give the ladder \"sizes\"");
     }
 }
 
@@ -147,7 +147,7 @@ bool rests_on_unsized(const AccuracyTable& table, AccuracyRow& row) {
         if (i != row.setting.ladder && table.ladders[i].base_lacks_sizes)
             names += (names.empty() ? "" : ", ") + table.plan.ladders[i].name;
     if (names.empty()) return false;
-    add_reason(row, "what the base is off on " + names + " is not known without its \"sizes\"");
+    add_reason(row, "error of the base on " + names + " unknown: give \"sizes\" there");
     return true;
 }
 

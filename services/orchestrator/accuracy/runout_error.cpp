@@ -91,7 +91,7 @@ Estimate estimate_of(const AccuracyTable& table, const AccuracyRow& row, const s
 /// If several ladders share the rung, the largest of their errors.
 Estimate estimate_of(const AccuracyTable& table, const std::string& variant,
                      const std::string& run) {
-    Estimate found{std::nullopt, "accuracy study " + run + " does not tell it"};
+    Estimate found{std::nullopt, "accuracy study " + run + " has no error for it"};
     for (const AccuracyRow& row : table.rows) {
         if (std::ranges::find(row.setting.variants, variant) == row.setting.variants.end())
             continue;
@@ -276,10 +276,11 @@ Estimate at_least_lattices(Estimate beside, double runout, const std::optional<d
         std::max(scatter_in_cells * cell.value_or(0.0), scatter_of_runout * std::abs(runout));
     const double floor = draws.value_or(usual);
     if (floor <= *beside.error) return beside;
-    const std::string why = draws ? "scatter of the repeats of other rows"
-                                  : "what lattices of points usually scatter by, half a cell and " +
-                                        words::text_of(100.0 * scatter_of_runout) +
-                                        " % of the runout at least (set \"draws\" to measure it)";
+    const std::string why = draws
+                                ? "scatter of the repeats of other rows"
+                                : "usual scatter of lattices of points, at least half a cell and " +
+                                      words::text_of(100.0 * scatter_of_runout) +
+                                      " % of the runout (set \"draws\" to measure it)";
     return {floor, why + "; neighbouring transfer times share a lattice and scatter by " +
                        words::text_of(*beside.error, 2) +
                        " m only: noise, not the error of the setting or of the FEM"};

@@ -120,7 +120,7 @@ std::string sizes_to_give(const AccuracyTable& table) {
     for (std::size_t i = 0; i < table.ladders.size(); ++i)
         if (table.ladders[i].lacks_sizes)
             names += (names.empty() ? "" : ", ") + table.plan.ladders[i].name;
-    return names.empty() ? "" : "; \"sizes\" would tell that of " + names;
+    return names.empty() ? "" : "; \"sizes\" give the error of " + names;
 }
 
 std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& row) {
@@ -156,8 +156,8 @@ std::string course_in_words(const statistics::Convergence& convergence, const Ac
                 "order";
             break;
         case statistics::Course::no_effect:
-            return "all rungs give the same to the last digit: what the ladder changes has no part "
-                   "in the quantity";
+            return "all rungs give the same to the last digit: the quantity does not depend on "
+                   "what the ladder changes";
         case statistics::Course::below_noise:
             words =
                 "the two finest rungs differ by no more than the noise of the repeats: no "
@@ -176,7 +176,7 @@ std::string course_in_words(const statistics::Convergence& convergence, const Ac
     if (convergence.spread && convergence.course != statistics::Course::monotone)
         words += "; spread " + with_unit(*convergence.spread, plan.quantity);
     if (plan.ladders[ladder].sizes.empty() && statistics::rests_on_sizes(convergence.course))
-        words += "; what the finest is off is not known without \"sizes\": how coarse each rung is";
+        words += "; error of the finest rung unknown: give \"sizes\", how coarse each rung is";
     return words + noise_in_words(convergence, plan);
 }
 

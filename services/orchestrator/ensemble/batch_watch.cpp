@@ -129,8 +129,8 @@ bool BatchWatch::settle(const Trigger& trigger) {
         end(trigger, TriggerEvent::expire, result, "no sample has a result: no more are drawn");
     } else if (entry.at("drawn") >= entry.at("samples")) {
         end(trigger, TriggerEvent::expire, result,
-            "all samples that were asked for are drawn, and the interval is not narrow enough; "
-            "extend the run by more samples");
+            "all samples are used and the interval is still too wide; extend the run by more "
+            "samples");
     } else {
         return draw_on(trigger, study);
     }

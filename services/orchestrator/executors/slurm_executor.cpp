@@ -214,7 +214,7 @@ Vitals SlurmExecutor::vitals_of(Job& job) const {
     const bool waits = job.state.empty() || waits_its_turn(job.state);  // empty: not listed yet
     if (waits || !answers_) {
         job.silent_since.reset();
-        if (!answers_) return {Life::queued, "squeue does not answer; the job is waited for"};
+        if (!answers_) return {Life::queued, "squeue does not answer; waiting for the job"};
         return {Life::queued, "in Slurm's queue: " + (job.state.empty() ? "taken" : job.state)};
     }
     if (!job.silent_since) job.silent_since = Clock::now();

@@ -77,14 +77,14 @@ void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
 ArrivingFile arriving_file(const Service& service, const std::string& sha256,
                            const std::string& ending, std::int64_t from) {
     if (sha256.empty()) {
-        if (from > 0) throw bad_request("from goes with sha256: of which file is this the rest?");
+        if (from > 0) throw bad_request("from needs sha256, the file that this is the rest of");
         return ArrivingFile::of_one_request(service.data.scratch() / (new_run_id() + ending));
     }
     if (!exchange::is_sha256(sha256)) throw bad_request("sha256 must be 64 hex digits");
     auto file = ArrivingFile::resumable(service.data.arriving(), sha256 + ending);
     if (!file)
         throw Problem{409, "/problems/being-sent", "Being sent",
-                      "somebody sends this file now; ask again for what has arrived"};
+                      "another client is sending this file; ask again how much has arrived"};
     if (from == 0) file->begin_anew();
     if (file->bytes() == from) return std::move(*file);
     if (file->bytes() > 0) file->keep_until_resumed();

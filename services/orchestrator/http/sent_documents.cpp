@@ -73,7 +73,7 @@ Study sent_study(json document, const Service& service) {
     if (is_a("scene", document, "section")) {
         throw BadInput(
             "study",
-            {{"", "this is a scene, not a study: it says what stands there, not when to transfer",
+            {{"", "this is a scene, not a study: it has no transfer times",
               R"(wrap it: {"format": "breachline-study/1", "name": "...", "scene": {...}, )"
               R"("transfer_times": [...]}; or: breach submit --scene FILE --times 0.5,1)"}});
     }

@@ -27,8 +27,9 @@ constexpr std::array columns{
                  "transfer time; null: the scene has no FEM"},
     ResultColumn{"state", "", word, "", "state",
                  "that of the row; questionable: there is a result, but not one to rely on"},
-    ResultColumn{"runout", "/runout", number, "m", "runout",
-                 "99 % of the mobile soil lies at most so far beyond the toe; negative: before it"},
+    ResultColumn{
+        "runout", "/runout", number, "m", "runout",
+        "99 % of the mobile soil lies within this distance of the toe; negative: upstream of it"},
     ResultColumn{"runout_beyond_toe", "/runout_beyond_toe", number, "m", "beyond toe",
                  "the same of the soil beyond the toe; 0: there is none"},
     ResultColumn{"runout_largest", "/runout_largest", number, "m", "largest",
@@ -71,7 +72,7 @@ constexpr std::array columns{
                  "the sweep's own repeats, else by its neighbours in transfer time; null: nothing "
                  "tells it"},
     ResultColumn{"runout_error_from", "", word, "", "",
-                 "what tells the error, or why nothing does"},
+                 "where the error comes from, or why it is unknown"},
     ResultColumn{
         "factor_of_safety", "", number, "1", "FS",
         "the least valid factor of all surfaces, of the variant's stability analysis or of "

@@ -69,7 +69,7 @@ std::string what_is_missing(const Run& run, const std::map<std::string, MissingT
                        " of " + std::to_string(run.tasks_total) + " tasks not done";
     if (waiting > 0) text += " (" + phases + ")";
     if (more > 0.0)
-        text += "; by what such tasks took here they need about " + words::text_of(more, 2) +
+        text += "; from the cost of such tasks they need about " + words::text_of(more, 2) +
                 " CPU s more";
     if (!unknown.empty()) text += "; none of " + unknown + " has run yet";
     return text + "; to go on: breach extend " + run.id + " --budget " + words::text_of(wanted, 9);

@@ -113,8 +113,8 @@ Table importance_table(const json& quantity, const std::string& name) {
                 {"parameter", "rank correlation", "its interval", "partial",
                  "share of the variance", "its interval"},
                 {},
-                "An interval with 0 in it: not told from a parameter that does nothing. The share "
-                "is what the parameter explains alone. Options of a choice and lattices have no "
+                "An interval that contains 0: the parameter may have no effect. The share is what "
+                "the parameter explains alone. Options of a choice and lattices have no "
                 "order, and so no rank correlation."};
     if (!quantity.at("importance").is_array()) return table;
     for (const json& each : quantity.at("importance"))

@@ -209,7 +209,7 @@ Table cases_of(const Run& run) {
           "a pond that erodes the breach and carries tailings away is not in the model"},
          {"1B", "yes", "no", "no", "the same: erosion by water is the process, and it is absent"},
          {"2A", "no", "yes", liquefies ? "yes: this run" : "yes",
-          "soil that lost its strength flows as far as that and its viscosity let it"},
+          "liquefied soil flows until its residual strength and viscosity stop it"},
          {"2B", "no", "no", keeps ? "yes: this run" : "yes",
           "a slope that fails and slumps with the strength that it keeps"}},
         std::string(liquefies || keeps
@@ -252,7 +252,7 @@ Table worth_of(const Run& run, const std::string& name) {
         from = each->runout_error_from;
     }
     table.rows.push_back(
-        {"error of one run's runout, the largest told [m]", known ? rounded(error, 3) : "not known",
+        {"largest known error of one runout [m]", known ? rounded(error, 3) : "not known",
          (known ? std::to_string(known) + " of " + std::to_string(samples.size()) + " samples: "
                 : std::string()) +
              (from.empty() ? "no accuracy study of an equal scene (breach accuracy)" : from)});

@@ -57,8 +57,7 @@ Figure figure_of_steps(const json& inverse) {
                    {inverse.at("vary"), positive ? Scale::logarithmic : Scale::linear},
                    {label_of(inverse)},
                    {means}},
-                  "The dashed line is the result that is asked for. All other parameters stand at "
-                  "their medians."};
+                  "Dashed: the target. All other parameters have their medians."};
     figure.chart.marks.push_back({Mark::At::y, inverse.at("target"), "asked"});
     if (inverse.at("value").is_number())
         figure.chart.marks.push_back({Mark::At::x, inverse.at("value"), value_found(inverse)});

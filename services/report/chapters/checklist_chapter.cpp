@@ -63,12 +63,12 @@ class Checklist {
           mpm_(farthest_runout(run_)) {}
 
     Table table() {
-        ask("Which laws have the soils?", laws_of(run_.scene));
+        ask("Which laws do the soils have?", laws_of(run_.scene));
         ask("Does limit equilibrium agree that it can fail?", stability());
         ask("How fine is the mesh?", mesh());
-        ask("What stands at the sides and below?", boundaries());
+        ask("What are the boundaries at the sides and below?", boundaries());
         ask("What damps, and how much does it carry?", damping());
-        ask("Which stresses does it begin with?", initial_stress());
+        ask("What are the initial stresses?", initial_stress());
         ask("Does pore water flow?", water());
         ask("Was the soil calibrated on elements?",
             has_element_tests_

@@ -109,7 +109,7 @@ std::vector<std::string> asked_of(const Run& run, const json& scene) {
     if (names.size() > 1)
         asked.push_back(std::to_string(names.size()) + " variants" +
                         (names.size() <= most ? ": " + joined(names) : "") +
-                        ". What each changes stands in the chapter of variants.");
+                        ". The chapter of variants lists their changes.");
     if (const int draws = run.study.value("draws", 1); draws > 1)
         asked.push_back(
             "Each on " + std::to_string(draws) + " lattices of material points" +

@@ -16,9 +16,7 @@ using namespace nlohmann::literals;
 namespace {
 
 constexpr const char* default_mark = " *";
-constexpr const char* about_marks =
-    "* stands at the program's own value: it was left out, or written as what the program takes "
-    "then.";
+constexpr const char* about_marks = "* default value, left out of the scene or equal to it.";
 constexpr std::size_t materials_abreast = 5;  // limit of a portrait page
 
 /// Entries below any of these pointers.

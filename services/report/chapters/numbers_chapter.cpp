@@ -210,8 +210,8 @@ void add_numbers(const Material& from, Document& document) {
          {"depth at FS = 1 [m]", "/depth_at_fs_1"},
          {"slices", "/slices"}},
         "FS is the least valid factor of all surfaces analysed; Bishop, Spencer and Ordinary are "
-        "on Bishop's critical circle. Error: more slices say what they leave; what the method "
-        "itself leaves open is the difference between Bishop and Spencer.");
+        "on Bishop's critical circle. Error: that of the number of slices. The difference between "
+        "Bishop and Spencer shows that of the method.");
     add(phases::fem.program, "Finite elements",
         {{"end [s]", "/end_time"},
          {"steps", "/steps"},

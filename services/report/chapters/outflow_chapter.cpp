@@ -80,17 +80,17 @@ void add_hydrograph(const PhaseFolder& mpm, Chapter& chapter) {
 
 /// Flow past each section, for every runout.
 Table section_table(const Run& run) {
-    Table table{
-        "sections",
-        "Sections",
-        {"run", "t_T [s]", "variant", "section", "x [m]", "largest discharge [m2/s]", "at [s]",
-         "passed [m2]", "mass [kg/m]", "closure", "breach [m]", "largest discharge [m3/s]",
-         "passed [m3]"},
-        {},
-        "Per metre of width, net towards +x, of soil as it lay; breach: its best width, and "
-        "discharge and volume times it. Closure: what the momentum carried through less what has "
-        "come to lie beyond, as a share of all that moved. \u2265: a lower bound, the soil still "
-        "moved."};
+    Table table{"sections",
+                "Sections",
+                {"run", "t_T [s]", "variant", "section", "x [m]", "largest discharge [m2/s]",
+                 "at [s]", "passed [m2]", "mass [kg/m]", "closure", "breach [m]",
+                 "largest discharge [m3/s]", "passed [m3]"},
+                {},
+                "Per metre of width, net towards +x, as volume in place; breach: its likeliest "
+                "width, and discharge and volume for it. Closure: volume that the momentum carried "
+                "past the section, less the volume that came to rest beyond it, over all that "
+                "moved. \u2265: a lower bound, the soil still "
+                "moved."};
     for (const PhaseFolder* each : phases_named(run, phases::mpm.program)) {
         if (!each->result.is_object() || !each->result.contains("sections")) continue;
         for (const auto& [name, section] : each->result.at("sections").items()) {

@@ -81,13 +81,12 @@ Figure exceedance_figure(const json& quantity, const std::string& label,
     // With 90 % confidence at most this share of all values is above the largest of n samples.
     const double count = quantity.at("count");
     const double beyond = 100.0 * (1.0 - std::pow(0.1, 1.0 / count));
-    Figure figure{
-        "exceedance",
-        {"Probability of more", {label}, {"probability of more [-]"}, {curve}},
-        "Share of the samples that exceed a value, with its 90 % interval for so many samples. How "
-        "far more can be is not told: up to " +
-            rounded(beyond, 2) +
-            " % of all that is possible may lie beyond the largest sample (90 % confidence)."};
+    Figure figure{"exceedance",
+                  {"Probability of more", {label}, {"probability of more [-]"}, {curve}},
+                  "Share of the samples that exceed a value, with its 90 % interval for so many "
+                  "samples. Larger values are possible: up to " +
+                      rounded(beyond, 2) +
+                      " % of them may lie beyond the largest sample (90 % confidence)."};
     if (bound_from) {
         figure.chart.marks.push_back({Mark::At::x, *bound_from, "from here a lower bound"});
         figure.caption +=
@@ -137,7 +136,7 @@ std::string without_envelope(const json& envelopes) {
     if (others == 0) return "";
     const auto all = envelopes.at("samples").get<std::size_t>() + others;
     return " of " + std::to_string(all) +
-           " (the others, dams that stand among them, are in no percentile)";
+           " (the percentiles leave out the others, such as dams that did not fail)";
 }
 
 }  // namespace

@@ -392,10 +392,9 @@ Table comparison(const Paper& paper, const Measures& ours) {
                 {"quantity", "unit", "paper", "here", "here / paper", "from", "error", "CPU s"},
                 {},
                 "Paper: " + paper.source +
-                    ". Here the plateau is the transfer times around the largest runout that give "
-                    "at least 75 % of it (those of the variant that runs farthest say where), and "
-                    "its runout their "
-                    "median; the window is what the criteria make of the FEM's telemetry."};
+                    ". Plateau here: the transfer times around the largest runout of the variant "
+                    "that runs farthest, as long as they give 75 % of it; its runout is their "
+                    "median. Window: from the criteria and the FEM's telemetry."};
     for (const PaperValue& each : paper.values) {
         std::vector<std::string> row = {each.what, each.unit, short_number(each.value)};
         if (const auto it = ours.find(each.key); it != ours.end()) {

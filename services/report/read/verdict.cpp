@@ -281,8 +281,8 @@ Table flag_table(const Run& run) {
                 "Flags",
                 {"run", "t_T [s]", "variant", "flag", "severity", "what", "entry of the scene"},
                 {},
-                "questionable: a number of that result is a bound, is wrong or cannot be trusted. "
-                "warning: it holds, with less certainty than it looks."};
+                "questionable: a number of that result is a bound or cannot be relied on. warning: "
+                "the result holds, but is less certain."};
     for (const PhaseFolder& phase : run.phases) {
         for (const Flag& flag : findings::flags_of(phase.result)) {
             table.rows.push_back(

@@ -114,13 +114,13 @@ export class RunHead {
     async ask_removal() {
         const { id } = this.run;
         const say = (text) => set_text(by_id("remove-frees"), text);
-        say("Looking how much disk that gives back…");
+        say("Reading the disk space that this frees…");
         by_id("remove-dialog").showModal();
         try {
             const use = (await api.read_storage()).runs.find((run) => run.id === id);
             if (this.run.id !== id) return;
-            say(!use ? "" : `That gives back ${bytes(use.freed_bytes)} of disk` +
-                (use.shared_bytes > 0 ? `; ${bytes(use.shared_bytes)} more are shared with other runs and stay with those.` : "."));
+            say(!use ? "" : `This frees ${bytes(use.freed_bytes)} of disk` +
+                (use.shared_bytes > 0 ? `; ${bytes(use.shared_bytes)} more are shared with other runs and stay.` : "."));
         } catch (fault) {
             say(`How much disk that gives back is not known: ${fault.message}`);
         }

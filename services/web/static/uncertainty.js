@@ -228,7 +228,7 @@ export class Uncertainty {
         this.envelope.show({ series: [part("p50", is_whole), ...(count.every((_, i) => is_whole(i)) ? [] : [fewer])], errors_name: "p10 to p90" });
         set_text(by_id("uncertainty-along-note"), `${most} of ${this.answer.samples.planned} samples. ` + (unit === "s"
             ? "A sample whose flow never came arrives after all others: a percentile ends where too few came." : "Where the flow of a sample never came it is 0 there.") +
-            (this.answer.samples.moving ? ` ${this.answer.samples.moving} still moved when stopped: beyond where they lay depths and velocities are lower bounds, and what was not reached may yet be.` : ""));
+            (this.answer.samples.moving ? ` ${this.answer.samples.moving} still moved when stopped: beyond their front depths and velocities are lower bounds.` : ""));
     }
 
     draw_samples(quantity) {

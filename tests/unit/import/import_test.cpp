@@ -281,7 +281,7 @@ TEST(Import, ALineInAnotherUnitThanTheDrawingIsReported) {
         return import_section(asked).report.at("remarks").dump();
     };
     EXPECT_NE(
-        remarks(request).find("water.csv was read in m, as nothing says otherwise, the drawing "
+        remarks(request).find("water.csv was read in m because it names no unit, the drawing "
                               "in ft"),
         std::string::npos)
         << remarks(request);

@@ -420,7 +420,7 @@ TEST(RunoutError, OfNeighboursIsAtLeastWhatLatticesScatterBy) {
             const double floor = std::max(0.5 * cell, 0.015 * row.at("runout").get<double>());
             EXPECT_NEAR(row.at("runout_error").get<double>(), floor, 1e-12);
             const std::string from = row.at("runout_error_from");
-            EXPECT_TRUE(from.starts_with("what lattices of points usually scatter by")) << from;
+            EXPECT_TRUE(from.starts_with("usual scatter of lattices of points")) << from;
         }
     }
 }
