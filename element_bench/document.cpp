@@ -160,13 +160,12 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
     }
     if (begun.eta_limit <= 0.0) {
         const double most = par.M_tc / (begun.state.chi_i * (1.0 + par.N)) + slope;
-        faults.push_back({pointer + "/psi_0",
-                          "is " +
-                              three_digits(begun.state.e - norsand::critical_void_ratio(law, p)) +
-                              " at " + three_digits(p / 1e3) +
-                              " kPa: so loose that the law has no stress ratio that stands",
-                          "give a state parameter below " + three_digits(most) +
-                              ", or check chi_tc and the critical state line"});
+        faults.push_back(
+            {pointer + "/psi_0",
+             "is " + three_digits(begun.state.e - norsand::critical_void_ratio(law, p)) + " at " +
+                 three_digits(p / 1e3) + " kPa: so loose that the law has no stable stress ratio",
+             "give a state parameter below " + three_digits(most) +
+                 ", or check chi_tc and the critical state line"});
         return;
     }
     if (!begun.shrunk) return;
@@ -187,7 +186,7 @@ void check_norsand_tests(json& document, std::vector<Fault>& faults) {
     json& law = document.at("law");
     for (Fault& each : scene::check_norsand(law, "/law")) faults.push_back(each);
     if (law.contains("psi_0") && law.contains("e_0")) {
-        faults.push_back({"/law/e_0", "stands beside psi_0", "give one of the two"});
+        faults.push_back({"/law/e_0", "given together with psi_0", "give one of the two"});
     }
     if (!document.contains("tests") || !faults.empty()) return;
     for (auto& [name, test] : document.at("tests").items()) {
@@ -198,7 +197,8 @@ void check_norsand_tests(json& document, std::vector<Fault>& faults) {
             continue;
         }
         if (test.contains("psi_0") && test.contains("e_0")) {
-            faults.push_back({pointer + "/e_0", "stands beside psi_0", "give one of the two"});
+            faults.push_back(
+                {pointer + "/e_0", "given together with psi_0", "give one of the two"});
         }
         const bool begins = test.contains("psi_0") || test.contains("e_0") ||
                             law.contains("psi_0") || law.contains("e_0");
@@ -396,7 +396,7 @@ void check_what_it_is(const json& document, std::vector<Fault>& faults) {
     }
     for (const char* key : {"law", "tests", "calibration"}) {
         if (document.contains(key))
-            faults.push_back({std::string("/") + key, "stands beside norsand_calibration",
+            faults.push_back({std::string("/") + key, "given together with norsand_calibration",
                               "leave it out: the law is what is sought"});
     }
 }

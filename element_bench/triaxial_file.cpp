@@ -74,7 +74,7 @@ void Reader::read_names(const std::string& text, std::size_t line) {
     for (const std::string& each : names_) {
         if (std::ranges::count(column_names, each) == 0) continue;
         if (columns_.contains(each))
-            return fault(line, "column " + each + " stands twice", "keep one of them");
+            return fault(line, "column " + each + " occurs twice", "keep one of them");
         columns_[each];
     }
     const std::string volume = drained_ ? "epsilon_v" : "u_kPa (or p_kPa)";

@@ -117,7 +117,7 @@ void say(const json& result) {
     const std::string surface = result.at("surface");
     spdlog::info("least factor of safety {:.3f} ({}, {}): {}", F,
                  result.at("method") == "spencer" ? "Spencer" : "simplified Bishop",
-                 in_words(surface), F < 1.0 ? "the slope fails" : "the slope stands");
+                 in_words(surface), F < 1.0 ? "the slope fails" : "the slope is stable");
     const json& bishop = result.at("bishop");
     spdlog::info("critical circle: simplified Bishop {:.3f}{}",
                  bishop.at("factor_of_safety").get<double>(), other_methods(bishop));

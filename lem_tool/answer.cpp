@@ -239,7 +239,7 @@ std::vector<fault::Flag> flags_of_answer(const json& answer, const scene::Lem& l
             flags.push_back({"kinked_without_friction", fault::Severity::warning,
                              std::string(words) +
                                  ", and Spencer's method does not see the strength that this "
-                                 "takes; believe the circle",
+                                 "takes; use the circle's factor",
                              "/lem/non_circular"});
         else
             flags.push_back({"surfaces_disagree", fault::Severity::questionable,

@@ -108,7 +108,7 @@ class Simulation {
     OverlapMeter overlap_;
     Limits limits_;
     LastGood last_good_;
-    std::optional<std::string> moving_ = "nobody has looked yet";
+    std::optional<std::string> moving_ = "not checked yet";
 };
 
 }  // namespace breach::mpm

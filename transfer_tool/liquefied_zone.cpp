@@ -147,7 +147,8 @@ std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double
             " m the soil has liquefied down to y = " + text(gap.level) +
             " m at most, and on both sides to " + text(gap.beside) + " m at least (" +
             std::to_string(gaps.size()) +
-            " such gaps): single nodes near the threshold of r_u decide, and a wall of sound soil "
+            " such gaps): single nodes near the threshold of r_u decide, and a wall of unliquefied "
+            "soil "
             "can hold the runout back; set /transfer/liquefied/narrowest_wall to two cells of the "
             "MPM or more, or compare neighbouring transfer times",
         "/transfer/liquefied/narrowest_wall"};

@@ -48,8 +48,9 @@ std::vector<Fault> check_line(const json& law, const std::string& pointer) {
     const bool curved = has_any(law, {"C_a", "C_b", "C_c"});
     const char* remedy = "give Gamma and lambda, or C_a, C_b and C_c";
     if (semi_log == curved) {
-        const char* what = semi_log ? "stands beside C_a, C_b or C_c: two critical state lines"
-                                    : "is missing: the law has no critical state line";
+        const char* what = semi_log
+                               ? "given together with C_a, C_b or C_c: two critical state lines"
+                               : "is missing: the law has no critical state line";
         return {{pointer + "/Gamma", what, remedy}};
     }
     std::vector<Fault> faults;
@@ -169,7 +170,7 @@ std::vector<Fault> check_start(const materials::NorSand& made, double K_0, const
         return {{loose,
                  "is a state parameter of " +
                      three_digits(begun.state.e - norsand::critical_void_ratio(made.ready, 100e3)) +
-                     " at 100 kPa: so loose that the law has no stress ratio that stands",
+                     " at 100 kPa: so loose that the law has no stable stress ratio",
                  "give a state parameter below " + three_digits(most) +
                      ", or check chi_tc and the critical state line"}};
     }

@@ -151,7 +151,7 @@ void check_by_state(Reader& reader, const Scene& scene, std::size_t region,
         reader.add(pointer + "/norsand", "asks for NorSand's strength of a region without that law",
                    "set the material's law to norsand, or give a strength");
     if (strength.constant > 0.0 || strength.coefficient > 0.0)
-        reader.add(pointer + "/norsand", "stands beside a strength", "give one of the two");
+        reader.add(pointer + "/norsand", "given together with a strength", "give one of the two");
 }
 
 std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, const json& lem,

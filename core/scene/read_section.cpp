@@ -114,7 +114,7 @@ materials::MohrCoulomb mohr_coulomb_from(Reader& reader, const json& law, const 
     const bool has_c = law.contains("c_kPa");
     if (profile && !has_c && !law.contains("phi_deg")) {
         if (law.contains("softening"))
-            reader.add(pointer + "/softening", "stands beside a strength profile",
+            reader.add(pointer + "/softening", "given together with a strength profile",
                        "give the strains in the material's strength/softening");
         const materials::MohrCoulomb made = mohr_coulomb_of(*profile, law);
         if (made.psi > made.phi)
@@ -267,7 +267,7 @@ void read_region_mesh(Reader& reader, const json& mesh, const json& ring,
                    "give element_size here or in /section, or a block's divisions");
     }
     if (divided && region.grading.any()) {
-        reader.add(pointer + "/divisions", "stands beside graded",
+        reader.add(pointer + "/divisions", "given together with graded",
                    "strips follow from element_size: leave out divisions");
     }
     if (region.mesh == RegionMesh::unstructured || region.polygon.empty()) return;

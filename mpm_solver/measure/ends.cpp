@@ -38,7 +38,7 @@ Flag pressed(const char* side, double x, double rise, const scene::Mpm& mpm) {
     return {"reached_wall", Severity::questionable,
             "soil came against the " + std::string(side) + " wall of the grid (x = " +
                 text_of(x, 9) + " m), where it stood up to " + text_of(rise) +
-                " m higher than before: no such wall stands in nature, and the runout is too short "
+                " m higher than before: no real slope has such a wall, and the runout is too short "
                 "(unsafe); write \"domain_x\": [" +
                 low + ", " + high + "], and draw ground, terrain and friction zones as far",
             "/mpm/domain_x"};

@@ -139,7 +139,7 @@ double energy_scale(const scene::Rest& rest, double released, double mobile_mass
 std::optional<std::string> why_moving(const History& history, const Energy& start, const Body& body,
                                       const std::vector<std::uint8_t>& counts,
                                       const scene::Rest& rest) {
-    if (history.empty()) return "nobody has looked yet";
+    if (history.empty()) return "not checked yet";
     const Row& now = history.back();
     const double from = now.time - rest.window;
     if (now.time < rest.earliest || from < history.front().time) {

@@ -395,7 +395,7 @@ class CommandLine {
                          "transfer times, separated by commas [s]")
             ->delimiter(',');
         more->add_option("--samples", a_.samples,
-                         "so many samples in all, of an uncertainty study; the first ones stay")
+                         "new total of samples of an uncertainty study; the first ones stay")
             ->check(CLI::Range(1, 10000));
         more->add_option("--budget", a_.budget,
                          "CPU seconds that the run may spend in all, or none: no limit")
@@ -488,7 +488,7 @@ class CommandLine {
             });
         logs_->add_option("TASK", a_.log.task, "whose log; `show RUN` lists the tasks")->required();
         logs_->add_option("--attempt", a_.log.attempt, "which attempt (default: the newest)");
-        logs_->add_option("-n,--lines", a_.log.lines, "only the last so many lines");
+        logs_->add_option("-n,--lines", a_.log.lines, "only the last lines, this many");
         logs_->add_flag("-f,--follow", a_.follow, "go on until the task ends");
 
         TelemetryOptions& options = a_.telemetry;

@@ -67,7 +67,7 @@ ExitCode show_log(Server& server, const LogOptions& options, const Console& cons
     console.out << last_lines(more_of(server, options.task, attempt, offset), options.lines)
                 << std::flush;
     while (options.follow == Follow::until_the_end) {
-        if (!console.out) throw fault::IoError("nobody reads the output any more");
+        if (!console.out) throw fault::IoError("the output was closed");
         // Before the last read: everything written before the end is then shown.
         const json task = server.get(path);
         console.out << more_of(server, options.task, attempt, offset) << std::flush;

@@ -168,7 +168,7 @@ ExitCode watch(Server& server, const std::string& name, Questionable questionabl
         const auto began = steady_clock::now();
         try {
             json run = onlooker.look();
-            if (!console.out) throw fault::IoError("nobody reads the output any more");
+            if (!console.out) throw fault::IoError("the output was closed");
             answered = steady_clock::now();
             ever_answered = true;
             if (end_of(run) != RunEnd::not_yet) {

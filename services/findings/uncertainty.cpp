@@ -53,7 +53,7 @@ std::string interval_in_words(const json& found, const json& statistics) {
 }
 
 std::string percentiles_in_words(const std::string& quantity, const json& statistics) {
-    const std::string rests = " It rests on " + statistics.at("count").dump() + " of " +
+    const std::string rests = " From " + statistics.at("count").dump() + " of " +
                               counted(statistics.at("of"), "sample") + ".";
     const json* median = percentile_in(statistics, 50);
     if (median == nullptr)
@@ -126,7 +126,8 @@ std::string standing_caution(const json& samples) {
     if (samples.at("no_transfer") == 0) return "";
     return "No transfer from " + counted(samples.at("no_transfer"), "sample") + " of " +
            samples.at("planned").dump() +
-           ": the FEM ended and no trigger fired. If the dam stands there, nothing runs out; every "
+           ": the FEM ended and no trigger fired. If the dam does not fail there, nothing runs "
+           "out; every "
            "number here is of the samples with a transfer.";
 }
 

@@ -42,7 +42,7 @@ constexpr std::array<std::pair<const char*, const char*>, 8> briefs{{
     {"numerical_share", "with much energy made or lost by the numerics"},
     {"volume_ratio", "that did not keep the volume"},
     {"overlap", "with soil lying in soil"},
-    {"liquefied_gap", "with walls of sound soil too thin for the cells"},
+    {"liquefied_gap", "with walls of unliquefied soil too thin for the cells"},
     {"coarse_cells", "on cells too coarse"},
     {"coarse_elements", "on elements too coarse"},
     {"entangled_corner", "ended by one bad corner of the mesh"},
@@ -165,7 +165,7 @@ void add_without_transfer(const Facts& facts, std::vector<Reason>& reasons) {
                            "no transfer" + of + ": " + why,
                            "No transfer" + of + ", so there is no runout: " + why +
                                (stood ? ". The dam may stand; then nothing runs out."
-                                      : ". This does not mean that the dam stands."),
+                                      : ". This does not mean that the dam is stable."),
                            pointer, static_cast<std::int64_t>(names.size())});
     }
 }

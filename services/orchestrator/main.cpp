@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     std::filesystem::path attempt;
     supervising->add_option("folder", attempt, "the attempt's folder")->required();
     bool take_lock = false;
-    supervising->add_flag("--take-lock", take_lock, "nobody has locked the attempt yet");
+    supervising->add_flag("--take-lock", take_lock, "the attempt is not locked yet");
     bool ending = false;
     supervising->add_flag("--end-strays", ending, "the supervisor was killed: end what it left");
     try {

@@ -61,7 +61,7 @@ Quantity quantity_from(Entry entry) {
     const json& of = entry.of();
     Quantity made{
         .what = entry.text("what", "name it"),
-        .place = {of.value("file", "result.json"), entry.text("at", "say where it stands"), ""},
+        .place = {of.value("file", "result.json"), entry.text("at", "give its place"), ""},
         .right = entry.number("right", "give the right value"),
         .allowed = 0.0,
         .relative = of.contains("relative"),

@@ -77,7 +77,7 @@ std::optional<report::Figure> error_figure(const Topic& topic,
         if (!each->x.empty()) chart.series.push_back(std::move(*each));
     if (chart.series.empty()) return std::nullopt;
     return report::Figure{"error_" + topic.id, std::move(chart),
-                          "One point per comparison; what is exact stands at 1e-8 %."};
+                          "One point per comparison; exact results are drawn at 1e-8 %."};
 }
 
 std::string drawing_of(const Case& of) {

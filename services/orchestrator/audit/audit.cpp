@@ -173,7 +173,7 @@ WHERE finished IS NOT NULL)",
             });
         });
         each_in(data_.files(), [&](const fs::path& file) {
-            if (!known_files_.contains(file.filename())) stray(file, "was sent by nobody");
+            if (!known_files_.contains(file.filename())) stray(file, "belongs to no known upload");
         });
     }
 

@@ -374,7 +374,7 @@ void extend_sweep(Service& service, Call& call) {
         return reply(call.response, answer, 202);
     }
     if (samples && (!body["samples"].is_number_unsigned() || body["samples"] < 1))
-        throw bad_request("samples must be a whole number above 0: so many in all");
+        throw bad_request("samples, the new total, must be a whole number above 0");
     const RunSoFar so_far{.study = still(service.store.study_of(id)),
                           .scene = still(service.store.scene_of(id)),
                           .tasks = service.store.tasks_of(id)};

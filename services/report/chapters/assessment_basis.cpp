@@ -91,7 +91,7 @@ Table percentile_table(const Run& run) {
         "Percentiles",
         {"quantity", "samples", "mean", "standard deviation", "p5", "p10", "p50", "p90", "p95"},
         {},
-        "In brackets: 90 % intervals for so many samples. Mean and standard "
+        "In brackets: 90 % intervals. Mean and standard "
         "deviation of distances that are lower bounds in part are too small."};
     for (const std::string& name : quantities_of(run.uncertainty)) {
         const json& quantity = run.uncertainty.at("quantities").at(name);
@@ -182,7 +182,7 @@ Chapter assessment_basis(const Material& from, const std::string& name, Document
     const Run& run = from.run;
     const json& quantity = run.uncertainty.at("quantities").at(name);
     const std::string label = words_of(name) + unit_in_brackets(quantity);
-    Chapter chapter{"What the assessment rests on"};
+    Chapter chapter{"Basis of the assessment"};
     Figure exceedance = exceedance_figure(quantity, label, least_moving(run, name));
     add_published(from, name, exceedance);
     chapter.figures.push_back(std::move(exceedance));

@@ -145,7 +145,7 @@ Table answers_of(const Run& run) {
         "How far, when, how deep, how fast",
         {"what", "p50", "p10", "p90", "rests on"},
         {},
-        "In brackets: the percentile's 90 % interval for so many samples. "
+        "In brackets: the percentile's 90 % interval. "
         "\u2265: a lower bound, soil still moved. At a gauge a sample whose flow never came "
         "is 0 deep and arrives after all others."};
     for (const std::string& name : quantities_of(run.uncertainty))

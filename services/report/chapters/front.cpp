@@ -328,7 +328,7 @@ void add_factors(const Run& run, Table& table) {
     table.rows.push_back(
         {"Liquefied depth at which the factor of safety falls to 1 [m]",
          brief_fact(*least, "/depth_at_fs_1"), range_of(all, "/depth_at_fs_1", false),
-         brief_fact(*least, "/depth_at_fs_1") == "-" ? "stands with every layer liquefied" : ""});
+         brief_fact(*least, "/depth_at_fs_1") == "-" ? "stable with every layer liquefied" : ""});
     table.rows.push_back({"Depth of the critical surface (critical_depth of triggers) [m]",
                           brief_fact(*least, "/critical_depth"),
                           range_of(all, "/critical_depth", false),

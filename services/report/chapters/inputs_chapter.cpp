@@ -284,8 +284,7 @@ Table assumptions_of(const json& scene) {
 
 void add_inputs(const Material& from, Document& document) {
     const json& scene = from.run.scene;
-    Chapter chapter{"Inputs",
-                    "What variants change stands in their table, every entry in the annex."};
+    Chapter chapter{"Inputs", "The table of variants lists their changes, the annex every entry."};
     chapter.drawing = drawing_of(from.run);
     chapter.tables.push_back(soils_of(scene));
     if (Table notes = assumptions_of(scene); !notes.rows.empty())

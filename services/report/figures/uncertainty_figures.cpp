@@ -83,8 +83,8 @@ Figure exceedance_figure(const json& quantity, const std::string& label,
     const double beyond = 100.0 * (1.0 - std::pow(0.1, 1.0 / count));
     Figure figure{"exceedance",
                   {"Probability of more", {label}, {"probability of more [-]"}, {curve}},
-                  "Share of the samples that exceed a value, with its 90 % interval for so many "
-                  "samples. Larger values are possible: up to " +
+                  "Share of the samples that exceed a value, with its 90 % interval. Larger values "
+                  "are possible: up to " +
                       rounded(beyond, 2) +
                       " % of them may lie beyond the largest sample (90 % confidence)."};
     if (bound_from) {

@@ -261,10 +261,10 @@ TEST_F(WetRun, SaysWhatNothingWasTransferredOf) {
                      "met. The dam may stand; then nothing runs out."));
     EXPECT_TRUE(said(verdict.cautions,
                      "No transfer from early, so there is no runout: the FEM ended at 8 s. "
-                     "This does not mean that the dam stands."));
+                     "This does not mean that the dam is stable."));
     EXPECT_TRUE(said(verdict.cautions,
                      "No transfer from odd, so there is no runout: window: there is "
-                     "no window. This does not mean that the dam stands."));
+                     "no window. This does not mean that the dam is stable."));
 }
 
 TEST_F(WetRun, SaysWhenARatioOfRunoutsSaysNothing) {
