@@ -27,14 +27,6 @@ json of_result(const Task& task, const char* key) {
     return task.result && task.result->is_object() ? task.result->value(key, json()) : json();
 }
 
-/// Number of results with each flag, of the phase with the most.
-std::map<std::string, std::int64_t> flag_counts(const findings::Facts& facts) {
-    std::map<std::string, std::int64_t> counts;
-    for (const findings::Raised& each : facts.raised)
-        counts[each.flag.code] = std::max(counts[each.flag.code], each.results);
-    return counts;
-}
-
 json as_json(const GoverningResult& governing) {
     return {{"task", governing.task},
             {"variant", governing.variant},
@@ -97,7 +89,7 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"submitted_by", or_null(run.submitted_by)},
             {"seconds_left", or_null(left)},
             {"questionable", run.questionable},
-            {"flag_counts", flag_counts(run.facts)},
+            {"flag_counts", run.flag_counts},
             {"verdict", findings::as_json(findings::verdict_of(run.facts))},
             {"governing", run.governing ? as_json(*run.governing) : json()},
             {"stability", run.stability ? as_json(*run.stability) : json()},

@@ -171,6 +171,8 @@ struct Run {
     /// The token's name; nothing: the service needed none.
     std::optional<std::string> submitted_by = {};
     findings::Facts facts = {};  ///< the basis of its verdict
+    /// Results with each flag, of the phase with the most.
+    std::map<std::string, std::int64_t> flag_counts = {};
     std::optional<GoverningResult> governing = {};
     std::optional<LeastFactor> stability = {};
 };

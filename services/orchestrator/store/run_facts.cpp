@@ -39,6 +39,17 @@ GROUP BY flags.run, severity, code, flags.phase ORDER BY flags.run, severity, co
         });
 }
 
+/// Apart from add_flags: a flag may be a warning of one result and make another questionable.
+void add_flag_counts(Connection& database, const std::string& ids, std::vector<Run>& runs) {
+    database.query(
+        R"(SELECT run, code, max(tasks) AS tasks FROM (
+    SELECT run, code, phase, count(DISTINCT task) AS tasks FROM flags
+    WHERE run IN (SELECT value FROM json_each(?)) GROUP BY run, code, phase) GROUP BY run, code)",
+        {ids}, [&](const Row& row) {
+            run_named(runs, row.text("run")).flag_counts[row.text("code")] = row.integer("tasks");
+        });
+}
+
 /// Excludes samples: some are expected to fail, and their share is the result.
 void add_unstable(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
@@ -216,6 +227,7 @@ void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
             run_named(runs, row.text("run")).facts.has_runout = row.integer("runouts") > 0;
         });
     add_flags(database, ids, runs);
+    add_flag_counts(database, ids, runs);
     add_unstable(database, ids, runs);
     add_early(database, ids, runs);
     add_broken(database, ids, runs);
