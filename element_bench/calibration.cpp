@@ -61,16 +61,16 @@ Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(proble
     for (const CyclicTarget& target : problem_.cyclic) {
         if (!target.N && !problem_.reference)
             throw std::invalid_argument("a cyclic target has neither cycles nor a reference soil");
-        if (target.N)  // or a soil that is too strong would look like one that is right
+        if (target.N)  // otherwise too strong a soil would have no deviation
             problem_.most_cycles =
                 std::max(problem_.most_cycles, static_cast<int>(std::ceil(3.0 * *target.N)));
     }
     for (const CyclicTarget& target : problem_.cyclic)
         N_wanted_.push_back(target.N ? *target.N : cycles(*problem_.reference, target));
-    // Slope of each wanted curve, by least squares in the logarithms. One point has none, and repeat
-    // tests at one stress ratio scatter about none: by a slope of 0 every soil would be right.
+    // Slope of each target curve, by least squares in the logarithms. One point has no slope, and
+    // repeats at one stress ratio give 0, for which every soil would fit.
     constexpr double usual_slope = -0.2;       // of sands
-    constexpr double flattest_slope = -0.05;   // that is believed
+    constexpr double flattest_slope = -0.05;   // flatter ones are not used
     const double least_range = std::log(1.1);  // of CSR
     for (const CyclicTarget& target : problem_.cyclic) {
         double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -120,7 +120,7 @@ std::vector<Term> Calibration::cyclic_terms(const SandParameters& parameters) co
     for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
         const CyclicTarget& target = problem_.cyclic[k];
         const double N = cycles(parameters, target);
-        // More cycles at the same stress ratio is more resistance: minus the slope.
+        // More cycles at the same stress ratio mean more resistance: minus the slope.
         const double deviation = -slope_[k] * std::log(N / N_wanted_[k]);
         terms.push_back({"N at " + kPa(target.sigma_v) + ", CSR " + two_digits(target.CSR),
                          N_wanted_[k], N, deviation,
@@ -181,8 +181,8 @@ std::vector<double> spread_point(int k, const std::vector<FreeParameter>& free) 
 
 using Place = std::vector<double>;
 
-/// Nelder and Mead's simplex with edges `size` around `start`, until no corner is farther than
-/// `least_size` from the best or `most` evaluations are spent. What it finds, `f` has seen.
+/// Nelder-Mead with edges `size` around `start`, until all corners are within `least_size` of the
+/// best or `most` evaluations are used. `f` records the best.
 void descend(const std::function<double(const Place&)>& f, const Place& start, double size,
              double least_size, int most) {
     int evaluations = 0;
@@ -227,7 +227,7 @@ CalibrationResult calibrate(const Calibration& calibration,
     const auto misfit = [&](const std::vector<double>& x) { return fit_at(x).misfit; };
     const int most = calibration.problem().most_evaluations;
 
-    // Q and R trade against each other along a bent valley: look around before going down.
+    // Q and R compensate each other along a curved valley: sample first, then descend.
     std::vector<double> x;
     for (const double value : calibration.start()) x.push_back(std::log(value));
     std::vector<Start> starts{{x, misfit(x)}};
@@ -240,7 +240,7 @@ CalibrationResult calibrate(const Calibration& calibration,
     for (std::size_t k = 0; k < 3 && k < starts.size(); ++k) {
         descend(misfit, starts[k].x, 0.2, 5e-3, most / 5);
     }
-    // Fresh simplices around the best until one brings nothing.
+    // New simplices around the best until one brings no improvement.
     double size = 0.1, before = 2.0 * result.best.misfit;
     while (result.evaluations < most && result.best.misfit < before * (1.0 - 1e-4)) {
         before = result.best.misfit;

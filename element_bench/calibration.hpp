@@ -1,6 +1,5 @@
-// Finds parameters of PM4Sand with undrained strengths that meet targets and a cyclic strength that
-// stays that of a reference soil (automates the calibration of Sordo et al.) or meets measured
-// curves. Deterministic.
+// Calibrates PM4Sand parameters: undrained strengths meet targets, and the cyclic strength stays
+// that of a reference soil (as Sordo et al. did by hand) or meets measured curves. Deterministic.
 #pragma once
 
 #include <functional>
@@ -18,22 +17,22 @@ using SandParameters = materials::pm4sand::Parameters;
 struct StrengthTarget {
     double sigma_v;  ///< [Pa]
     double K0;
-    double strain;  ///< shear strain at which tau is read
-    double s_u;     ///< wanted [Pa]
+    double strain;  ///< shear strain of this strength
+    double s_u;     ///< target [Pa]
 };
 
-/// One point of a cyclic strength curve; wanted are the cycles that a laboratory counted, or those
-/// that the reference soil needs.
+/// One point of a cyclic strength curve. The target are the measured cycles, or those of the
+/// reference soil.
 struct CyclicTarget {
     double sigma_v;  ///< [Pa]
     double K0;
     double CSR;
-    double strain;              ///< single amplitude that counts as failure
+    double strain;              ///< single amplitude at failure
     std::optional<double> N{};  ///< measured
-    double weight = 1.0;        ///< of its share in the misfit
+    double weight = 1.0;        ///< in the misfit
 };
 
-/// A parameter to be varied; identified by its name in SandParameters.
+/// A parameter to calibrate, by its name in SandParameters.
 struct FreeParameter {
     std::string name;
     double least, most;
@@ -41,12 +40,12 @@ struct FreeParameter {
 
 struct CalibrationProblem {
     SandParameters start;
-    std::optional<SandParameters> reference;  ///< for targets that were not measured
+    std::optional<SandParameters> reference;  ///< for targets without measurement
     std::vector<FreeParameter> free;
     std::vector<StrengthTarget> strength;
     std::vector<CyclicTarget> cyclic;
-    double strength_spread = 0.05;  ///< relative deviation that counts as one
-    double cyclic_spread = 0.05;    ///< the same, of the cyclic stress ratio
+    double strength_spread = 0.05;  ///< relative deviation with misfit 1
+    double cyclic_spread = 0.05;    ///< the same for the cyclic stress ratio
     materials::pm4sand::Options options;
     double monotonic_step = 2e-4;
     double cyclic_step = 1e-4;
@@ -58,14 +57,13 @@ struct CalibrationProblem {
 std::vector<std::string> parameter_names();
 double& parameter(SandParameters& parameters, const std::string& name);
 
-/// One deviation: computed against wanted. For cyclic terms both are cycles to failure, and the
-/// deviation is that of the stress ratio at the same number of cycles, read off the slope of the
-/// wanted curve at this stress.
+/// One deviation, computed minus target. Cyclic terms: cycles to failure, converted to a deviation
+/// of the stress ratio at equal cycles by the slope of the target curve.
 struct Term {
     std::string name;
     double wanted, computed;
     double deviation;  ///< relative
-    double share;      ///< weight (deviation / spread)^2, its part of the misfit
+    double share;      ///< weight (deviation / spread)^2
 };
 
 struct Fit {
@@ -74,8 +72,8 @@ struct Fit {
     std::vector<Term> terms;
 };
 
-/// The problem with the wanted cycles and the slopes of their curves. Throws std::invalid_argument
-/// where a target has neither cycles nor a reference soil.
+/// The problem with target cycles and slopes of their curves. Throws std::invalid_argument for a
+/// target with neither cycles nor reference soil.
 class Calibration {
   public:
     explicit Calibration(CalibrationProblem problem);
@@ -102,8 +100,8 @@ struct CalibrationResult {
     SandParameters parameters;
 };
 
-/// Damped Gauss-Newton in the logarithms of the parameters, then Nelder and Mead's simplex around
-/// its result. Calls `seen` after each evaluation (for progress); it may be empty.
+/// Damped Gauss-Newton in the logarithms of the parameters, then Nelder-Mead around its result.
+/// Calls `seen` after each evaluation, if not empty.
 CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen = {});
 

@@ -26,7 +26,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 SandLaw sand_of(const json& law) { return {scene::sand_parameters(law), scene::sand_options(law)}; }
 
-/// Completes a PM4Sand entry and says what contradicts.
+/// Completes a PM4Sand entry and reports contradictions.
 void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& faults) {
     scene::complete_sand(law);
     if (law.value("type", "") != "pm4sand" || law.at("e_max") > law.at("e_min")) return;
@@ -93,7 +93,7 @@ TestPlan plan_of(const std::string& name, const json& test, const json& law) {
     return plan;
 }
 
-/// Stress at the end of consolidation; the static shear acts before the test. zz as elastic.
+/// Stress after consolidation; the static shear is applied before the test. zz elastic.
 Voigt initial_stress(const Consolidation& at, double sigma_v) {
     const double sigma_h = at.K0 * sigma_v;
     return {-sigma_h, -sigma_v, -sigma_h, at.static_shear * sigma_v};
@@ -127,7 +127,7 @@ std::string three_digits(double value) {
     return text;
 }
 
-/// A test's confinement that the law of a point cannot begin with.
+/// Refuses a confinement from which the law cannot start.
 void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sigma_v,
                      const std::string& stress_pointer, std::vector<Fault>& faults) {
     const Consolidation& at = plan.consolidation;
@@ -181,7 +181,7 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
                  : (at.K0 < 1.0 ? "give K0 above " : "give K0 below ") + three_digits(K0)});
 }
 
-/// What the tests of NorSand say against the law and themselves.
+/// Checks NorSand tests against the law and each other.
 void check_norsand_tests(json& document, std::vector<Fault>& faults) {
     json& law = document.at("law");
     for (Fault& each : scene::check_norsand(law, "/law")) faults.push_back(each);
@@ -223,7 +223,7 @@ void check_norsand_tests(json& document, std::vector<Fault>& faults) {
     }
 }
 
-/// What a test asks of a law that does not have it.
+/// Refuses tests that the law does not support.
 void check_tests(const json& document, std::vector<Fault>& faults) {
     if (!document.contains("tests")) return;
     const std::string law = document.at("law").at("type");
@@ -289,8 +289,8 @@ CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
     return problem;
 }
 
-/// A laboratory's curve: CSR, N and, where given, weight per line, in SI's pure numbers; a line of
-/// names may come first, '#' begins a comment.
+/// A measured curve: CSR, N and optionally weight per line; the first line may have names, '#'
+/// starts a comment.
 json points_of_file(const std::filesystem::path& file, const std::string& pointer,
                     std::vector<Fault>& faults) {
     std::ifstream stream(file);
@@ -340,7 +340,7 @@ json points_of_file(const std::filesystem::path& file, const std::string& pointe
     return points;
 }
 
-/// From here on the document holds the points, wherever they came from.
+/// Replaces file names by points.
 void take_in_curves(json& document, const std::filesystem::path& folder,
                     std::vector<Fault>& faults) {
     json& curves = document.at("calibration").at("cyclic_strength");
@@ -387,7 +387,7 @@ void check_calibration(const json& document, std::vector<Fault>& faults) {
     }
 }
 
-/// A law with its tests, or a calibration that seeks one.
+/// A document has a law with tests, or a calibration.
 void check_what_it_is(const json& document, std::vector<Fault>& faults) {
     if (!document.contains("norsand_calibration")) {
         if (!document.contains("law"))
@@ -480,7 +480,7 @@ Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, do
 
 namespace {
 
-/// How far the stress of an unstrained point lies outside the law's yield surface [Pa].
+/// How far the initial stress lies outside the yield surface [Pa].
 double outside(const PlainPoint& point) {
     const double excess = std::visit(
         [&](const auto& law) { return materials::yield_excess(law, point.state); }, point.law);
@@ -490,9 +490,9 @@ double outside(const PlainPoint& point) {
 double outside(const SandPoint& point) {
     return materials::stress_outside(materials::PM4Sand{{}, point.law, point.options}, point.state);
 }
-double outside(const NorSandPoint&) { return 0.0; }  // it is refused
+double outside(const NorSandPoint&) { return 0.0; }  // refused earlier
 
-/// Tests that begin outside the surface.
+/// Flags tests that start outside the yield surface.
 std::vector<fault::Flag> warnings_of_starts(const Bench& bench) {
     std::string names;
     double largest = 0.0;

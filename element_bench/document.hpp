@@ -1,5 +1,5 @@
-// An element-test document (workflows/schema/element_test.schema.json) read into plain structs, SI
-// and radians. Only this file knows its keys.
+// Reads an element-test document (workflows/schema/element_test.schema.json) into structs in SI
+// units and radians. Only this file knows its keys.
 #pragma once
 
 #include <map>
@@ -30,7 +30,7 @@ using TestLaw = std::variant<PlainLaw, SandLaw, NorSandLaw>;
 /// Parameters of a test for NorSand.
 struct NorSandTest {
     scene::NorSandStart start;
-    double S;  ///< additional softening
+    double S;  ///< additional softening [-]
 };
 
 /// Consolidation before a test.
@@ -38,7 +38,7 @@ struct Consolidation {
     Boundary boundary;
     std::vector<double> sigma_v;  ///< [Pa]
     double K0;
-    double static_shear = 0.0;  ///< tau over sigma_v
+    double static_shear = 0.0;  ///< tau / sigma_v [-]
     std::optional<NorSandTest> norsand;
 };
 
@@ -74,18 +74,18 @@ struct Bench {
     std::optional<CalibrationProblem> calibration;
 };
 
-/// Reads, completes and checks the document; adds PM4Sand's defaults. The returned scene contains
-/// the name and the completed text only. Throws BadInput with every fault.
+/// Reads, completes and checks the document; adds PM4Sand's defaults. The returned scene has only
+/// the name and the completed text. Throws BadInput with every fault.
 scene::Scene read_document(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides);
 
-/// The structs of a completed document. Throws BadInput where entries contradict each other.
+/// The structs of a completed document. Throws BadInput for contradictory entries.
 Bench bench_of(const scene::Scene& scene);
 
 /// A specimen of the law consolidated to sigma_v [Pa].
 Specimen consolidated(const TestLaw& law, const Consolidation& consolidation, double sigma_v);
 
-/// Flags of the result for possible but implausible entries of the tests.
+/// Flags possible but implausible entries of the tests.
 std::vector<fault::Flag> warnings_of(const Bench& bench);
 
 }  // namespace breach::element_bench

@@ -17,8 +17,8 @@ using Readings = std::vector<std::optional<TriaxialReading>>;
 using Values = OfEach<double>;
 using Sought = sought::Name;
 
-/// Usual of sands and silts (docs/reference/methods/norsand.md, section 2); where an estimate begins, and
-/// stays when no test holds it.
+/// Usual values of sands and silts (docs/reference/methods/norsand.md, section 2): initial
+/// estimates, kept for parameters that no test determines.
 constexpr Values usual{0.9, 0.03, 1.25, 0.3, 4.0, 100.0, 0.0};
 constexpr Values least{0.0, 1e-3, 0.3, 0.0, 0.2, 11.0, -1e4};
 constexpr Values most{5.0, 0.5, 2.5, 0.9, 30.0, 5000.0, 1e4};
@@ -102,8 +102,9 @@ class Calibrator {
     Points line_points(const Readings& readings) const;
     Points friction_points(const Readings& readings) const;
     Points dilatancy_points(const Readings& readings, const Values& line) const;
-    /// Moves the sought values by what reading the measured curves gives more than reading the
-    /// law's; without readings of the law they become what is read. The largest relative move.
+    /// Corrects the calibrated values by the difference between the readings of the measured and of
+    /// the law's curves; without the latter, sets them to the readings. Returns the largest
+    /// relative change.
     double correct_by(const Readings& of_law);
 
     std::vector<std::optional<TriaxialCurve>> curves(const Values& values,
@@ -121,14 +122,14 @@ class Calibrator {
     std::vector<std::optional<std::size_t>> peak_rows_;
     Readings measured_;
     Values values_{};
-    Indices line_;  ///< whose ends make the critical state line
+    Indices line_;  ///< tests whose ends give the critical state line
     bool line_reached_ = true;
-    Indices friction_;         ///< whose stress ratios make M_tc and N
-    bool all_ends_ = false;    ///< critical or not
-    bool slope_held_ = false;  ///< they differ enough in D for N
+    Indices friction_;         ///< tests whose stress ratios give M_tc and N
+    bool all_ends_ = false;    ///< uses all ends, critical or not
+    bool slope_held_ = false;  ///< their D differ enough for N
     Indices hardening_;
-    /// Of H: none where nothing of it is sought or held; one state parameter; or the least and the
-    /// largest.
+    /// State parameters at which H is fitted: none if H is not calibrated or determined; one; or
+    /// the smallest and the largest.
     std::vector<double> node_psi_;
 };
 
@@ -144,7 +145,7 @@ Indices Calibrator::all_tests() const {
     return out;
 }
 
-/// Measured readings of the tests that the law has answered.
+/// Measured readings of the tests for which the law has a curve.
 Readings Calibrator::comparable(const Readings& of_law) const {
     Readings out = measured_;
     for (std::size_t i = 0; i < of_law.size(); ++i)
@@ -153,7 +154,7 @@ Readings Calibrator::comparable(const Readings& of_law) const {
 }
 
 void Calibrator::choose_line_tests() {
-    constexpr double least_range = 0.3;  // of ln p; a line through less is none
+    constexpr double least_range = 0.3;  // of ln p, for a line
     std::vector<double> ln_p;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
         if (!measured_[i]->end.critical) continue;
@@ -165,7 +166,7 @@ void Calibrator::choose_line_tests() {
     line_ = all_tests();
 }
 
-/// Peaks and critical states; where these are few, every test's end.
+/// Uses peaks and critical states; if these are few, every test's end.
 void Calibrator::choose_friction_tests() {
     constexpr std::size_t few = 3;
     std::size_t readings = 0;
@@ -187,7 +188,8 @@ void Calibrator::choose_hardening_tests() {
     for (const std::size_t i : hardening_)
         states.push_back(psi(values_, problem_.tests[i].e_0, problem_.tests[i].p_0));
     const auto [low, high] = std::ranges::minmax(states);
-    if (is_given(H_0)) {  // a line through (0, H_0): H_psi shows where psi is farthest from 0
+    // if H is a line through (0, H_0), H_psi is best determined by the psi farthest from 0
+    if (is_given(H_0)) {
         const double far = std::abs(low) > std::abs(high) ? low : high;
         if (!is_given(H_psi) && std::abs(far) >= least_range) node_psi_ = {far};
         return;
@@ -211,9 +213,9 @@ Points Calibrator::line_points(const Readings& readings) const {
     return points;
 }
 
-/// Stress ratio against dilatancy: peaks, and ends as points at or near D = 0.
+/// Stress ratio and dilatancy: peaks, and ends as points at or near D = 0.
 Points Calibrator::friction_points(const Readings& readings) const {
-    constexpr double between_tests = 0.01;  // of eta, from specimen to specimen
+    constexpr double between_tests = 0.01;  // of eta, scatter between specimens
     Points points;
     for (const std::size_t i : friction_) {
         if (!readings[i]) continue;
@@ -276,7 +278,7 @@ double Calibrator::correct_by(const Readings& of_law) {
         const double seen = slope_through_origin(dilation);
         const double own = first ? seen : slope_through_origin(dilatancy_points(of_law, old));
         move(chi_tc, seen, own);
-        constexpr double share = 0.95;  // of what is believed
+        constexpr double share = 0.95;  // confidence
         if (!is_given(chi_tc))
             values_[chi_tc] = std::min(values_[chi_tc], share * norsand::most_chi_lambda *
                                                             values_[M_tc] / values_[lambda]);
@@ -300,11 +302,11 @@ std::vector<std::optional<TriaxialCurve>> Calibrator::curves(const Values& value
     return out;
 }
 
-/// Deviations of a test's curves, a row weighted by the root of strain that it stands for: hardening
-/// shows where the curve rises, and logs are dense there or not.
+/// Deviations of a test's curves. Rows are weighted by the root of their strain increment, as the
+/// density of readings varies along the curve.
 struct Deviation {
     Eigen::VectorXd q;       ///< over the largest q
-    Eigen::VectorXd volume;  ///< epsilon_v where drained, p over p_0 where not
+    Eigen::VectorXd volume;  ///< epsilon_v if drained, p / p_0 if undrained
 };
 Deviation deviation_of(const TriaxialTest& test, const TriaxialCurve& curve) {
     const TriaxialCurve& seen = test.measured;
@@ -327,13 +329,13 @@ Deviation deviation_of(const TriaxialTest& test, const TriaxialCurve& curve) {
 }
 
 std::vector<Eigen::VectorXd> Calibrator::deviations(const Values& values) const {
-    constexpr double least_volume = 0.005;  // strain that counts as one, at least
+    constexpr double least_volume = 0.005;  // least strain scale
     const auto found = curves(values, hardening_);
     std::vector<Eigen::VectorXd> out;
     for (std::size_t k = 0; k < hardening_.size(); ++k) {
         const TriaxialTest& test = problem_.tests[hardening_[k]];
         const auto n = static_cast<Eigen::Index>(test.measured.q.size());
-        Eigen::VectorXd both = Eigen::VectorXd::Ones(2 * n);  // of what the law cannot answer
+        Eigen::VectorXd both = Eigen::VectorXd::Ones(2 * n);  // if the law has no curve
         if (found[k]) {
             const Deviation each = deviation_of(test, *found[k]);
             const double unit = is_drained(test.boundary)
@@ -352,7 +354,7 @@ double sum_of_squares(const std::vector<Eigen::VectorXd>& parts) {
     return sum;
 }
 
-/// H is a line over psi through its logarithms at the nodes, and through H_0 where that is given.
+/// H is linear in psi, through its values at the nodes, and through H_0 if given.
 Values Calibrator::with_nodes(const Eigen::VectorXd& ln_H) const {
     Values out = values_;
     if (is_given(H_0)) {
@@ -376,7 +378,7 @@ Eigen::VectorXd Calibrator::nodes() const {
     return out;
 }
 
-/// Jacobians of the deviations by the nodes, test by test.
+/// Derivatives of the deviations by ln H at the nodes, test by test.
 template <class At>
 std::vector<Eigen::MatrixXd> jacobians(const At& at, const Eigen::VectorXd& x,
                                        const std::vector<Eigen::VectorXd>& here) {
@@ -392,7 +394,7 @@ std::vector<Eigen::MatrixXd> jacobians(const At& at, const Eigen::VectorXd& x,
     return out;
 }
 
-/// Damped Gauss-Newton; from afar it begins at the best of some constant H.
+/// Damped Gauss-Newton; from_afar: starts at the best of some constant H.
 void Calibrator::fit_hardening(bool from_afar) {
     if (node_psi_.empty()) return;
     const auto at = [&](const Eigen::VectorXd& x) { return deviations(with_nodes(x)); };
@@ -406,7 +408,7 @@ void Calibrator::fit_hardening(bool from_afar) {
         }
     }
     double damping = 1e-3;
-    const int most_moves = from_afar ? 10 : 2;  // later rounds begin where the last has ended
+    const int most_moves = from_afar ? 10 : 2;  // later rounds start at the last result
     for (int move = 0; move < most_moves && damping < 1e3; ++move) {
         Eigen::MatrixXd A = Eigen::MatrixXd::Zero(x.size(), x.size());
         Eigen::VectorXd g = Eigen::VectorXd::Zero(x.size());
@@ -433,8 +435,8 @@ void Calibrator::fit_hardening(bool from_afar) {
     values_ = with_nodes(x);
 }
 
-/// Covariance of a and b: the scatter of what two sets of points deviate from their own lines.
-/// The law's own deviations (it is not straight either) are no scatter.
+/// Covariance of a and b, from the scatter of two point sets about their own lines. The law's
+/// deviations from its line are subtracted: they are no scatter.
 std::optional<Eigen::Matrix2d> covariance_of_line(const Points& seen, const Points& own) {
     const std::size_t n = seen.x.size();
     if (n < 3 || own.x.size() != n) return std::nullopt;
@@ -492,7 +494,7 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
                                 double sign) {
         if (is_given(a) || is_given(b)) return;
         const Eigen::Matrix2d L = covariance.llt().matrixL();
-        if (!L.allFinite()) return;  // nothing scatters
+        if (!L.allFinite()) return;  // no scatter
         for (const Eigen::Index k : {0, 1}) {
             errors.push_back({});
             errors.back()[a] = L(0, k), errors.back()[b] = sign * L(1, k);
@@ -508,9 +510,9 @@ OfEach<Estimate> Calibrator::estimates(const Readings& of_law) const {
     return out;
 }
 
-/// From the scatter between tests (rows of one test are no independent witnesses): the sandwich
-/// A^-1 (sum g_i g_i^T) A^-1 of the tests' gradients g_i. To it comes what the other parameters'
-/// errors, each one standard error long and none correlated with another, move the fit by.
+/// From the scatter between tests, as rows of one test are not independent: the sandwich A^-1 (sum
+/// g_i g_i^T) A^-1 of the tests' gradients g_i. Adds the change of the fit due to one standard
+/// error of each other parameter, uncorrelated.
 void Calibrator::add_hardening_errors(const std::vector<Values>& errors,
                                       OfEach<Estimate>& out) const {
     const bool two = node_psi_.size() == 2;
@@ -566,7 +568,7 @@ std::string names_of(const std::vector<TriaxialTest>& tests, const Indices& whic
     return out;
 }
 
-/// What the tests do not hold.
+/// Warns of parameters that the tests do not determine.
 void Calibrator::warn(NorSandFit& fit, bool settled) const {
     const std::string pointer = "/norsand_calibration/tests";
     const auto flag = [&](const char* code, Severity severity, const std::string& message) {
@@ -648,7 +650,7 @@ NorSandFit Calibrator::run(const std::function<void(int, double)>& seen) {
         const Values here = values_;
         const double moved = correct_by(of_law);
         settled = moved < settled_at;
-        if (settled || round == most_rounds) values_ = here;  // what the curves belong to
+        if (settled || round == most_rounds) values_ = here;  // the values of the curves
         if (seen) seen(round, moved);
     }
     NorSandFit fit{with(problem_, values_), estimates(of_law), {}, round, {}};

@@ -47,11 +47,11 @@ TriaxialTest test_of(const std::string& name, const json& entry, bool engineerin
 
 bool is_engineering(const json& entry) { return entry.at("strains") == "engineering"; }
 
-/// What a test's columns say against its entry.
+/// Checks a test's columns against its entry.
 void check_test(const std::string& name, const json& entry, bool engineering,
                 std::vector<Fault>& faults) {
-    constexpr double most_off = 0.25;  // of p_0, with the first load on
-    constexpr double least_q = 0.05;   // over p_0: no soil is as weak
+    constexpr double most_off = 0.25;  // of p_0, with the first load already applied
+    constexpr double least_q = 0.05;   // over p_0: weaker than any soil
     const std::string pointer = "/norsand_calibration/tests/" + name;
     const TriaxialTest test = test_of(name, entry, engineering);
     const double begins = test.measured.p.front();

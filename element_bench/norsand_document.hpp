@@ -1,5 +1,5 @@
-// The entry `norsand_calibration` of an element-test document: completed with the columns of its
-// files, checked, and read into a problem.
+// The entry `norsand_calibration` of an element-test document: adds the columns of its files,
+// checks it and converts it to a problem.
 #pragma once
 
 #include <filesystem>

@@ -6,7 +6,7 @@
 
 namespace breach::element_bench {
 
-/// The archive of element-test curves, still empty.
+/// An empty archive for element-test curves.
 exchange::Archive empty_archive();
 
 bool seeks_norsand(const scene::Scene& scene);

@@ -9,7 +9,7 @@ namespace breach::element_bench {
 
 namespace {
 
-/// A running test: the specimen, its boundary and its record.
+/// A running test: specimen, boundary, record.
 class Test {
   public:
     Test(const Specimen& start, Boundary boundary, const Pace& pace)
@@ -35,7 +35,7 @@ class Test {
         ++record_.calls;
         return trial;
     }
-    /// False when the specimen could not follow.
+    /// False if the specimen could not follow.
     bool accept(const Trial& trial) {
         if (trial.outcome == Ending::failed) {
             record_.outcome = Ending::failed;
@@ -48,7 +48,7 @@ class Test {
     }
     bool advance(double d) { return accept(attempt(d)); }
 
-    /// How much the response would rise in a call of `d` if it went on as it begins [Pa].
+    /// Rise of the response in a call of `d` at its initial slope [Pa].
     double rise(double d) {
         constexpr double share = 1e-3;  // of the call
         const Trial trial = attempt(share * d);
@@ -56,8 +56,8 @@ class Test {
                    ? (response(trial.specimen, boundary_) - answer()) / share
                    : 0.0;
     }
-    /// The response rose where a call of `d` began, from `at`, and falls where it ended: takes the way
-    /// again in tenths, and the tenths around its first peak in tenths, until the peak stays.
+    /// For a call of `d` from `at` in which the response rises first and falls at the end: repeats
+    /// it in tenths, and the tenths around the first peak again, until the peak converges.
     void refine_peak(Specimen at, double d) {
         constexpr double settled = 1e-5;
         for (int level = 0; level < 8; ++level) {
@@ -139,8 +139,8 @@ Record monotonic(const Specimen& start, Boundary boundary, double target, const 
 
 namespace {
 
-/// The step in (0, d] whose response is `target`, by regula falsi (Illinois): the response passes
-/// it between 0 and d. Every trial starts from the same specimen.
+/// The step in (0, d] with the response `target`, by the Illinois method. Every trial starts from
+/// the same specimen.
 Trial step_onto(Test& test, Boundary boundary, double d, double target, double tolerance) {
     double a = 0.0, fa = test.answer() - target;
     double b = d;
@@ -185,7 +185,7 @@ CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const Cycli
         }
         if (!test.accept(trial)) break;
 
-        // Phase of the equivalent sine: a quarter up, then half cycles.
+        // Phase of the equivalent sine: first a quarter, then half cycles.
         const double x = std::clamp((test.answer() - mean) / load.amplitude, -1.0, 1.0);
         const double phase = std::asin(x) / (2.0 * std::numbers::pi);
         N = std::max(N, 0.5 * half_cycles + direction * phase);
@@ -214,7 +214,7 @@ Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude,
     Test test(start, boundary, pace);
     double from = driven_strain(start, boundary);
     double N = 0.0;
-    // Turning points: up by a quarter, down, up, ..., and back to the middle.
+    // Turning points: up after a quarter, down, up, ..., and back to the middle.
     for (int leg = 0; leg <= 2 * cycles; ++leg) {
         const double side = leg % 2 == 0 ? 1.0 : -1.0;
         const double to = leg == 2 * cycles ? 0.0 : side * amplitude;
@@ -234,7 +234,7 @@ Loop hysteresis(const Specimen& start, Boundary boundary, double amplitude, int 
     const Record record = cyclic_strain(start, boundary, amplitude, cycles + 1,
                                         {.step = amplitude / steps, .every = 1});
     const auto& all = record.readings;
-    // The last whole loop lies between its positive peak and the one before.
+    // The last complete loop: from the previous positive peak to the last one.
     const std::size_t peak = static_cast<std::size_t>(steps) * (4 * (cycles - 1) + 1);
     const std::size_t next = peak + 4 * static_cast<std::size_t>(steps);
     if (next >= all.size()) return {amplitude, std::nullopt, std::nullopt};

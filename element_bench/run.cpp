@@ -47,7 +47,7 @@ json cost_of(const Record& record) {
     return numbers_of(record.counts.sand, record.calls);
 }
 
-/// Collects numbers and curves of all tests.
+/// Numbers and curves of all tests.
 struct Results {
     json numbers = json::object();
     exchange::Archive curves = empty_archive();
@@ -64,7 +64,7 @@ std::string label(const std::string& test, double sigma_v, const char* what = ""
     return test + text;
 }
 
-/// What a point of NorSand was like at each reading.
+/// State of a NorSand point at each reading.
 void store_memory(Results& results, const std::string& curve, const Record& record) {
     const NorSandPoint* point = norsand_in(record.last);
     if (!point) return;
@@ -93,7 +93,7 @@ void store_memory(Results& results, const std::string& curve, const Record& reco
     add("epsilon_q", "1", [](const State& state, const Seen&) { return state.epsilon_q; });
 }
 
-/// Response at the critical state that constant volume leads to, in closed form [Pa].
+/// Response at the critical state of constant volume, in closed form [Pa].
 double critical_response(const NorSandPoint& point, Boundary boundary) {
     const norsand::Ready& law = point.law;
     const double p_c = norsand::critical_pressure(law, point.state.e);
@@ -103,7 +103,7 @@ double critical_response(const NorSandPoint& point, Boundary boundary) {
     return norsand::critical_ratio(law, theta) * std::cos(theta) / std::sqrt(3.0) * p_c;
 }
 
-/// Numbers of a monotonic test that only NorSand has.
+/// Numbers of a monotonic test for NorSand only.
 void add_memory(const Record& record, Boundary boundary, json& row) {
     const NorSandPoint* point = norsand_in(record.last);
     if (!point) return;
@@ -138,7 +138,7 @@ void store(Results& results, const std::string& curve, const Record& record) {
     store_memory(results, curve, record);
 }
 
-/// Number or null: a limit that was not reached has no number of cycles.
+/// Null if the limit was not reached.
 json reached(double N) { return N >= 0.0 ? json(N) : json(nullptr); }
 
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
@@ -194,7 +194,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
               const ModulusReductionTest& test, Results& results) {
     const std::string curve = label(plan.name, sigma_v);
-    std::vector<double> amplitude, G, damping;  // of the loops that were measured
+    std::vector<double> amplitude, G, damping;  // of completed loops
     for (const double each : test.amplitudes) {
         const Loop loop =
             hysteresis(specimen, plan.consolidation.boundary, each, test.cycles, test.steps);

@@ -38,7 +38,7 @@ Ending strain_point(SandPoint& point, const Voigt& d, Counts& counts) {
     return update.outcome == pm4sand::Outcome::done ? Ending::done : Ending::failed;
 }
 
-/// A step that the law asks to cut is cut in halves, and these again.
+/// Halves a step that the law could not integrate, and the halves again.
 Ending strain_in_parts(NorSandPoint& point, const Voigt& d, int cuts_left,
                        norsand::Counts& counts) {
     const auto update = norsand::integrate(point.law, point.state, d, point.options);
@@ -59,7 +59,7 @@ Ending strain_point(NorSandPoint& point, const Voigt& d, Counts& counts) {
     return strain_in_parts(point, d, most_cuts, counts.norsand);
 }
 
-/// Strain increment of a boundary: the driven part and the strain that is free.
+/// Strain increment of a boundary from the driven and the free strain.
 Voigt increment(Boundary boundary, double d, double free) {
     switch (boundary) {
         case Boundary::undrained_shear:
@@ -82,7 +82,7 @@ Voigt increment(Boundary boundary, double d, double free) {
     return Voigt::Zero();
 }
 
-/// Index of the stress that the boundary holds and whose strain is free, or -1.
+/// Index of the stress that is constant and whose strain is free, or -1.
 int held_component(Boundary boundary) {
     if (!is_drained(boundary)) return -1;
     return drives(boundary) == Drives::shear ? 1 : 0;
@@ -175,9 +175,9 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
     const int component = held_component(boundary);
     if (component < 0) return strained(specimen, increment(boundary, d, 0.0));
 
-    // Secant for the free strain, started with the constrained modulus; every trial starts from the
-    // same specimen. The best trial counts: a scheme that projects at the end of a call may jump
-    // over the held stress.
+    // Secant method for the free strain, starting with the constrained modulus; every trial starts
+    // from the same specimen. Uses the best trial: a scheme that projects at the end of a call may
+    // jump over the stress.
     constexpr int most_passes = 30;
     const double scale = std::max(std::abs(held), 1.0);
     const double stiffness = 4.0 * shear_modulus(specimen);

@@ -23,7 +23,7 @@ double excess_pressure(const TriaxialTest& test, double q, double p) {
 
 namespace {
 
-/// y at x between the points of an ascending table; held beyond its ends.
+/// Linear interpolation in an ascending table; constant beyond its ends.
 double between(std::span<const double> xs, std::span<const double> ys, double x) {
     const auto next = std::upper_bound(xs.begin(), xs.end(), x) - xs.begin();
     if (next == 0) return ys.front();
@@ -37,7 +37,7 @@ struct Smoothed {
     double value, slope;
 };
 
-/// The parabola (degree 2) or line through ys over xs by least squares, at `x`.
+/// Value at `x` of the least-squares parabola (degree 2) or line through the points.
 Smoothed smoothed(std::span<const double> xs, std::span<const double> ys, double x, int degree) {
     const auto n = static_cast<Eigen::Index>(xs.size());
     Eigen::MatrixXd A(n, degree + 1);
@@ -52,7 +52,7 @@ Smoothed smoothed(std::span<const double> xs, std::span<const double> ys, double
     return {c(0), c(1) / scale};
 }
 
-/// d epsilon_v / d epsilon_q where epsilon_v has this slope over epsilon_1.
+/// d epsilon_v / d epsilon_q from the slope d epsilon_v / d epsilon_1.
 double dilatancy(double slope) { return slope / (1.0 - slope / 3.0); }
 
 /// Rows [from, to) of a column.
@@ -106,13 +106,13 @@ EndReading read_end(const TriaxialTest& test, const TriaxialCurve& curve,
             .critical = critical};
 }
 
-/// Rows to either side of a row that are smoothed over.
+/// Number of rows on both sides of a row for smoothing.
 struct Window {
     std::size_t from, to;
 };
 std::optional<Window> window_around(const std::vector<double>& strain, std::size_t row) {
-    constexpr double reach = 0.0075;       // strain to either side
-    constexpr std::size_t least_rows = 2;  // to either side
+    constexpr double reach = 0.0075;       // strain on either side
+    constexpr std::size_t least_rows = 2;  // on either side
     if (row < least_rows || row + least_rows >= strain.size()) return std::nullopt;
     const double x = strain[row];
     if (x - reach < strain.front() || x + reach > strain.back()) return std::nullopt;

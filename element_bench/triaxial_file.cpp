@@ -29,7 +29,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// NaN where the text is no number.
+/// NaN if the text is no number.
 double number_from(const std::string& text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -37,7 +37,7 @@ double number_from(const std::string& text) {
     return whole ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// One file on its way into columns.
+/// Reads one file into columns.
 class Reader {
   public:
     Reader(std::string file, Boundary boundary, std::string pointer, std::vector<Fault>& faults)
@@ -65,7 +65,7 @@ class Reader {
     std::string pointer_;
     std::vector<Fault>& faults_;
     bool sound_ = true;
-    std::vector<std::string> names_;  ///< of the file's columns, in its order
+    std::vector<std::string> names_;  ///< in the file's order
     std::map<std::string, std::vector<double>> columns_;
 };
 
@@ -107,7 +107,7 @@ void Reader::read_row(const std::string& text, std::size_t line) {
     check_row(line);
 }
 
-/// What a row cannot mean.
+/// Refuses impossible values in a row.
 void Reader::check_row(std::size_t line) {
     constexpr double most_axial = 0.6, most_volume = 0.3;  // strain
     const std::vector<double>& strain = columns_.at("epsilon_1");
@@ -126,7 +126,7 @@ void Reader::check_row(std::size_t line) {
     }
     if (has("epsilon_v") && drained_) {
         const double volume = last("epsilon_v");
-        // Radial strain would be inwards, or dilation beyond that of any soil.
+        // Radial strain would be inwards, or dilation larger than in any soil.
         constexpr double noise = 0.01, most_dilation = 2.0;
         const bool steep =
             volume > epsilon_1 + noise || -volume > most_dilation * epsilon_1 + noise;

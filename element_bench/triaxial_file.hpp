@@ -11,8 +11,8 @@
 
 namespace breach::element_bench {
 
-/// The columns of the file by their original names (docs/how-to/calibrate_a_sand.md). Adds faults to `faults`, with file
-/// and line; `pointer` is the entry that names it.
+/// The file's columns by their original names (docs/how-to/calibrate_a_sand.md). Adds faults with
+/// file and line to `faults`; `pointer` is the entry with the file's name.
 nlohmann::json read_triaxial_file(const std::filesystem::path& file, Boundary boundary,
                                   const std::string& pointer, std::vector<fault::Fault>& faults);
 

@@ -1,4 +1,4 @@
-// All stages of an analysis in their order, and its end.
+// Runs all stages of an analysis in order.
 #pragma once
 
 #include "core/process/phase.hpp"
@@ -6,10 +6,10 @@
 
 namespace breach::fem {
 
-/// Runs all stages, or until the mesh is entangled: this is a regular end, with the last good state
-/// in a snapshot, unless the scene asks to continue. Throws Breakdown when the mesh entangles in its
-/// very first step or the least step does not converge; the last good state is then in a snapshot and
-/// in the checkpoint.
+/// Runs all stages, or until the mesh is entangled. Entanglement is a regular end, with the last
+/// good state in a snapshot, unless the scene asks to continue. Throws Breakdown if the mesh
+/// entangles in the first step or the smallest step does not converge; the last good state is then
+/// in a snapshot and in the checkpoint.
 process::Outcome analyse(Course& course);
 
 }  // namespace breach::fem

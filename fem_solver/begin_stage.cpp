@@ -26,7 +26,7 @@ Eigen::VectorXd loads_on(const Model& model, const Motion& motion) {
     return loads;
 }
 
-/// That of steady seepage; where no water flows the pressure stays what it was.
+/// Steady seepage; without flow the pressure stays.
 void set_steady_pressure(const Model& model, Motion& motion) {
     Eigen::VectorXd p = model.water.any() ? steady_pressure(model) : model.water.prescribed;
     for (std::size_t i = 0; i < model.undrained.size(); ++i)
@@ -36,8 +36,8 @@ void set_steady_pressure(const Model& model, Motion& motion) {
     motion.p_rate = Eigen::VectorXd::Zero(motion.p.size());
 }
 
-/// What is out of balance when the stage begins comes to bear along its ramp; a motion that there is
-/// goes on.
+/// A force that is unbalanced at the beginning of the stage is applied along its ramp; existing
+/// motion continues.
 void withhold_along_ramp(Course& course) {
     course.model.withheld = course.stage_force;
     course.model.withheld_from = course.stage_begin();
@@ -50,10 +50,11 @@ void flag_no_base_motion(Course& course, const std::string& why) {
                          "/fem/free_field"});
 }
 
-/// Now, and not at the end: every snapshot then knows how the ground will move after it.
+/// At the beginning, so that every snapshot contains the ground's later motion.
 void note_free_ground(Course& course) {
     process::Session& session = course.session;
-    if (session.settings().switches.contains(trial_switch)) return;  // ten steps want no earthquake
+    // a trial of ten steps needs no earthquake
+    if (session.settings().switches.contains(trial_switch)) return;
     if (!course.decided.free_ground.value) {
         if (course.model.base.any() && course.fem.motion)
             flag_no_base_motion(course, "the scene has no free-field columns (/fem/free_field)");
@@ -77,8 +78,8 @@ void note_free_ground(Course& course) {
                  motion::peak(velocity), velocity.duration());
 }
 
-/// Clocks, displacements and strains start at zero: gravity's settlement belongs to the past of the
-/// slope, not to its failure.
+/// Clocks, displacements and strains start at zero: settlement due to gravity is not part of the
+/// failure.
 void begin_motion(Course& course) {
     course.position.moving = true;
     course.motion.u.setZero();
@@ -134,7 +135,7 @@ void begin_laws(Course& course) {
              words::text_of(bias.largest_cut / 1e3) +
              " kPa, and what is missing is out of balance in this stage: look at K_0 and psi_0",
          course.pointer_of_stage()});
-    // A static stage makes up for it over its load, from these forces on.
+    // A static stage corrects the change over its load, starting with these forces.
     settle_stresses(*course.newton, course.laws, course.motion, course.trial);
 }
 
@@ -143,7 +144,7 @@ void begin_static(Course& course, const Eigen::VectorXd& loads_before) {
     course.position.load_step = 1.0 / course.stage().load_steps;
     course.position.at_limit = false;
     course.stage_force = course.motion.force;
-    // What a support gave an edge that now moves is part of the edge's own force from the start.
+    // The former support force of an edge that now moves is its own force from the start.
     if (course.position.stage > 0)
         for (const Model::Driven& each : model.driven)
             course.stage_force[each.dof] = loads_before[each.dof];
@@ -158,13 +159,13 @@ void begin_dynamic(Course& course) {
     Position& position = course.position;
     Model& model = course.model;
     Motion& motion = course.motion;
-    // A motion that goes on does so with the step before: over a longer one the velocities at a
-    // ramp's end would count as if they lasted.
+    // Continued motion keeps its time step: a longer one would extrapolate the velocities at a
+    // ramp's end.
     position.dt = position.dt > 0.0 ? std::min(position.dt, stage.time_step) : stage.time_step;
     position.easy_steps = 0;
     for (std::size_t i = 0; i < model.water.is_unknown.size(); ++i)
         if (const auto n = static_cast<Eigen::Index>(i); !model.water.is_unknown[i])
-            motion.p[n] = model.water.prescribed[n];  // it drains again
+            motion.p[n] = model.water.prescribed[n];  // drained again
     settle_stresses(*course.newton, course.laws, motion, course.trial);
     if (!position.moving) begin_motion(course);
     model.withheld.resize(0);
@@ -175,8 +176,8 @@ void begin_dynamic(Course& course) {
     }
     set_acceleration(*course.newton, model, course.beginning, position.time, course.prediction,
                      motion);
-    // A step that cannot resolve this acceleration would throw the mesh: it starts without, and
-    // what is suddenly unbalanced counts from its end.
+    // If a step cannot resolve this acceleration, start without it; the unbalanced force then acts
+    // from the end of the step.
     constexpr double resolved = 0.01;  // of the shortest edge
     const double thrown =
         0.5 * stage.time_step * stage.time_step * motion.a.lpNorm<Eigen::Infinity>();
@@ -208,7 +209,7 @@ void begin_stage(Course& course) {
     if (!drains) close_to_flow(model);
     if (changes) forget_absent(model, course.motion);
     if (stage.laws == scene::StageLaws::scene) begin_laws(course);
-    // What is gone holds nothing any more: the stage releases what it held, from these forces on.
+    // Removed soil supports nothing: the stage releases that force, starting with these forces.
     if (changes) settle_stresses(*course.newton, course.laws, course.motion, course.trial);
     if (is_static)
         begin_static(course, loads_before);

@@ -54,7 +54,7 @@ Position position_from(const exchange::Archive& archive) {
 
 constexpr const char* memory_name = "memory";
 
-/// What points remember, zone by zone. Absent until the first stage with the scene's laws.
+/// Memories of points, by zone. None before the first stage with the scene's laws.
 void put_memory(exchange::Archive& archive, const Motion& motion) {
     if (motion.memory.empty()) return;
     Reals& numbers = archive.reals[memory_name];
@@ -155,15 +155,14 @@ Beginning beginning_from(const exchange::Archive& archive) {
                             archive.reals.at("beginning.base_motion")}};
 }
 
-/// What is absent until its stage may be empty.
+/// Arrays that do not exist before some stage may be empty.
 template <class Values>
 bool empty_or(const Values& values, std::size_t size) {
     return values.size() == 0 || static_cast<std::size_t>(values.size()) == size;
 }
 
 bool fits(const Position& position, const scene::Fem& fem) {
-    constexpr std::int64_t most = std::int64_t{1}
-                                  << 53;  // far from where adding one would overflow
+    constexpr std::int64_t most = std::int64_t{1} << 53;  // far from overflow by adding one
     const auto stages = static_cast<std::int64_t>(fem.stages.size());
     return position.stage >= 0 && position.stage < stages &&
            std::ranges::all_of(std::array{position.easy_steps, position.step, position.cut_steps,
@@ -188,7 +187,7 @@ bool fits(const Beginning& beginning, const Model& model) {
            empty_or(beginning.skeleton_modulus, model.water.elements.size());
 }
 
-/// Everything but whose it is and where. Throws std::out_of_range when a number is missing or one is left over.
+/// Everything except scene and file. Throws std::out_of_range if numbers are missing or left over.
 Checkpoint read(const exchange::Archive& archive, const Model& model) {
     Checkpoint c;
     Kept& kept = c.kept;
@@ -277,7 +276,7 @@ Position position_in(const exchange::Archive& archive, const scene::Scene& scene
         const Position position = position_from(archive);
         if (fits(position, scene::fem_of(scene))) return position;
     } catch (const std::out_of_range&) {
-        // A number is missing: said below.
+        // A missing number; reported below.
     }
     refuse_arrays(file);
 }
@@ -295,7 +294,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
                            kept.crest_time.size() == kept.crest_acceleration.size();
         if (whole) return checkpoint;
     } catch (const std::out_of_range&) {
-        // An array is missing or too short: said below.
+        // A missing or short array; reported below.
     }
     refuse_arrays(file);
 }

@@ -17,7 +17,7 @@ using process::use_if;
 
 using Question = bool (*)(const materials::Law&);
 
-/// "Mohr-Coulomb in a, b; ...": the laws of which this is true, with their regions.
+/// "Mohr-Coulomb in a, b; ...": laws with this property and their regions.
 std::string laws_that(const scene::Scene& scene, Question question) {
     std::vector<std::pair<std::string, std::string>> found;
     for (const scene::Region& region : scene.section.regions) {
@@ -37,7 +37,7 @@ std::string laws_that(const scene::Scene& scene, Question question) {
     return text;
 }
 
-/// "a, b": the regions whose material is so.
+/// "a, b": regions whose material has this property.
 template <class Question>
 std::string regions_where(const scene::Scene& scene, const Question& question) {
     std::string names;
@@ -68,7 +68,7 @@ std::string viscous_regions(const scene::Scene& scene) {
     return text;
 }
 
-/// Those that remember have a line of their own.
+/// Laws with memory have their own line.
 bool flows_without_memory(const materials::Law& law) {
     return materials::traits(law).yields && !materials::remembers(law);
 }

@@ -18,10 +18,10 @@ constexpr const char* geostatic =
     "geostatic";  // facts of stages that a resumed run does not repeat
 constexpr const char* entanglement_name = "entanglement";
 
-/// Static stages without plasticity, all dynamic ones (the mass keeps the symmetrised tangent
-/// positive) and PM4Sand, whose tangent is symmetric, do best with LDL^T; Mohr-Coulomb statics near
-/// collapse needs the true, unsymmetric tangent. Measured on the slope scene, 150 steps: LDL^T 886
-/// iterations, 0.77 s; LU 822 iterations, 1.12 s.
+/// LDL^T for static stages without plasticity, dynamic stages (the mass keeps the symmetrised
+/// tangent positive) and PM4Sand, whose tangent is symmetric. Mohr-Coulomb statics near collapse
+/// needs the true, unsymmetric tangent. Slope scene, 150 steps: LDL^T 886 iterations, 0.77 s; LU
+/// 822 iterations, 1.12 s.
 Symmetry symmetry_for(const scene::Stage& stage, const std::vector<materials::Law>& laws) {
     const bool symmetric = std::ranges::all_of(
         laws, [](const auto& law) { return materials::traits(law).symmetric_tangent; });
@@ -30,7 +30,7 @@ Symmetry symmetry_for(const scene::Stage& stage, const std::vector<materials::La
     return general ? Symmetry::general : Symmetry::symmetric;
 }
 
-/// Which node stands for the scene's crest. One that is far away measures another place.
+/// Reports the node used as crest; flags one that is far away.
 void report_crest(Course& course) {
     const Mesh& body = course.watch.body();
     const Vec2& node = body.nodes[course.crest_node];
@@ -76,7 +76,7 @@ Course::Course(process::Session& its_session, Model its_model)
     }
 }
 
-/// Every stage once on a copy: what cannot be is refused before anything is computed.
+/// Applies every stage to a copy, to refuse impossible ones before computing.
 void Course::check_changes() const {
     Model copy = model;
     const ModelDecisions of_model = decide_model(session.scene());
@@ -158,7 +158,7 @@ void Course::resume() {
     spdlog::info("goes on at {} s (step {})", position.time, position.step);
 }
 
-/// What was found out on the way, and is not found out again.
+/// Flags found before the checkpoint, which are not found again.
 void Course::raise_again(const std::vector<fault::Flag>& flags) {
     for (const fault::Flag& each : flags) {
         const bool is_there = std::ranges::any_of(session.flags(), [&](const fault::Flag& present) {

@@ -11,14 +11,14 @@
 namespace breach::fem {
 
 struct Course : Kept {
-    /// Continues from the session's checkpoint when it is resumed and there is one.
+    /// Continues from the session's checkpoint if it is resumed and has one.
     Course(process::Session& its_session, Model its_model);
 
     const scene::Stage& stage() const;
     std::string pointer_of_stage() const;
     double stage_begin() const;  ///< [s]
 
-    /// Applies body, supports, loads and water of the stage and creates its solver.
+    /// Sets elements, supports, loads and water of the stage and creates its solver.
     void make_newton();
     void write_checkpoint();
 
@@ -32,12 +32,12 @@ struct Course : Kept {
     Prediction prediction;
     std::vector<materials::Law> laws;
     std::optional<Newton> newton;  ///< within a stage
-    Work before;                   ///< of the run that is resumed
+    Work before;                   ///< of the resumed run
     Distortion distortion;
     std::optional<Entanglement> entanglement;
     Watch watch;
     std::size_t crest_node;
-    double span = 0.0;  ///< all dynamic stages [s]
+    double span = 0.0;  ///< of all dynamic stages [s]
 
   private:
     void check_changes() const;

@@ -17,15 +17,15 @@ constexpr double cut_of_step = 0.5;
 constexpr double growth_of_step = 2.0;
 constexpr int easy_steps_before_growth = 4;
 
-/// The same number as somebody who asks for it writes: 1775 steps of 2 ms are 3.5500000000000003 s,
-/// and where soil runs away the last digit decides after seconds what is left of it.
+/// The double that a user writes for this time: 1775 steps of 2 ms sum up to 3.5500000000000003 s,
+/// and in a failure the last digit grows within seconds.
 double as_written(double time) {
     const double written = std::round(1e9 * time) / 1e9;
     return std::abs(written - time) <= 1e-14 * std::abs(time) ? written : time;
 }
 
-/// How long the steps of a stage are: cut where they fail or are too coarse, grown where they are easy,
-/// and ending where something has to be met exactly.
+/// Step sizes of a stage: reduced if steps fail or are too coarse, increased if they converge fast,
+/// adjusted to end on given times.
 class StepControl {
   public:
     explicit StepControl(Course& course)
@@ -37,26 +37,26 @@ class StepControl {
 
     bool at_end() const { return position_.time >= end_; }
 
-    /// The wanted step, shortened to meet the next stop: the way there is divided evenly when less
-    /// than two steps are left [s].
+    /// The wanted step, shortened to reach the next stop; less than two remaining steps are divided
+    /// evenly [s].
     double next_size() const {
         const double left = next_stop() - position_.time;
         const double dt = position_.dt;
         if (std::abs(left - dt) <= 1e-9 * dt)
-            return dt;  // rounding of the clock must not cost a matrix
+            return dt;  // round-off of the clock must not cause a new matrix
         if (left < dt) return left;
         return left < 2.0 * dt * (1.0 - 1e-9) ? 0.5 * left : dt;
     }
 
-    /// After a step of this length that failed. False: the least step has failed.
+    /// After a failed step of this length. False: the smallest step failed.
     bool cut_after(double dt) {
         halve(dt);
         return position_.dt >= stage_.least_time_step;
     }
 
     /// Error of the trial's step in displacement, |beta - 1/6| dt^2 times the largest change of
-    /// acceleration (Zienkiewicz & Xie 1991): where it is too large the step is halved and taken
-    /// again, down to the least one.
+    /// acceleration (Zienkiewicz & Xie 1991). Too large: the step is halved and repeated, down to
+    /// the smallest one.
     bool is_too_coarse(double dt) {
         const double largest = course_.decided.largest_step_error.value;
         if (largest <= 0.0) return false;
@@ -67,31 +67,30 @@ class StepControl {
         return true;
     }
 
-    /// Moves the clock on by an accepted step.
+    /// Advances the clock by an accepted step.
     void accept(double dt, const NewtonOutcome& outcome) {
         const double stop = next_stop();
         const bool arrived = dt >= (stop - position_.time) * (1.0 - 1e-9);
         position_.time = arrived ? stop : position_.time + dt;
         ++position_.step;
-        // A step twice as long has about eight times the error.
+        // A step of twice the length has about eight times the error.
         const bool easy = outcome.iterations <= course_.fem.largest_iterations / 2 &&
                           10.0 * error_ <= course_.decided.largest_step_error.value;
         position_.easy_steps = easy ? position_.easy_steps + 1 : 0;
         if (position_.dt < stage_.time_step && position_.easy_steps >= easy_steps_before_growth)
             want(std::min(stage_.time_step, growth_of_step * position_.dt));
-        // A step cut short to meet a stop: its velocities may be those of an instant, too.
+        // After a shortened step, grow gradually: its velocities may be momentary.
         if (growth_of_step * dt < (1.0 - 1e-9) * position_.dt) want(growth_of_step * dt);
     }
 
   private:
-    /// The next time that must be met exactly: a wanted snapshot, the end of the stage, or a multiple
-    /// of the stage's time step. So snapshots at such multiples change no result, even where a step
-    /// was cut.
+    /// The next time to end a step on: a snapshot, the end of the stage, or a multiple of its time
+    /// step. Snapshots at such multiples do not change results, even if steps were cut.
     double next_stop() const {
         const auto& times = course_.decided.snapshot_times.value;
         const auto next = static_cast<std::size_t>(position_.next_snapshot);
         const double wanted = next < times.size() ? std::min(times[next], end_) : end_;
-        const double near = 0.05 * position_.dt;  // no step for so little
+        const double near = 0.05 * position_.dt;  // too short for a step
         const double done = std::floor((position_.time - begin_ + near) / stage_.time_step);
         const double multiple = as_written(begin_ + stage_.time_step * (done + 1.0));
         return multiple < wanted - near ? multiple : wanted;
@@ -120,7 +119,7 @@ Distortion distortion_of_trial(Course& course) {
     return distortion_of(course.model, course.trial, course.fem.strain_threshold);
 }
 
-/// What folds in the very first step was never in equilibrium: no failure, a fault of the scene.
+/// A mesh that folds in the first step was never in equilibrium: a fault of the scene, no failure.
 [[noreturn]] void refuse_the_mesh(const Entanglement& what, Recorder& recorder) {
     recorder.give_up(
         "the mesh entangles in its first step, before anything has moved: element " +
@@ -131,7 +130,7 @@ Distortion distortion_of_trial(Course& course) {
         "sharp, or take a smaller time step");
 }
 
-/// The first corner that folds: where, when and in what soil.
+/// Records the first folded corner: where, when and in which soil.
 void note_entanglement(const Distortion& folded, double time, Course& course, Recorder& recorder) {
     if (course.entanglement) return;
     course.entanglement =
@@ -144,7 +143,7 @@ void note_entanglement(const Distortion& folded, double time, Course& course, Re
     }
 }
 
-/// What has liquefied once does not regain its strength when its pore pressure dips.
+/// Liquefied soil does not regain strength when its pore pressure falls.
 void keep_largest_excess_pressure(Course& course) {
     if (course.beginning.p.size() == 0) return;
     std::vector<double>& largest = course.excess_pressure_max;
@@ -155,13 +154,13 @@ void keep_largest_excess_pressure(Course& course) {
                            [](double now, double before) { return std::max(now, before); });
 }
 
-/// What the step from the motion to the trial has done; the trial is the motion then.
+/// Adds the work of the step; the trial becomes the motion.
 void take_trial(Course& course) {
     Motion& motion = course.motion;
     Motion& trial = course.trial;
     Position& position = course.position;
     const Eigen::VectorXd& d_u = course.prediction.u = trial.u - motion.u;
-    // Of the body: thick columns would drown it.
+    // Only of the body: thick columns would dominate.
     const auto own = static_cast<Eigen::Index>(2 * course.model.body.nodes);
     position.external_work += course.model.external_force.head(own).dot(d_u.head(own));
     position.internal_work += 0.5 * (motion.force + trial.force).head(own).dot(d_u.head(own));

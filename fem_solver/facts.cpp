@@ -25,8 +25,8 @@ std::string shown(double value) {
     return text.str();
 }
 
-/// Energy and stress that the stabilisation of single-point quads carries in the body. The stress is the
-/// largest nodal hourglass force per side length, of the worst element.
+/// Energy and stress of the hourglass stabilisation in the body. Stress: largest nodal hourglass
+/// force per side length over all elements.
 nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double internal_work) {
     double energy = 0.0, largest = 0.0;
     std::size_t worst = 0;
@@ -48,7 +48,7 @@ nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double 
             {"element", worst}};
 }
 
-/// Time of the first line where a column reaches a value [s]; null: never.
+/// Time of the first row in which a column reaches a value [s]; null: never.
 nlohmann::json first_time(const std::vector<Reading>& history, double Reading::*column,
                           double value) {
     const auto first =
@@ -57,10 +57,11 @@ nlohmann::json first_time(const std::vector<Reading>& history, double Reading::*
     return first->time;
 }
 
-/// Of the largest depth, from which on liquefaction counts as complete. Mochikoshi's runouts reach their plateau 0.4 s later.
+/// Share of the final depth at which liquefaction counts as complete. Mochikoshi's runouts reach
+/// their plateau 0.4 s later.
 constexpr double most_of_depth = 0.8;
 
-/// Excess pore pressure that grew by a fifth or more in the last tenth of a shaken FEM.
+/// Flags excess pore pressure that grew by a fifth or more in the last tenth of the shaking.
 std::optional<fault::Flag> still_liquefying(const std::vector<Reading>& history) {
     if (history.size() < 2 || history.back().liquefaction_depth <= 0.0) return std::nullopt;
     const double end = history.back().time;
@@ -84,7 +85,7 @@ fault::Flag viscous_band(double share) {
             "/fem/damping"};
 }
 
-/// The course as events that need no mesh.
+/// Events of the analysis from the history.
 nlohmann::json milestones_in(const std::vector<Reading>& history) {
     const auto crest = [&](double value) {
         return first_time(history, &Reading::crest_displacement, value);
@@ -104,7 +105,7 @@ nlohmann::json milestones_in(const std::vector<Reading>& history) {
     return facts;
 }
 
-/// In plain words what the facts of the end say.
+/// Logs the end in words.
 void tell_end(const Course& course, const Reading& last) {
     const nlohmann::json& facts = course.session.result();
     const bool stopped = facts["ended"] == "entangled";
@@ -131,7 +132,7 @@ void tell_end(const Course& course, const Reading& last) {
                                    : std::string("nothing liquefied where it was watched"));
 }
 
-/// Points whose law gave up the path and took its end.
+/// Reports points that their law moved to the critical state.
 void report_fallen(Course& course) {
     const std::size_t fallen = fallen_points(course.model, course.motion);
     if (fallen == 0) return;
@@ -147,8 +148,8 @@ void report_fallen(Course& course) {
          "/fem/stages"});
 }
 
-/// The free ground's motion stands in for the FEM's own base after a transfer: how far the two were
-/// apart as long as there were both.
+/// After a transfer the motion of the free field replaces that of the FEM's base. Reports their
+/// difference while both exist.
 void report_base_motion(Course& course) {
     const exchange::BaseMotion& ground = course.beginning.base_motion;
     if (!ground.any()) return;
@@ -166,7 +167,7 @@ void report_base_motion(Course& course) {
         {"largest_difference_to_mesh", peak > 0.0 ? farthest / peak : 0.0}};
 }
 
-/// Of the soil that is there [m].
+/// Of the present soil [m].
 double largest_displacement(const Course& course) {
     const std::vector<bool> lonely = lonely_nodes(course.model);
     double largest = 0.0;
@@ -196,8 +197,8 @@ nlohmann::json facts_of_time(const Course& course) {
             {"output", spent.output},     {"free_ground", course.seconds_for_free_ground}};
 }
 
-/// What the motion is measured by at the base beneath the free-field columns, and at the crest as
-/// far as the analysis went.
+/// Intensity measures of the motion at the base of the columns, and at the crest up to the end of
+/// the analysis.
 void report_motions(Course& course) {
     auto& facts = course.session.result();
     if (!facts.contains("motion") || course.crest_time.empty()) return;

@@ -1,4 +1,4 @@
-// The results of an analysis: entries of result.json, flags, and a few sentences.
+// Results of an analysis: entries of result.json, flags, and log messages.
 #pragma once
 
 #include "fem_solver/course.hpp"
@@ -7,7 +7,7 @@ namespace breach::fem {
 
 /// Reports its cost and its settings.
 void report_facts(Course& course);
-/// Reports its end and its results, as entries and in sentences.
+/// Reports the end and the results, as entries and log messages.
 void report_end(Course& course);
 void print_profile(const Course& course);
 

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Element tests are a program of its own beside this one. Returns only where it is not there.
+/// Element tests are a separate program in the same folder. Returns only if it is missing.
 int become_element_bench(char** argv) {
     const auto program =
         std::filesystem::read_symlink("/proc/self/exe").parent_path() / "element_bench";

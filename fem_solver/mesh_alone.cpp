@@ -8,7 +8,7 @@ namespace breach::fem {
 
 namespace {
 
-/// Nothing has moved and nothing is stressed.
+/// Zero displacement and stress.
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, Mesh mesh) {
     exchange::MeshSnapshot snapshot;
     snapshot.thickness = scene.thickness;
@@ -38,7 +38,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, Mesh mesh) {
 
 process::Outcome write_mesh(process::Session& session) {
     const scene::Scene& scene = session.scene();
-    scene::fem_of(scene);  // or there is nothing to mesh for
+    scene::fem_of(scene);  // throws if /fem is missing
     try {
         Mesh mesh =
             build_mesh(scene, session.settings().output, [&] { return session.stop_requested(); });

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double checkpoint_interval = 20.0;  // wall clock [s]
 
-/// Whole intervals up to a time, which may lack a rounding.
+/// Whole intervals up to a time, with tolerance for round-off.
 double intervals_until(double time, double interval) { return std::floor(time / interval + 1e-9); }
 
 }  // namespace
@@ -69,12 +69,12 @@ Reading Recorder::read(double dt, const NewtonOutcome& outcome) {
     reading.viscous_share =
         viscous_share(course_.model, course_.motion, course_.fem.failure_strain);
     peak_energy_ = std::max(peak_energy_, reading.kinetic_energy);
-    reading.kinetic_energy_over_peak =  // 1 while nothing has moved
+    reading.kinetic_energy_over_peak =  // 1 before any motion
         peak_energy_ > 0.0 ? reading.kinetic_energy / peak_energy_ : 1.0;
     return reading;
 }
 
-/// At the first line at or after each multiple of its interval; in between the last one stands.
+/// Computed at the first row at or after each multiple of its interval; in between the last value.
 void Recorder::read_strength(Reading& reading) const {
     const std::optional<double>& interval = course_.fem.strength_interval;
     if (!interval) return;
@@ -91,8 +91,8 @@ void Recorder::read_strength(Reading& reading) const {
     reading.strength_ratio_min = ratio.least;
 }
 
-/// A wanted time was met, a multiple of the interval lies in this step, or somebody outside asks.
-/// The last two take the step as it comes: whoever asks must not change what is computed.
+/// Due if a requested time is reached, the step contains a multiple of the interval, or another
+/// program requests one. The last two do not change the step.
 bool Recorder::snapshot_is_due(double dt) {
     Position& position = course_.position;
     const auto& times = course_.decided.snapshot_times.value;

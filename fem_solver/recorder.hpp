@@ -1,4 +1,4 @@
-// Writes the outputs of an analysis when they are due: telemetry, history, snapshots, checkpoints.
+// Writes the outputs of an analysis when due: telemetry, history, snapshots, checkpoints.
 #pragma once
 
 #include "fem_solver/course.hpp"
@@ -9,13 +9,13 @@ class Recorder {
   public:
     explicit Recorder(Course& course);
 
-    /// Writes telemetry and snapshots that are due after a step.
+    /// Writes telemetry and snapshots due after a step.
     void take_step(double dt, const NewtonOutcome& outcome);
     void checkpoint();
     void checkpoint_when_due();
-    /// Writes the last snapshot, which answers every open request, and the history.
+    /// Writes the history and the last snapshot, which also answers open requests.
     void finish();
-    /// Saves the last good state (the accepted one, not the trial) and ends the run.
+    /// Saves the last accepted state and throws Breakdown.
     [[noreturn]] void give_up(const std::string& cause);
 
   private:
@@ -27,10 +27,11 @@ class Recorder {
 
     Course& course_;
     const std::vector<Column> columns_;  ///< of telemetry and history
-    double peak_energy_ = 0.0;           ///< largest kinetic energy of the history [J]
+    double peak_energy_ = 0.0;           ///< maximum so far [J]
     double checkpoint_written_ = 0.0;    ///< wall clock [s]
-    bool checkpoint_wanted_ = false;     ///< a requested snapshot was written since the last one
-    double last_snapshot_ = -1.0;        ///< its time [s]
+    /// a requested snapshot was written since the last checkpoint
+    bool checkpoint_wanted_ = false;
+    double last_snapshot_ = -1.0;  ///< time [s]
 };
 
 }  // namespace breach::fem

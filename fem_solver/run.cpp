@@ -19,8 +19,8 @@ namespace breach::fem {
 
 namespace {
 
-/// The motion as it is applied, after scaling: whoever reads the run needs no other file. What it
-/// is goes to the log and, with the hash of the file it came from, to the result.
+/// Stores the applied motion, so that readers need no other file, and reports it in the log and,
+/// with the source file's hash, in the result.
 void keep_motion(process::Session& session, const scene::BaseMotion& wanted) {
     const motion::Recording applied = check::applied_motion(wanted);
     const std::string name = wanted.file.filename().string();

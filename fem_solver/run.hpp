@@ -5,13 +5,13 @@
 
 namespace breach::fem {
 
-/// Raise it when the numbers change for the same input: the cache then reuses no older result.
+/// Raise it when results change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 17;
 
 /// Meshes, analyses and writes: snapshots, telemetry, history.h5, checkpoint.h5.
 process::Outcome run(process::Session& session);
 
-/// Ten steps of the first dynamic stage, after the stages before it.
+/// Runs ten steps of the first dynamic stage, after the stages before it.
 process::Cost measure(process::Session& session);
 
 process::Plan plan(const scene::Scene& scene);

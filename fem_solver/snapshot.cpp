@@ -32,7 +32,7 @@ void add_instability(const Model& model, const Motion& motion, exchange::MeshSna
     }
 }
 
-/// Keeps the entries of the elements that are there, `width` of each element.
+/// Keeps the entries of present elements, `width` per element.
 template <class Values>
 void keep_present(const Model& model, std::size_t width, Values& values) {
     if (values.empty()) return;
@@ -42,7 +42,7 @@ void keep_present(const Model& model, std::size_t width, Values& values) {
     values.resize(to);
 }
 
-/// Soil that is not there yet or no more does not stand in a snapshot.
+/// Removes absent elements.
 void drop_absent(const Model& model, exchange::MeshSnapshot& s) {
     if (std::ranges::find(model.absent, 1) == model.absent.end()) return;
     keep_present(model, 1, s.quads);
@@ -106,7 +106,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         s.epsilon_q.push_back(mechanics::epsilon_q(motion.strain[p]));
         s.epsilon_q_plastic.push_back(motion.points[p].epsilon_q);
     }
-    // A law without an elastic range cannot tell plastic strain: its total strain drives softening.
+    // A law without elastic range has no plastic strain: its total strain drives softening.
     for (const Zone& zone : model.zones) {
         if (materials::traits(zone.law).tells_plastic_strain) continue;
         const std::size_t begin = zone.first * model.points_per_element;

@@ -1,4 +1,4 @@
-// The motion as a snapshot file.
+// Converts a motion to a snapshot file.
 #pragma once
 
 #include "core/exchange/mesh_snapshot.hpp"
@@ -7,8 +7,8 @@
 
 namespace breach::fem {
 
-/// Only the body, without free-field columns.
-/// excess_pressure_max: [nodes of the body] Pa, since the first dynamic stage began; empty when dry.
+/// Without free-field columns. excess_pressure_max: [nodes of the body] Pa, since the first dynamic
+/// stage began; empty if dry.
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
                                    const Motion& motion, const Beginning& beginning,
                                    const std::vector<double>& excess_pressure_max, double time,

@@ -15,7 +15,7 @@ std::filesystem::path taken_file(const std::filesystem::path& output) {
 
 }  // namespace
 
-/// Taken by renaming: a request that arrives while the snapshot is being written is another one.
+/// By renaming, so that a request during the writing of the snapshot is a new one.
 bool request_is_taken(const std::filesystem::path& output) {
     return std::rename((output / phases::files::request).c_str(), taken_file(output).c_str()) == 0;
 }

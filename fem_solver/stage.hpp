@@ -1,19 +1,19 @@
-// A stage: its changes at the beginning, and its steps until its end.
+// A stage: its changes at the beginning, and its steps.
 #pragma once
 
 #include "fem_solver/recorder.hpp"
 
 namespace breach::fem {
 
-/// Begins the course's stage: laws, water, elements present, loads, and with the first dynamic one
-/// the clocks. For a resumed stage, only what a checkpoint does not contain.
+/// Begins the course's stage: laws, water, elements, loads, and the clocks if it is the first
+/// dynamic one. In a resumed stage only what the checkpoint lacks.
 void begin_stage(Course& course);
 
 enum class StageEnd { reached, stopped, entangled };
 
-/// Applies its load share by share.
+/// Applies its load in shares.
 StageEnd run_static(Course& course, Recorder& recorder);
-/// Runs its time steps. Entangled: the course has the last good state.
+/// Runs its time steps. If entangled, the course has the last good state.
 StageEnd run_dynamic(Course& course, Recorder& recorder);
 
 }  // namespace breach::fem

@@ -16,14 +16,15 @@ using End = NewtonOutcome::End;
 
 constexpr double cut_of_load = 0.5;
 constexpr double growth_of_load = 2.0;
-constexpr double told_residual = 10.0;    // times force_tolerance, at the end of a static stage
+// times force_tolerance: a larger residual at the end of a static stage is flagged
+constexpr double told_residual = 10.0;
 constexpr double least_load_step = 1e-4;  // share of gravity
 
 nlohmann::json& facts_of_stage(Course& course) {
     return course.session.result()["geostatic"][course.stage().name];
 }
 
-/// Moves what the stage moves, and lets creep what creeps, by this share of its way.
+/// Applies this share of the stage's displacements and creep.
 void drive(double share, Course& course) {
     Model& model = course.model;
     Eigen::VectorXd& driven = course.prediction.driven;
@@ -34,10 +35,10 @@ void drive(double share, Course& course) {
     for (const Model::Driven& each : model.driven) driven[each.dof] = share * each.by;
 }
 
-/// Soil that an edge pushes yields everywhere at once when its limit state is reached exactly. Its
-/// tangent is singular there: the step is tried again with a part of the elastic stiffness and a wider
-/// tolerance, and so are the steps behind it until one fails. The residual enters the next step, so it
-/// does not add up. Load steps keep their tolerance: beyond its limit a load has no equilibrium.
+/// Soil pushed by an edge yields everywhere when the limit state is reached, and its tangent is
+/// singular. The step is repeated with a part of the elastic stiffness and a wider tolerance, and
+/// so are the following ones until one fails. The residual enters the next step; it does not
+/// accumulate. Load steps keep their tolerance: beyond its limit a load has no equilibrium.
 NewtonOutcome balance(double load, Course& course) {
     const auto step = [&] {
         return static_step(*course.newton, course.model, course.laws, load, course.stage_force,
@@ -54,7 +55,7 @@ NewtonOutcome balance(double load, Course& course) {
     return outcome;
 }
 
-/// What pushes the edges that the stage moves, per metre of thickness, step by step.
+/// Records the force on edges that the stage moves, per metre of thickness and step.
 void note_reactions(Course& course) {
     const scene::Stage& stage = course.stage();
     if (stage.displacements.empty()) return;
@@ -74,7 +75,7 @@ void note_reactions(Course& course) {
     }
 }
 
-/// The load beyond which the body finds no equilibrium: the motion is the last one.
+/// Records the limit load; the motion is the last equilibrium.
 void note_limit_point(Course& course) {
     const double load = course.position.load;
     facts_of_stage(course)["limit_point"] = load;

@@ -1,4 +1,4 @@
-// What a step costs: ten of them, less what comes before the first.
+// Cost of a step: that of ten, without what precedes the first.
 #include "fem_solver/solve/trial.hpp"
 
 #include <sys/resource.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double steps_of_trial = 10.0;
 
-/// The scene until `steps` steps into its first dynamic stage, with no output on the way.
+/// The scene up to `steps` steps into its first dynamic stage, without output.
 scene::Scene shortened(scene::Scene scene, double steps) {
     scene::Fem& fem = *scene.fem;
     fem.snapshot_times.clear();

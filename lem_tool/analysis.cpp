@@ -48,7 +48,7 @@ void add_polylines(const json& result, exchange::Archive& archive) {
     }
 }
 
-/// The pairs of ends and the slices of the critical circle.
+/// Writes the pairs of ends and the slices of the critical circle.
 void write_surfaces(process::Session& session, const Searched& circles) {
     const Model& model = circles.model;
     Slices slices = make_slices(model.strata, model.slices);
@@ -111,7 +111,7 @@ std::string other_methods(const json& facts) {
     return words;
 }
 
-/// The answer in words, for whoever reads the log and not result.json.
+/// Logs the result in words.
 void say(const json& result) {
     const double F = result.at("factor_of_safety");
     const std::string surface = result.at("surface");
@@ -218,7 +218,7 @@ process::Plan plan(const scene::Scene& whole) {
 
 namespace {
 
-/// The given surfaces into `given`; the search, or the given circle in its place.
+/// The result of the search or the given circle; puts facts of given surfaces into `given`.
 Families first_families(const scene::Scene& scene, const Model& model, int threads, json& given) {
     const scene::Lem& lem = *scene.lem;
     if (lem.non_circular && !lem.non_circular->given.empty())

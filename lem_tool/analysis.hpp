@@ -1,20 +1,20 @@
-// The phase: factors of safety of the scene's circle and search, as result.json and as figure
-// data.
+// The phase lem_tool: factors of safety of the scene's circle or search, written as result.json and
+// as data for figures.
 #pragma once
 
 #include "core/process/phase.hpp"
 
 namespace breach::lem {
 
-/// Raise it when the numbers change for the same input: the cache then reuses no older result.
+/// Raise it when results change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 8;
 
 process::Plan plan(const scene::Scene& scene);
 
-/// Analyses the entries of /lem. result.json: the facts of the surface with the least valid
-/// factor_of_safety, those of every other surface under its name (lem_tool/answer.hpp), surfaces_*,
-/// seconds. surfaces.h5: the best circle of each pair of ends and the slices of the critical one.
-/// Throws BadInput when the given circle cannot be analysed or the search finds no surface.
+/// Analyses /lem. result.json: facts of the surface with the least valid factor_of_safety, facts of
+/// every other surface under its name (lem_tool/answer.hpp), surfaces_*, seconds. surfaces.h5: the
+/// best circle of each pair of ends and the slices of the critical one. Throws BadInput if the
+/// given circle cannot be analysed or the search finds no surface.
 process::Outcome run(process::Session& session);
 
 }  // namespace breach::lem

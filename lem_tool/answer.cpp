@@ -14,18 +14,18 @@ using nlohmann::json;
 
 namespace {
 
-/// Factors of different surfaces differ by so much without anything being wrong with one of them.
+/// Usual relative difference of factors between surfaces.
 constexpr double telling_difference = 0.03;
 
-/// Of the polyline that is searched without being asked, the schema's default.
+/// The schema's default, for the polyline that is searched without request.
 constexpr int usual_vertices = 13;
 
-/// A factor that may be the answer.
+/// A factor of safety and whether it is valid.
 struct Candidate {
     double factor;
     std::string method;
-    std::string surface;  ///< its facts' name in the result, "circle" for Bishop's
-    std::string invalid;  ///< why it is not valid; empty: it is
+    std::string surface;  ///< its key in the result, "circle" for Bishop's
+    std::string invalid;  ///< reason; empty: valid
     bool kinked_without_friction;
 };
 
@@ -69,7 +69,7 @@ std::vector<Candidate> candidates_of(const json& parts, double least_m_alpha) {
     return all;
 }
 
-/// The least valid one; where none is valid, the least.
+/// The least valid one; if none is valid, the least.
 const Candidate& least_of(const std::vector<Candidate>& all) {
     return *std::ranges::min_element(all, [](const Candidate& a, const Candidate& b) {
         if (a.invalid.empty() != b.invalid.empty()) return a.invalid.empty();
@@ -87,7 +87,7 @@ bool asks_for_polyline(const scene::Lem& lem) {
     return lem.non_circular && lem.non_circular->vertices > 0;
 }
 
-/// The least of the surfaces along weak layers; null: there is none.
+/// The least composite surface; null if there is none.
 json least_composite(const std::vector<Searched>& composites) {
     json least;
     for (const Searched& each : composites) {
@@ -97,7 +97,7 @@ json least_composite(const std::vector<Searched>& composites) {
     return least;
 }
 
-/// What the result says of the surface in front: as an arc's facts, a polyline's too.
+/// Facts of the critical surface, with those of an arc also for a polyline.
 json front_of(const Candidate& least, const json& facts) {
     json front = facts;
     front["factor_of_safety"] = least.factor;
@@ -181,7 +181,7 @@ Families given_family(const scene::Scene& scene, const Model& model) {
     return families;
 }
 
-/// From the least circle, with the vertices that the scene asks for or the usual ones.
+/// Starts from the least circle, with the requested or default number of vertices.
 static json polyline_of(const scene::Scene& scene, const Families& families) {
     const Searched& start = families.least();
     scene::Scene bent = scene;
@@ -195,7 +195,7 @@ json answer(const scene::Scene& scene, const Families& families, const json& giv
     json parts = given;
     parts["bishop"] = facts_of(families.circles);
     if (!families.composites.empty()) parts["composite"] = least_composite(families.composites);
-    // An arc meets a thin weak layer at one angle only, a wedge with those of least resistance.
+    // An arc crosses a thin weak layer at one angle only, a polyline at those of least resistance.
     if (asks_for_polyline(lem) || !families.composites.empty())
         parts["non_circular"] = polyline_of(scene, families);
     const auto all = candidates_of(parts, lem.m_alpha.least);

@@ -1,4 +1,4 @@
-// The result: the least valid factor of safety of all analysed surfaces, with its method and its
+// The result: the least valid factor of safety of all analysed surfaces, with its method and
 // surface.
 #pragma once
 
@@ -8,34 +8,33 @@
 
 namespace breach::lem {
 
-/// Bishop's circle of the search, and one over the line of each thin weak layer.
+/// The critical circle of the search, and one composite surface for each thin weak layer.
 struct Families {
     Searched circles;
-    std::vector<Searched> composites;  ///< those with a surface
+    std::vector<Searched> composites;  ///< those found
 
-    /// That with the least factor by Bishop's method.
+    /// The one with the least factor by Bishop's method.
     const Searched& least() const;
 };
 Families search_families(const scene::Scene& scene, const Model& model,
                          const scene::SlipSearch& ranges, int threads);
 
-/// The given circle instead of a search. Throws BadInput where it has no answer.
+/// The given circle, without search. Throws BadInput if it has no factor of safety.
 Families given_family(const scene::Scene& scene, const Model& model);
 
 /// "the critical circle" for a surface's name in the result.
 std::string in_words(const std::string& surface);
 
-/// All facts about the least surface of a family.
 nlohmann::json facts_of(const Searched& searched);
 
 /// The facts of all analysed surfaces by name: "bishop", "composite", "non_circular" of the search,
-/// and the entries of `given`. Beside them those of the least valid one, with "factor_of_safety",
-/// "method" and "surface".
+/// and the entries of `given`; and those of the least valid one, with "factor_of_safety", "method"
+/// and "surface".
 nlohmann::json answer(const scene::Scene& scene, const Families& families,
                       const nlohmann::json& given = nlohmann::json::object());
 
-/// If a scene with a thick weak layer did not ask for a polyline: a flag where one has a factor more than
-/// 3 % lower, which circles cannot reach. The search costs some tenths of a second.
+/// Flags a thick weak layer if a polyline through it has a factor more than 3 % below that of
+/// circles and the scene requests no polyline. That search takes some tenths of a second.
 std::vector<fault::Flag> flags_of_weak_layer(const scene::Scene& scene, const Families& families,
                                              const nlohmann::json& answer);
 

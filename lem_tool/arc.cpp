@@ -35,7 +35,7 @@ double lowest(const Surface& surface, double from, double to) {
     return surface.level(std::clamp(surface.circle.center.x(), from, to));
 }
 
-/// One pass over the strips; knows the surface and where the next slice goes.
+/// One pass over the strips, with the surface and the next slice's position.
 class ArcCutter {
   public:
     ArcCutter(const Strata& strata, const std::vector<Soil>& soils, const Surface& surface,
@@ -63,8 +63,8 @@ class ArcCutter {
   private:
     Cut cut_strip(const Strip& strip, double from, double to) {
         const Line& ground = strata_.ground(strip);
-        // the lower arc is convex: below the straight ground at both ends, it is below everywhere
-        // between
+        // The lower arc is convex: if it is below the straight ground at both ends, it is below in
+        // between.
         if (base(strip, from) > ground.at(from) + tolerance_) return Cut::above_ground;
         if (base(strip, to) > ground.at(to) + tolerance_) return Cut::above_ground;
         if (dips_below(strip, from, to)) return Cut::leaves_model;
@@ -85,8 +85,8 @@ class ArcCutter {
         return std::max(surface_.level(x), strip.floor.at(x));
     }
 
-    /// Greatest vertical distance from a straight ground to the base: where the arc has the
-    /// ground's slope, or where the base has a corner.
+    /// Greatest vertical distance from a straight ground to the base: at the ground's slope, or at
+    /// a corner of the base.
     void note_depth(const Strip& strip, double from, double to) {
         const Line& ground = strata_.ground(strip);
         const scene::Circle& circle = surface_.circle;
@@ -115,7 +115,7 @@ class ArcCutter {
         return meet(surface_.circle, allowed, from, to).count == 2;
     }
 
-    /// Abscissae where the layer under the arc changes, ascending, `to` last.
+    /// Abscissae at which the layer at the arc changes, ascending, `to` last.
     void find_crossings(const Strip& strip, double from, double to) {
         std::vector<double>& crossings = slices_.crossings;
         crossings.clear();
@@ -151,8 +151,7 @@ class ArcCutter {
     double tolerance_;
 };
 
-/// An end is sound when nothing but air lies beyond it: the arc comes out at the ground, at a
-/// vertical face or in a crack.
+/// Beyond a valid end there is only air: it is on the ground, on a vertical face or in a crack.
 Cut check_end(const Strata& strata, const Surface& surface, double x, From beyond) {
     const double tolerance = 1e-9 * surface.circle.radius;
     if (x < strata.left() || x > strata.right()) return Cut::leaves_model;

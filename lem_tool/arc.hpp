@@ -1,4 +1,4 @@
-// A circle's lower arc, or an arc cut by a floor (composite surface), as a slip surface: the sliding
+// A circle's lower arc, or an arc cut by a floor (composite surface), as slip surface: the sliding
 // mass above it, cut into vertical slices at every material boundary and ground vertex.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace breach::lem {
 
-/// A circle's lower arc between the two points where it meets the ground or a crack's foot.
+/// A circle's lower arc between its intersections with the ground or a crack's tip.
 struct Surface {
     scene::Circle circle;
     double left;   ///< x [m]
@@ -18,20 +18,20 @@ struct Surface {
     double level(double x) const;  ///< y of the arc [m]
 };
 
-/// Where a circle's lower arc meets a straight line within (from, to), ascending.
+/// Intersections of a circle's lower arc with a straight line within (from, to), ascending.
 struct Meeting {
     int count = 0;
     double x[2];
 };
 Meeting meet(const scene::Circle& circle, const Line& line, double from, double to);
 
-/// Why Bishop's balance keeps its form on a floor, where the normal force has a moment too: with
-/// N = (W - S sin a) / cos a the sum of W d = S r + N f (d, h: base's middle beside and below the
-/// centre, r = d sin a + h cos a, f = d cos a - h sin a) becomes W h tan a = S h / cos a, which on
-/// the arc is W d = S R.
+/// Bishop's moment equilibrium is also valid on a floor, where the normal force has a moment. With
+/// N = (W - S sin a) / cos a, the sum of W d = S r + N f becomes W h tan a = S h / cos a; on the
+/// arc that is W d = S R. d, h: horizontal and vertical distance of the base's middle from the
+/// centre, r = d sin a + h cos a, f = d cos a - h sin a.
 ///
-/// Cuts the mass into about `wanted` slices of equal width, more where boundaries require it. Arc
-/// segments are exact in weight, moment and (to the fourth order of their angle) length; only the
+/// Cuts the mass into about `wanted` slices of equal width, more if boundaries require it. Weight
+/// and moment of arc segments are exact, their length to the fourth order of the angle; only the
 /// base inclination is that of the chord. No allocation.
 Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Surface& surface, int wanted,
         Slices& slices);

@@ -43,7 +43,7 @@ double smallest_m_alpha(const Slices& slices, double sense, double F,
     return least;
 }
 
-/// F above which every m_alpha is positive.
+/// Lower limit of F for which every m_alpha is positive.
 double pole(const Slices& slices, double sense) {
     double largest = 0.0;
     for (std::size_t i = 0; i < slices.count; ++i) {
@@ -67,14 +67,14 @@ Bishop bishop(const Slices& slices, Slide slide, double k_h, const scene::MAlpha
     for (std::size_t i = 0; i < slices.count; ++i) scale += std::abs(slices.driving[i]);
     if (!(driving > 1e-9 * scale)) return {Balance::no_driving_moment, 0.0, 1.0, 0};
 
-    // F -> S(F)/F - driving falls from +inf at the pole to -driving: one root, and all m_alpha are
-    // positive there.
+    // F -> S(F)/F - driving decreases from +inf at the pole to -driving: one root, with positive
+    // m_alpha.
     const double least = pole(slices, sense);
     double plain = 0.0;
     for (std::size_t i = 0; i < slices.count; ++i) {
         plain += slices.force[i];
     }
-    if (plain <= 0.0) return {Balance::found, 0.0, 1.0, 0};  // no strength at all
+    if (plain <= 0.0) return {Balance::found, 0.0, 1.0, 0};  // no strength
     double F = std::max(plain / driving, 1.01 * least);
     for (result.iterations = 1; result.iterations <= 100; ++result.iterations) {
         const Resistance S = resistance(slices, sense, F);

@@ -1,28 +1,28 @@
-// Simplified Bishop: the factor of safety of one sliding mass already divided into slices.
+// Simplified Bishop: the factor of safety of a sliding mass in slices.
 #pragma once
 
 #include "lem_tool/slices.hpp"
 
 namespace breach::lem {
 
-/// Direction of sliding; it decides the sign of the base inclinations.
+/// Direction of sliding; gives the sign of base inclinations.
 enum class Slide { to_left, to_right };
 
 enum class Balance {
     found,
-    no_driving_moment,  ///< the weight does not turn the mass in this direction
-    small_m_alpha,      ///< m_alpha of a slice is below the limit: the method does not apply
+    no_driving_moment,  ///< the weight does not drive the mass in this direction
+    small_m_alpha,      ///< m_alpha of a slice is below the limit: the method is not valid
     not_converged,
 };
 
 struct Bishop {
     Balance balance;
-    double factor_of_safety;  ///< meaningful when found or small_m_alpha [-]
-    double m_alpha;           ///< least over the slices that the limit is about, at most 1 [-]
+    double factor_of_safety;  ///< for found or small_m_alpha [-]
+    double m_alpha;           ///< minimum over the slices with a limit, at most 1 [-]
     int iterations;
 };
 
-/// The direction in which the loads turn the mass.
+/// Direction in which the loads drive the mass.
 Slide slide_of(const Slices& slices);
 
 /// F = sum (c l cos a + (W - u l cos a) tan phi) / m_a / (sum of driving moments / R),

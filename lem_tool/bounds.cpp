@@ -12,7 +12,7 @@ using nlohmann::json;
 
 namespace {
 
-/// By less, relative, a bound does not raise the factor.
+/// Relative rise of the factor below which a bound has no effect.
 constexpr double telling_rise = 0.01;
 
 template <class... Values>
@@ -28,7 +28,7 @@ std::string range_text(const std::array<double, 2>& range) {
 
 constexpr const char* raises_factor = "bound_raises_factor";
 
-/// A bound of the scene: what is left of the scene without it, and what to tell the reader.
+/// A bound: the scene without it, and its message.
 struct Bound {
     std::string pointer;
     std::string what;
@@ -37,7 +37,7 @@ struct Bound {
     void (*lift)(const Strata&, scene::Lem&);
 };
 
-/// Ends anywhere on the slope's upper and lower half.
+/// Allows ends anywhere on the slope's upper and lower half.
 void widen(const Strata& strata, scene::Lem& lem) {
     scene::SlipSearch& search = *lem.search;
     const bool to_right = search.entry[0] + search.entry[1] < search.exit[0] + search.exit[1];
@@ -82,7 +82,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
     return bounds;
 }
 
-/// The model of a scene with other bounds, its soils in the same state.
+/// The model with other bounds and the same soils.
 Model model_of(const scene::Scene& scene, const State& state) {
     Model model = state.model;
     model.strata = make_strata(scene);
@@ -94,13 +94,13 @@ double coarse_factor(const scene::Scene& scene, const State& state, int threads)
     model.strata.crack.share = state.families.circles.model.strata.crack.share;
     scene::SlipSearch ranges = *scene.lem->search;
     for (int* points : {&ranges.entry_points, &ranges.exit_points, &ranges.depths})
-        *points = std::max(4, *points * 2 / 3);  // a third of the search's own grid
+        *points = std::max(4, *points * 2 / 3);  // a third of the search's grid
     const SearchResult found = search(model, ranges, threads, Effort::coarse);
     return found.critical ? found.critical->bishop.factor_of_safety
                           : std::numeric_limits<double>::infinity();
 }
 
-/// The surface in front ends where the search was not allowed to go on.
+/// Flags a critical surface that ends at the limit of a range.
 std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::SlipSearch& search,
                                         const State& state) {
     std::vector<fault::Flag> flags;
@@ -134,8 +134,8 @@ fault::Flag flag_of(const Bound& bound, const State& state, double without) {
             bound.pointer};
 }
 
-/// Lifts the bounds that no earlier state was flagged for: together on a coarse grid, and each alone
-/// where that finds a lower factor.
+/// Removes the bounds not flagged so far: all at once on a coarse grid, then one by one if that
+/// lowers the factor.
 std::vector<fault::Flag> flags_of_bounds(const scene::Scene& scene, const State& state, int threads,
                                          const std::vector<fault::Flag>& told) {
     const Strata& strata = state.model.strata;

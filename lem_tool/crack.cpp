@@ -15,7 +15,7 @@ double factor_of(const SearchResult& found) {
     return found.critical ? found.critical->bishop.factor_of_safety : infinite;
 }
 
-/// Where a function with one valley is least in [0, 1], to 0.02 (golden section).
+/// Minimum of a unimodal function in [0, 1] to 0.02 (golden section).
 double bottom_of(const std::function<double(double)>& f) {
     constexpr double golden = 0.6180339887498949;
     double low = 0.0, high = 1.0;
@@ -60,7 +60,7 @@ Searched with_worst_crack(const Model& model, const std::vector<scene::Vec2>& fl
         best.model.strata.crack.share = share;
         best.found = std::move(found);
     };
-    // One valley: the factor falls while the crack takes tension away, and rises below it.
+    // Unimodal: the factor decreases while the crack removes tension, and increases below it.
     const double whole = coarse(1.0);
     if (whole == infinite || coarse(0.9) < whole) consider(bottom_of(coarse));
     consider(0.0);

@@ -1,4 +1,4 @@
-// The depth at which a surface ends in the tension crack: that with the lowest factor of safety.
+// Depth at which a surface ends in the tension crack: the one with the lowest factor of safety.
 #pragma once
 
 #include <functional>
@@ -7,23 +7,24 @@
 
 namespace breach::lem {
 
-/// A search and the model it was made on.
+/// A search and its model.
 struct Searched {
     Model model;
     SearchResult found;
-    std::vector<scene::Vec2> floor;  ///< of a surface along a weak layer; empty: the scene's own
-    /// With the whole crack; infinite: no surface ends in it
+    std::vector<scene::Vec2> floor;  ///< along a weak layer; empty: the scene's floor
+    /// with the whole crack; infinite: no surface
     double factor_with_whole_crack;
 
-    double factor() const;  ///< Bishop's; infinite: no surface was found
+    double factor() const;  ///< Bishop's; infinite: no surface
 };
 
-/// Below the tension zone soil presses on both walls of a crack. A surface that ended deeper would
-/// omit that thrust and be unsafe, so the scene's depth is an upper bound.
+/// Below the tension zone soil presses on both walls of a crack. A deeper end of the surface would
+/// omit that thrust, which is unsafe: the scene's depth is therefore an upper limit.
 Searched with_worst_crack(const Model& model, const std::vector<scene::Vec2>& floor,
                           const std::function<SearchResult(const Model&, Effort)>& look);
 
-/// Depth to which soil as at the upper end can stand open: 2 c / gamma tan(45 + phi / 2) [m].
+/// Depth to which a crack in the soil at the upper end stays open: 2 c / gamma tan(45 + phi / 2)
+/// [m].
 double tension_zone(const Model& model, const Surface& surface);
 
 }  // namespace breach::lem

@@ -11,7 +11,7 @@ namespace breach::lem {
 
 namespace {
 
-/// A place of wet soil looser than critical.
+/// A place of wet soil that is looser than critical.
 struct Loose {
     double x, y, psi;
 };
@@ -31,7 +31,7 @@ class WetAndLoose {
   public:
     explicit WetAndLoose(const scene::Scene& scene) : scene_(scene), model_(drained(scene)) {}
 
-    /// The loosest wet place of every region that has one.
+    /// The loosest such place of each region.
     std::map<std::size_t, Loose> found() {
         for (const Strip& strip : model_.strata.strips)
             for (std::size_t k = strip.first; k < strip.last; ++k) look(strip, k);
@@ -39,16 +39,17 @@ class WetAndLoose {
     }
 
   private:
-    /// Layers stay whole, so that regions keep their numbers; no path of undrained soil is walked.
+    /// Keeps layers whole, so that regions keep their indices, and computes no undrained paths.
     static Model drained(scene::Scene scene) {
         scene.lem->undrained.clear();
         scene.lem->liquefaction.clear();
         return make_model(limit_scene(scene));
     }
 
-    /// Boundaries are straight within a strip: its sides have what is deepest and wettest.
+    /// Boundaries are straight within a strip: the extremes of depth and pore pressure are at its
+    /// sides.
     void look(const Strip& strip, std::size_t k) {
-        constexpr int steps = 20;  // down a vertical: psi_0 may go by depth
+        constexpr int steps = 20;  // along a vertical, as psi_0 may vary with depth
         const Layer& layer = model_.strata.layers[k];
         if (!materials::has_state_parameter(law_of(scene_, layer.region)) ||
             model_.soils[layer.region].tan_phi == 0.0 ||
@@ -66,7 +67,7 @@ class WetAndLoose {
     }
 
     void look_at(const Strip& strip, const Layer& layer, double x, double y) {
-        constexpr double dry = 100.0;  // [Pa]: a centimetre of water is none
+        constexpr double dry = 100.0;  // [Pa]: 1 cm of water
         const Strata& strata = model_.strata;
         const Soil& soil = model_.soils[layer.region];
         const double ground = strata.ground(strip).at(x);

@@ -1,5 +1,5 @@
-// Flags soil that can lose its strength undrained but is analysed with its drained strength: such a
-// dam can fail in spite of this factor of safety.
+// Flags soil that can fail undrained but is analysed with drained strength: the dam may fail in
+// spite of this factor of safety.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace breach::lem {
 
-/// One flag for each region with a state parameter that has friction (neither /lem/undrained nor a strength with
-/// phi = 0) where it is wet, looser than critical and in no layer of /lem/liquefaction. Wet as in the analysis:
-/// by /lem/water, a piezometric line or r_u.
+/// One flag per region with a state parameter and friction (neither /lem/undrained nor a strength
+/// with phi = 0) that is wet, looser than critical and in no layer of /lem/liquefaction. Wet: by
+/// /lem/water, a piezometric line or r_u, as in the analysis.
 std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene);
 
 }  // namespace breach::lem

@@ -17,7 +17,7 @@ namespace {
 
 json point(double x, double y) { return json::array({x, y}); }
 
-/// Lowest point of the base; of a level floor, its left end.
+/// Lowest point of the base; on a level floor, its left end.
 scene::Vec2 lowest_point(const Strata& strata, const Surface& surface, const Slices& slices) {
     const double bottom = std::clamp(surface.circle.center.x(), surface.left, surface.right);
     scene::Vec2 lowest(bottom, base_level(strata, surface, bottom));
@@ -45,8 +45,8 @@ std::string because(Cut cut) {
     return "cuts nothing off";
 }
 
-/// A small m_alpha is reported, not refused, unless the scene says otherwise: this circle was asked
-/// for.
+/// A small m_alpha is flagged, not refused, unless the scene requests that: the user gave this
+/// circle.
 bool is_answer(const Bishop& result, const scene::MAlphaLimit& limit) {
     return result.balance == Balance::found || (result.balance == Balance::small_m_alpha &&
                                                 limit.given_circle == scene::SmallMAlpha::answered);
@@ -155,7 +155,7 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
     return *best;
 }
 
-/// How to make a search find surfaces, by what most of them failed at.
+/// Remedy for a search without surfaces, by the most frequent reason.
 std::string remedy_of(const scene::Lem& scene, const Model& model, const Tally& tally) {
     const scene::SlipSearch& search = *scene.search;
     if (tally.too_shallow > tally.not_a_surface) return "give a smaller minimum_depth";

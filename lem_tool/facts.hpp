@@ -8,15 +8,15 @@
 
 namespace breach::lem {
 
-/// All facts about one analysed surface; leaves its slices in `slices`.
+/// Facts about one analysed surface; `slices` then has its slices.
 nlohmann::json facts_of(const Model& model, const Critical& critical, Slices& slices);
 nlohmann::json facts_of(const Tally& tally);
 
-/// Bishop on the mass of the circle with the lowest factor of safety; a circle can cut off several.
-/// Throws BadInput when there is none.
+/// Bishop's factor for the circle's mass with the lowest factor; a circle can cut off several.
+/// Throws BadInput if there is none.
 Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& slices);
 
-/// Throws BadInput: a search found no surface.
+/// Throws BadInput: the search found no surface.
 [[noreturn]] void refuse_search(const scene::Scene& scene, const Model& model, const Tally& tally);
 
 /// The search. Throws BadInput if it finds no surface.

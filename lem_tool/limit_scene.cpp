@@ -6,7 +6,7 @@
 namespace breach::lem {
 namespace {
 
-/// A strength that is not the same everywhere stays with the profile, which the law then names.
+/// The law of a material with a variable strength refers to the profile.
 void use_limit_strength(scene::Material& material) {
     if (!material.limit_strength && !scene::lem_takes_profile(material)) return;
     materials::Plastic limit;
@@ -15,7 +15,7 @@ void use_limit_strength(scene::Material& material) {
         limit.phi = material.limit_strength->phi;
     } else {
         const materials::StrengthCurve& peak = material.strength->peak;
-        limit.c = materials::strength_at(peak, {10.0, 0.0, 1e5}).c;  // > 0 where it can vary
+        limit.c = materials::strength_at(peak, {10.0, 0.0, 1e5}).c;  // > 0 if it varies
         if (const auto* effective = std::get_if<materials::Effective>(&peak.kind))
             limit.phi = effective->phi;
         if (!materials::is_uniform(peak)) limit.strength_of = materials::StrengthOf::point;
@@ -23,7 +23,7 @@ void use_limit_strength(scene::Material& material) {
     material.law = materials::with_plasticity(material.law, limit);
 }
 
-/// Levels at which the layers cut a region, from the top down, without its own top and bottom.
+/// Levels at which layers cut a region, from the top down, without its own top and bottom.
 std::vector<double> cuts_of(const scene::Scene& scene, std::size_t region) {
     const geometry::Box box = geometry::bounding_box(scene.section.regions[region].polygon);
     const double near = 1e-9 * (box.high.y() - box.low.y());
@@ -63,10 +63,10 @@ std::vector<scene::Region> parts_of(const scene::Region& region, const std::vect
     return parts;
 }
 
-/// For each region of the scene, the parts that took its place.
+/// For each original region, its parts.
 using Places = std::vector<std::vector<std::size_t>>;
 
-/// One entry per part of its region that lies between its levels.
+/// One entry per part of its region between its levels.
 std::vector<scene::UndrainedRegion> entries_for(const std::vector<scene::UndrainedRegion>& entries,
                                                 const Places& places,
                                                 const std::vector<scene::Region>& parts) {
@@ -84,7 +84,7 @@ std::vector<scene::UndrainedRegion> entries_for(const std::vector<scene::Undrain
     return result;
 }
 
-/// Regions become their parts.
+/// Replaces regions by their parts.
 void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
     std::vector<std::size_t> parts;
     for (const std::size_t region : regions)
@@ -92,7 +92,7 @@ void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
     regions = std::move(parts);
 }
 
-/// Paths are walked once, however often a strength is varied.
+/// Computes undrained paths once, for all variations of the strength.
 void walk_paths(const scene::Scene& scene, std::vector<scene::UndrainedRegion>& entries) {
     for (scene::UndrainedRegion& each : entries) {
         if (!each.strength.on_path) continue;
@@ -119,7 +119,7 @@ std::vector<std::vector<std::size_t>> undrained_parts(const scene::Scene& scene)
 
 scene::Scene limit_scene(const scene::Scene& scene) {
     scene::Scene result = scene;
-    result.lem = scene::lem_of(scene);  // the first to need it: throws where it is missing
+    result.lem = scene::lem_of(scene);  // throws if /lem is missing
     walk_paths(scene, result.lem->undrained);
     walk_paths(scene, result.lem->liquefaction);
     for (scene::Material& material : result.materials) use_limit_strength(material);

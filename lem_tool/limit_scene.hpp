@@ -1,5 +1,5 @@
-// Converts the scene for limit equilibrium: every material has its strength at failure, every
-// liquefying layer is a region of its own.
+// Converts the scene for limit equilibrium: all materials with their strength at failure, each
+// liquefying layer a region of its own.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,9 @@
 
 namespace breach::lem {
 
-/// Materials with a `limit_strength`, or a strength profile instead, have a Mohr-Coulomb law of
-/// that strength; regions that /lem/liquefaction divides by levels are cut there, and the
-/// entries of /lem name the parts. Throws BadInput when a layer's levels contain nothing of its
-/// region.
+/// Materials with a `limit_strength`, or else a strength profile, get a Mohr-Coulomb law of that
+/// strength. Regions that /lem/liquefaction divides by levels are cut there, and the entries of
+/// /lem then name the parts. Throws BadInput if a layer's levels contain no soil of its region.
 scene::Scene limit_scene(const scene::Scene& scene);
 
 /// For each entry of the scene's /lem/undrained, the entries of limit_scene that replace it.

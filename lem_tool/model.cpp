@@ -4,14 +4,14 @@ namespace breach::lem {
 
 namespace {
 
-/// No surface passes through what cannot fail.
+/// Soil that cannot fail is closed.
 Soil soil_of(const materials::Law& law) {
     const auto strength = materials::limit_strength(law);
     if (!strength) return {.c = 0.0, .tan_phi = 0.0, .passage = Soil::Passage::closed};
     return {.c = strength->c, .tan_phi = strength->tan_phi, .passage = Soil::Passage::open};
 }
 
-/// c and phi where they are the same everywhere, otherwise s_u by place.
+/// c and phi if constant, else s_u by place.
 void give(const materials::StrengthCurve& curve, Soil& soil) {
     soil.passage = Soil::Passage::open;
     soil.coefficient = 0.0;
@@ -26,11 +26,11 @@ void give(const materials::StrengthCurve& curve, Soil& soil) {
     }
 }
 
-/// phi = 0; the pore pressure still says what sigma'_v0 was.
+/// Sets phi = 0; sigma'_v0 still depends on the pore pressure.
 void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soils) {
     Soil& soil = soils[entry.region];
     if (entry.strength.by_state) {
-        // Without water nothing keeps its volume.
+        // Dry soil is not undrained.
         if (!soil.above_water) soil.above_water = std::make_shared<const Soil>(soil);
         soil.factor = entry.strength.factor;
     }

@@ -13,12 +13,12 @@ using nlohmann::json;
 
 namespace {
 
-/// Ends of a given surface may be so far off the ground, of the model's height: drawings are.
+/// Tolerance for ends of a given surface off the ground, over the model's height.
 constexpr double loose_end = 2e-3;
 
 json point_of(const scene::Vec2& p) { return json::array({p.x(), p.y()}); }
 
-/// Share of the mass's area in soil without friction.
+/// Share of the mass's area without friction.
 double frictionless_mass(const Model& model, const Slices& slices) {
     double all = 0.0;
     double without = 0.0;
@@ -83,7 +83,7 @@ double height_of(const Strata& strata) {
     return high - low;
 }
 
-/// The given surface with its ends put where they belong.
+/// The given surface with its ends moved onto the ground.
 Polyline placed(const scene::Scene& scene, const Strata& strata) {
     Polyline polyline{scene.lem->non_circular->given, CrackAt::none};
     std::vector<scene::Vec2>& points = polyline.points;
@@ -135,7 +135,7 @@ json optimised_polyline(const scene::Scene& scene, const Model& model, const Sur
 
 bool kinks_without_friction(const json& polyline) {
     constexpr double most_of_base = 0.5;
-    constexpr double thin_layer = 0.1;  // of the mass: above it other soil has the kinks
+    constexpr double thin_layer = 0.1;  // over the mass: the soil above the layer deforms at kinks
     return polyline.at("frictionless_share") >= most_of_base &&
            polyline.at("frictionless_mass") >= thin_layer;
 }

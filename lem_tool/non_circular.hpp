@@ -1,5 +1,4 @@
-// /lem/non_circular as facts of result.json: the given surface of straight pieces and the optimised
-// one.
+// Facts of /lem/non_circular for result.json: the given and the optimised polyline.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,16 +8,15 @@
 
 namespace breach::lem {
 
-/// "given_polyline". Throws BadInput where the given surface is invalid.
+/// "given_polyline". Throws BadInput if the given polyline is invalid.
 nlohmann::json given_polyline(const scene::Scene& scene, const Model& model);
 
-/// "non_circular": the optimised surface; null where the circle it starts from has no answer by
-/// Spencer's method.
+/// "non_circular": the optimised polyline; null if Spencer's method fails for the initial circle.
 nlohmann::json optimised_polyline(const scene::Scene& scene, const Model& model,
                                   const Surface& circle);
 
-/// Most of a polyline's base has no friction, and not as a thin layer under soil with friction: its
-/// factor neglects the internal shearing of the mass at the kinks.
+/// Whether most of a polyline's base is without friction, other than in a thin layer under soil
+/// with friction. Its factor neglects internal shearing of the mass at the kinks.
 bool kinks_without_friction(const nlohmann::json& polyline);
 
 }  // namespace breach::lem

@@ -17,15 +17,16 @@ using Points = std::vector<Vec2>;
 constexpr double no_answer = std::numeric_limits<double>::infinity();
 constexpr double first_step = 0.1;            // of the surface's width
 constexpr double last_step = 5e-4;            // of the surface's width
-constexpr double least_gain_of_round = 1e-4;  // relative, of one round: smaller steps from there
-constexpr double least_piece = 0.25;          // of the mean piece's width
-/// At a kink the mass has to shear within itself, which costs strength that no interslice force of
-/// one inclination brings in: surfaces with sharper ones have too low a factor of safety.
+constexpr double least_gain_of_round = 1e-4;  // relative, per round; below it the steps get smaller
+constexpr double least_piece = 0.25;          // over the mean piece's width
+/// The mass shears internally at a kink, and this resistance is missing with one inclination of
+/// interslice forces: surfaces with sharper kinks have too low a factor of safety.
 constexpr double sharpest_kink = M_PI / 6.0;
-/// No base rises more steeply against the slide: a passive wedge of soil without friction does not.
+/// Largest rise of a base in the sliding direction: a passive wedge without friction has 45
+/// degrees.
 constexpr double steepest_rise = M_PI / 4.0;
 
-/// Points of the arc (or of the floor where that is higher) at equal angles.
+/// Points of the arc, or the floor if that is higher, at equal angles.
 Points points_of(const Strata& strata, const Surface& surface, int count) {
     const Vec2& center = surface.circle.center;
     const double R = surface.circle.radius;
@@ -42,7 +43,7 @@ Points points_of(const Strata& strata, const Surface& surface, int count) {
     return points;
 }
 
-/// Puts vertices above the lower convex hull down onto it.
+/// Moves vertices above the lower convex hull down to it.
 void make_convex(Points& points) {
     Points hull;
     for (const Vec2& p : points) {
@@ -64,7 +65,7 @@ void make_convex(Points& points) {
     }
 }
 
-/// Halves the longest pieces until there are so many points.
+/// Halves the longest pieces until there are `count` points.
 void refine(Points& points, std::size_t count) {
     while (points.size() < count) {
         std::size_t longest = 0;
@@ -78,8 +79,8 @@ void refine(Points& points, std::size_t count) {
 }
 
 struct Shape {
-    double kink;  ///< sharpest, between two pieces [rad]
-    double rise;  ///< steepest, against the slide [rad]
+    double kink;  ///< sharpest kink [rad]
+    double rise;  ///< steepest rise in the sliding direction [rad]
 };
 
 Shape shape_of(const Points& points, bool upper_left) {
@@ -95,7 +96,7 @@ Shape shape_of(const Points& points, bool upper_left) {
     return shape;
 }
 
-/// One surface on its way down.
+/// A surface during its descent.
 class Descent {
   public:
     Descent(const Model& model, const Room& room, bool upper_left)
@@ -109,21 +110,22 @@ class Descent {
     std::int64_t analysed() const { return analysed_; }
     const Points& points() const { return points_; }
 
-    /// What the circle itself does is allowed.
+    /// Relaxes limits that the circle itself exceeds.
     void start(const Points& points) {
         points_ = points;
         const Shape shape = shape_of(points, upper_left_);
         allowed_ = {std::max(sharpest_kink, shape.kink), std::max(steepest_rise, shape.rise)};
-        // chords cut a little off the arc's depth
+        // Chords are slightly above the arc's lowest point.
         const auto found = analyse(model_, surface(), slices_);
         least_depth_ = std::min(room_.minimum_depth, found ? found->depth : 0.0);
         value_ = factor_of(points_);
     }
 
-    /// Interslice forces that lift the mass are no better than the circle's.
+    /// Interslice forces may lift the mass no more than for the circle.
     void hold_theta(double of_circle) { least_theta_ = std::min(0.0, of_circle) - 1e-6; }
 
-    /// More vertices on the same surface; it counts only if it is as deep as the finer start.
+    /// Adds vertices to the same surface; from here on surfaces may be no shallower than
+    /// least_depth.
     void refine_to(std::size_t count, double least_depth) {
         refine(points_, count);
         least_depth_ = least_depth;
@@ -158,7 +160,7 @@ class Descent {
         return found->spencer.factor_of_safety;
     }
 
-    /// Takes the points when they make a surface with a lower factor of safety.
+    /// Accepts the points if they give a lower factor of safety.
     bool take(Points points) {
         if (!fit(points)) return false;
         const double F = factor_of(points);
@@ -168,7 +170,8 @@ class Descent {
         return true;
     }
 
-    /// Ends on the ground and within their ranges, vertices apart, convex below.
+    /// Moves the ends onto the ground, within their ranges; separates vertices and makes the
+    /// surface convex.
     bool fit(Points& points) const {
         const auto place = [&](Vec2& p, SurfaceEnd end, const std::array<double, 2>& range) {
             p.x() = std::clamp(p.x(), range[0], range[1]);
@@ -186,7 +189,7 @@ class Descent {
         return shape.kink <= allowed_.kink && shape.rise <= allowed_.rise;
     }
 
-    /// Every vertex a step in every direction: alone, and with its neighbours following.
+    /// Moves every vertex by a step in every direction: alone, and with its neighbours.
     void round(double step) {
         for (const int reach : {3, 1, 0}) {
             for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -210,8 +213,8 @@ class Descent {
         return points;
     }
 
-    /// A weak layer is a kink in F that steps do not find: vertices, and pairs of them, are put on
-    /// the boundaries near them.
+    /// A weak layer is a kink in F that steps miss: moves vertices, and pairs of them, onto the
+    /// boundaries nearby.
     void rest_on_boundaries(std::size_t i, double reach) {
         const Strata& strata = model_.strata;
         const Strip& strip = strata.strips[strip_at(strata, points_[i].x())];

@@ -1,5 +1,5 @@
-// The critical polyline: starts from the critical circle and moves the vertices until Spencer's
-// factor of safety stops falling. Deterministic.
+// The critical polyline: starts from the critical circle and moves vertices while Spencer's factor
+// of safety decreases. Deterministic.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +16,14 @@ struct Bent {
     Polyline surface;
     Spencer spencer;
     double depth;         ///< greatest vertical depth of the mass [m]
-    double frictionless;  ///< share of the base's length without friction [-]
+    double frictionless;  ///< share of the base length without friction [-]
 };
 
-/// Spencer's method on a given polyline; it slides towards its lower end. Empty where the polyline
-/// leaves the soil or no balance is found.
+/// Spencer's method on a polyline that slides towards its lower end. Empty if the polyline leaves
+/// the soil or no equilibrium is found.
 std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices);
 
-/// Limits of a surface: its ends, its depth and its number of vertices.
+/// Limits of a surface: ends, depth, number of vertices.
 struct Room {
     std::array<double, 2> upper;  ///< x of the upper end [m]
     std::array<double, 2> lower;  ///< x of the lower end [m]
@@ -38,8 +38,8 @@ struct Optimised {
     std::int64_t analysed;
 };
 
-/// Convex below: no vertex lies above the straight line between others, so that the mass can slide
-/// on all of them. Empty when already the circle has no answer.
+/// The optimised polyline; convex (no vertex above the line through others), so that the mass can
+/// slide on all of it. Empty if Spencer's method fails for the circle.
 std::optional<Optimised> optimise(const Model& model, const Room& room, const Surface& circle);
 
 }  // namespace breach::lem

@@ -72,7 +72,7 @@ class PolylineCutter {
         return Cut::done;
     }
 
-    /// Abscissae where the layer under the base changes or its water begins, ascending, `to` last.
+    /// Abscissae at which the layer at the base changes or its water begins, ascending, `to` last.
     void find_crossings(const Strip& strip, const Line& base, double from, double to) {
         std::vector<double>& crossings = slices_.crossings;
         crossings.clear();
@@ -93,14 +93,14 @@ class PolylineCutter {
     SliceMaker maker_;
 };
 
-/// Every piece may be cut by every boundary once, and by every strip's border.
+/// Every boundary and every strip border may cut each piece once.
 void make_room(const Strata& strata, std::size_t points, int wanted, Slices& slices) {
     const std::size_t most = static_cast<std::size_t>(wanted) +
                              (points + strata.strips.size()) * (1 + slices.crossings.capacity());
     if (slices.capacity() < most) slices.reserve(most, slices.crossings.capacity());
 }
 
-/// Nothing but air may lie beyond an end, unless it is a crack's.
+/// Beyond an end there is only air, unless it is in a crack.
 Cut check_end(const Strata& strata, const Polyline& polyline, From beyond) {
     const Vec2& end = beyond == From::left ? polyline.points.front() : polyline.points.back();
     if (end.x() < strata.left() || end.x() > strata.right()) return Cut::leaves_model;

@@ -1,5 +1,4 @@
-// Slip surfaces of straight pieces: the sliding mass above one, cut into slices for Spencer's
-// method. Bishop's needs a circle.
+// Polygonal slip surfaces: the sliding mass above one, cut into slices for Spencer's method.
 #pragma once
 
 #include <vector>
@@ -9,20 +8,20 @@
 namespace breach::lem {
 
 struct Polyline {
-    std::vector<scene::Vec2> points;  ///< ascending in x, from ground to ground or crack's foot [m]
+    std::vector<scene::Vec2> points;  ///< ascending in x, from ground to ground or crack tip [m]
     CrackAt crack = CrackAt::none;
 };
 
-/// Ends of a surface over x: on the ground, the upper end at the foot of the crack. On a vertical
-/// face an upper end is at the head, a lower one at the foot.
+/// Ends of a surface are on the ground, or the upper one at the crack's tip. On a vertical face, an
+/// upper end is at its top, a lower one at its bottom.
 enum class SurfaceEnd { upper, lower };
 double end_level(const Strata& strata, double x, SurfaceEnd end);
 
-/// A circle for moments, well above the polyline. The factor of safety by equilibrium of forces and
-/// moments does not depend on it.
+/// Reference circle for moments, well above the polyline. Full equilibrium gives a factor of safety
+/// that does not depend on it.
 scene::Circle pivot_of(const Polyline& polyline);
 
-/// Cuts the mass into about `wanted` slices, more where boundaries and vertices require it.
+/// Cuts the mass into about `wanted` slices, more if boundaries and vertices require it.
 Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Polyline& polyline,
         const scene::Circle& pivot, int wanted, Slices& slices);
 

@@ -16,21 +16,20 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 constexpr std::size_t valleys_followed = 12;
-constexpr double least_gain = 1e-5;  // relative: a tenth of what 50 slices resolve
+constexpr double least_gain = 1e-5;  // relative: a tenth of the resolution with 50 slices
 constexpr double least_gain_polished = 1e-7;
-/// Flatter arcs are an infinite slope in all but name, and radii beyond 100 chords cost digits.
+/// Flatter arcs are practically infinite slopes; radii beyond 100 chords lose digits.
 constexpr double flattest = 1e-3;  // sagitta over chord
 
-/// How deep the arc between two ends is. Touching a boundary follows the kink that a weak layer or
-/// a hard floor makes in F; as shallow as minimum_depth allows, the edge on which soil without
-/// cohesion has its critical surface.
+/// Depth of the arc between two ends. touching: follows the kink in F at a weak layer or hard
+/// floor. shallowest: minimum_depth, at which soil without cohesion has its critical surface.
 enum class Sag { share_of_deepest, touching, shallowest };
 
-/// A point of the search: entry and exit as shares of their ranges, and the arc between them.
+/// A point of the search: entry and exit as shares of their ranges, and the arc.
 struct Place {
     double entry;
     double exit;
-    double depth;  ///< share of the deepest arc
+    double depth;  ///< share of the largest sagitta
     Sag sag = Sag::share_of_deepest;
     int line = 0;   ///< touching: index of a boundary line
     int which = 0;  ///< touching: which of the two circles
@@ -59,7 +58,7 @@ std::vector<Line> boundaries_of(const Strata& strata) {
     return lines;
 }
 
-/// Analyses one place after the other; remembers the best and counts.
+/// Analyses places one by one; keeps the best and counts.
 class Probe {
   public:
     Probe(const Model& model, const scene::SlipSearch& ranges, const std::vector<Line>& boundaries,
@@ -72,16 +71,16 @@ class Probe {
 
     const Tally& tally() const { return tally_; }
     const std::optional<Critical>& best() const { return best_; }
-    /// The surface of the last finite answer.
+    /// The surface of the last finite factor.
     const Critical& last() const { return last_; }
 
     double entry_of(const Place& place) const { return at(ranges_.entry, place.entry); }
     double exit_of(const Place& place) const { return at(ranges_.exit, place.exit); }
 
-    /// The best surface's place, its depth as a share: free to leave the boundary it was found on.
+    /// Place of the best surface, with its depth as a share: it may leave the boundary.
     const Place& best_place() const { return best_place_; }
 
-    /// F at a place, infinite where there is no valid surface.
+    /// F at a place; infinite without a valid surface.
     double try_at(const Place& place) {
         const auto ends = ends_of(place);
         if (!ends) return none;
@@ -113,7 +112,7 @@ class Probe {
     }
 
   private:
-    /// Cuts the mass on the arc between the ends into slices.
+    /// Cuts the mass above the arc into slices.
     bool cut_at(const Ends& ends, double sagitta, bool to_left) {
         const auto surface = with_crack(model_.strata, surface_through(ends, sagitta),
                                         to_left ? UpperEnd::right : UpperEnd::left);
@@ -122,17 +121,16 @@ class Probe {
         return cut(model_.strata, model_.soils, surface_, wanted_, slices_) == Cut::done;
     }
 
-    /// Infinite where there is no such arc.
+    /// Infinite if there is no such arc.
     double sagitta_at(const Place& place, const Ends& ends, bool to_left) {
         if (place.sag == Sag::share_of_deepest) return place.depth * ends.largest_sagitta();
         if (place.sag == Sag::shallowest) return shallowest(ends, to_left);
         const Touching circles = touching(ends, boundaries_[place.line]);
         if (place.which >= circles.count) return none;
-        return circles.sagitta[place.which] * (1.0 - 1e-9);  // touches, does not cut
+        return circles.sagitta[place.which] * (1.0 - 1e-9);  // just above the tangent
     }
 
-    /// The arc whose mass is as deep as minimum_depth. Depth grows with the sagitta, nearly in
-    /// proportion.
+    /// The arc whose mass has the depth minimum_depth, nearly proportional to the sagitta.
     double shallowest(const Ends& ends, bool to_left) {
         const double wanted = ranges_.minimum_depth * (1.0 + 1e-9);
         double sagitta = std::min(wanted, ends.largest_sagitta());
@@ -153,7 +151,7 @@ class Probe {
     std::optional<Ends> ends_of(const Place& place) const {
         const double entry = entry_of(place);
         const double exit = exit_of(place);
-        // on a vertical face the surface starts at its head and ends at its foot
+        // On a vertical face the surface starts at the top and ends at the bottom.
         const scene::Vec2 top(entry, std::max(ground_level(model_.strata, entry, From::left),
                                               ground_level(model_.strata, entry, From::right)));
         const scene::Vec2 toe(exit, std::min(ground_level(model_.strata, exit, From::left),
@@ -220,7 +218,7 @@ class Search {
 
     Probe probe(int slices) const { return {model_, ranges_, boundaries_, slices}; }
 
-    /// Every pair of ends with every depth and every touching circle; one block per entry.
+    /// All pairs of ends with all depths and tangent circles; one block per entry.
     void coarse() {
         const auto entries = static_cast<std::size_t>(ranges_.entry_points);
         const auto exits = static_cast<std::size_t>(ranges_.exit_points);
@@ -259,7 +257,7 @@ class Search {
         return pair;
     }
 
-    /// The best pairs, each a twelfth of the ranges away from every better one.
+    /// The best pairs, at least a twelfth of the ranges apart.
     std::vector<Place> valleys() const {
         std::vector<std::size_t> order(pairs_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
@@ -293,8 +291,8 @@ class Search {
         descend(value, {at, value(at)}, step, gain);
     }
 
-    /// From where a descent ended, in small steps, free of its boundary and along the edge of
-    /// minimum_depth: what a flat valley still holds.
+    /// Continues from a descent's result in small steps, away from its boundary and at
+    /// minimum_depth, for flat minima.
     void polish(Probe& here) const {
         if (!here.best()) return;
         std::array<double, 3> step = grid_step();

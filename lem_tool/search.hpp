@@ -1,5 +1,5 @@
-// The critical circle: entry-exit search, coarse grid first, then a descent from every promising
-// minimum. Deterministic; the result does not depend on the number of threads.
+// The critical circle: search over entries and exits, first on a coarse grid, then a descent from
+// every promising minimum. Deterministic for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace breach::lem {
 
-/// Input of an analysis: soil, strengths and the number of slices.
+/// Input of an analysis.
 struct Model {
     Strata strata;
     std::vector<Soil> soils;  ///< by region
     int slices;
     double k_h = 0.0;  ///< horizontal seismic coefficient [-]
     scene::MAlphaLimit m_alpha{};
-    /// By region: the residual strength of its material's profile, where it has one
+    /// By region: residual strength of its material's profile, if any
     std::vector<std::optional<materials::StrengthCurve>> residual{};
 };
 Model make_model(const scene::Scene& scene);
 
-/// The soils after the first `count` layers have liquefied, below their phreatic line: c = s_r, phi =
-/// 0. Above it they are unchanged.
+/// The soils with the first `count` layers liquefied: c = s_r, phi = 0 below their phreatic line,
+/// unchanged above it.
 std::vector<Soil> liquefied(const Model& model, const std::vector<scene::UndrainedRegion>& layers,
                             std::size_t count);
 
@@ -35,10 +35,10 @@ struct Critical {
     Bishop bishop;
 };
 
-/// Number of tried surfaces, and of those without an answer by reason.
+/// Numbers of surfaces: analysed, and refused by reason.
 struct Tally {
-    std::int64_t analysed = 0;       ///< a factor of safety was computed
-    std::int64_t not_a_surface = 0;  ///< left the soil, the model, or met a closed region
+    std::int64_t analysed = 0;       ///< with a factor of safety
+    std::int64_t not_a_surface = 0;  ///< leaves the soil or the model, or crosses a closed region
     std::int64_t too_shallow = 0;
     std::int64_t no_answer = 0;  ///< no driving moment, m_alpha too small, not converged
 
@@ -58,10 +58,9 @@ struct SearchResult {
     std::vector<PairBest> pairs;
 };
 
-/// Limit of slices in the coarse grid; the descents, and so the result, use the
-/// model's.
+/// Slices in the coarse grid, at most. The descents, and so the result, use the model's number.
 inline constexpr int coarse_slices = 25;
-/// coarse: the best of the grid, an upper bound of the result of the whole search.
+/// coarse: only the grid, an upper bound of the whole search's result.
 enum class Effort { whole, coarse };
 SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1,
                     Effort effort = Effort::whole);

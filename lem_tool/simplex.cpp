@@ -24,7 +24,7 @@ Corner descend_once(const Objective& f, const Corner& start, const Point3& step)
     for (int d = 0; d < 3; ++d) {
         if (step[d] == 0.0) continue;
         Point3 next = start.at;
-        // turned inwards where the box ends
+        // Inwards at the border of the box.
         next[d] += next[d] + step[d] > 1.0 || next[d] + step[d] < 0.0 ? -step[d] : step[d];
         corners.push_back(corner(f, next));
     }

@@ -11,9 +11,8 @@ namespace breach::lem {
 using Corner = numerics::Corner<std::array<double, 3>>;
 
 /// Nelder and Mead from `start` with edges `step`; variables with step 0 are constant. Coordinates
-/// are clamped to [0, 1]. Restarted around its own result, mirrored, until a restart gains less
-/// than `gain` relative: kinked valleys (a circle that touches a layer) collapse a simplex too
-/// early.
+/// are clamped to [0, 1]. Restarts at its result, mirrored, until the relative gain is below
+/// `gain`: on functions with kinks (a circle that touches a layer) a simplex collapses too early.
 Corner descend(const std::function<double(const std::array<double, 3>&)>& f, const Corner& start,
                const std::array<double, 3>& step, double gain);
 

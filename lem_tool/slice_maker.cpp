@@ -9,7 +9,7 @@ double moment(double dx, double w0, double w1, double d0, double d1) {
     return dx * ((w0 + w1) * (d0 + d1) / 4.0 + (w1 - w0) * (d1 - d0) / 12.0);
 }
 
-/// Adds a force on a vertical to one slice.
+/// Adds a force to one slice.
 void add_load(const scene::Circle& pivot, const PointLoad& load, std::size_t i, Slices& slices) {
     const double R = pivot.radius;
     const double arm = slices.stands_on[i] == Base::arc
@@ -22,12 +22,12 @@ void add_load(const scene::Circle& pivot, const PointLoad& load, std::size_t i, 
     slices.force[i] += load.down * slices.tan_phi[i] * slices.lever[i];
 }
 
-/// An end as the mass sees it.
+/// An end of the mass with the water in front of it.
 struct EndFace {
     double foot;
     double head;
-    double water;    ///< level of what stands before it [m]
-    double gamma_w;  ///< its unit weight [N/m3]
+    double water;    ///< its level [m]
+    double gamma_w;  ///< [N/m3]
 };
 
 EndFace face_of(const Strata& strata, const MassEnd& end, From outside) {
@@ -39,7 +39,7 @@ EndFace face_of(const Strata& strata, const MassEnd& end, From outside) {
     EndFace face{end.base, strata.ground(within).at(end.x), beyond.water.at(end.x), strata.gamma_w};
     if (end.kind == MassEnd::Kind::ground) return face;
     face.gamma_w = strata.crack.gamma_w;
-    // a crack under free water is full of it
+    // A crack under free water is full.
     const bool drowned = strata.gamma_w > 0.0 && within.water.at(end.x) > face.head;
     face.water = drowned ? within.water.at(end.x)
                          : face.foot + strata.crack.filled * (face.head - face.foot);
@@ -56,7 +56,7 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     const double dy = y1 - y0;
     const double chord = std::sqrt(dx * dx + dy * dy);
     const double bend = kind == Base::arc ? chord * chord / (R * R) : 0.0;
-    // between chord and arc: (theta - sin theta) R^2 / 2, to the next order in theta
+    // Area between chord and arc: (theta - sin theta) R^2 / 2, to the next order in theta.
     const double segment = bend * chord * R * (1.0 / 12.0) * (1.0 + 0.075 * bend);
     const double w0 = layer.weight_above.at(x0) + layer.gamma * (layer.top.at(x0) - y0);
     const double w1 = layer.weight_above.at(x1) + layer.gamma * (layer.top.at(x1) - y1);
@@ -103,7 +103,7 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
         (slices_.c[i] * flat + (slices_.weight[i] - u * flat) * soil.tan_phi) * slices_.lever[i];
 }
 
-/// The part of s_u that grows with the vertical effective stress under soil and free water.
+/// Part of s_u that increases with the vertical effective stress below soil and free water.
 double SliceMaker::undrained(const Strip& strip, const Layer& layer, const Soil& soil, double x,
                              std::size_t i) const {
     const double dx = slices_.width[i];
@@ -112,7 +112,7 @@ double SliceMaker::undrained(const Strip& strip, const Layer& layer, const Soil&
     return soil.coefficient * std::pow(std::max(0.0, sigma_v0) / p_a, soil.exponent);
 }
 
-/// s_u of the profile or by state at the middle of the base's chord; the place is that of
+/// s_u by the profile or by state, at the middle of the chord; with the quantities of
 /// scene::Ground.
 double SliceMaker::by_place(const Strip& strip, const Layer& layer, const Soil& soil, double x,
                             std::size_t i) const {
@@ -128,7 +128,7 @@ double SliceMaker::by_place(const Strip& strip, const Layer& layer, const Soil& 
                                         : materials::strength_at(*soil.profile, place).c);
 }
 
-/// The weight of water above ground, and its thrust on the slope, whose moment over R is returned.
+/// Adds the weight of free water and its thrust on the slope; returns the thrust's moment over R.
 double SliceMaker::add_free_water(const Strip& strip, std::size_t i, const Chord& ends) {
     const double x0 = ends.x0;
     const double x1 = ends.x1;
@@ -153,7 +153,7 @@ void add_loads(const Strata& strata, const scene::Circle& pivot, double left, do
         const auto end = slices.left.begin() + static_cast<std::ptrdiff_t>(slices.count);
         const auto next = std::upper_bound(slices.left.begin(), end, load.x);
         std::size_t i = static_cast<std::size_t>(next - slices.left.begin()) - 1;
-        // water presses on the soil behind the face, not on the slice before it
+        // Water acts on the soil behind the face, not on the slice in front of it.
         const bool on_left_one = load.left > 0.0 && load.down == 0.0 && load.x <= slices.left[i];
         if (on_left_one && i > 0) --i;
         add_load(pivot, load, i, slices);

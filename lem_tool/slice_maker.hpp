@@ -1,5 +1,5 @@
-// Makes one slice after the other: weight, water, strength and moments above a piece of a surface's
-// base. The surface decides where the pieces begin and end (arc.cpp, polyline.cpp).
+// Makes slices one by one: weight, water, strength and moments above a piece of the base. The
+// surface defines the pieces (arc.cpp, polyline.cpp).
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace breach::lem {
 
-/// The ends of a slice's base [m].
+/// End points of a slice's base [m].
 struct Chord {
     double x0, y0, x1, y1;
 };
 
 class SliceMaker {
   public:
-    /// pivot: moments are about its centre and over its radius; bases on the arc are this circle's.
+    /// pivot: circle of the arc bases; moments are about its centre, divided by its radius.
     SliceMaker(const Strata& strata, const std::vector<Soil>& soils, const scene::Circle& pivot,
                double target_width, Slices& slices)
         : strata_(strata),
@@ -32,12 +32,12 @@ class SliceMaker {
     /// Places closer than this are the same [m].
     double tolerance() const { return tolerance_; }
 
-    /// Slices of equal width between two abscissae of a strip, where the base is smooth and stays
-    /// in one layer; level(x): y of the base.
+    /// Slices of equal width between two abscissae of a strip, with a smooth base within one layer.
+    /// level(x): y of the base.
     template <class Level>
     Cut add_piece(const Strip& strip, double from, double to, Base kind, const Level& level) {
         const double middle = 0.5 * (from + to);
-        // a straight base may coincide with a boundary: the soil on it counts
+        // A straight base on a boundary takes the soil above it.
         const double above = level(middle) + (kind == Base::straight ? tolerance_ : 0.0);
         const Layer& layer = layer_at(strip, middle, above);
         const Soil& soil = in_force(strip, soils_[layer.region], middle, above);
@@ -64,8 +64,7 @@ class SliceMaker {
         return strata_.layers[k];
     }
 
-    /// Only soil below its phreatic line liquefies; soil without a phreatic line liquefies
-    /// everywhere.
+    /// Only soil below its phreatic line liquefies; without a line, all of it.
     const Soil& in_force(const Strip& strip, const Soil& soil, double x, double y) const {
         if (!soil.above_water || !soil.line) return soil;
         const PorePressure& water = strata_.pressures[strip.pressures + *soil.line];
@@ -87,18 +86,18 @@ class SliceMaker {
     Slices& slices_;
 };
 
-/// End of a mass: a vertical from its base up to the ground, high where there is a face or crack.
+/// End of a mass: the vertical from its base to the ground, at a face or crack.
 struct MassEnd {
     double x;
-    double base;  ///< level of the surface there [m]
+    double base;  ///< y of the surface there [m]
     enum class Kind { ground, crack } kind;
 };
 
-/// Line loads, and water against vertical faces, between the ends.
+/// Adds line loads, and water thrust on vertical faces, between the ends.
 void add_loads(const Strata& strata, const scene::Circle& pivot, double left, double right,
                Slices& slices);
 
-/// Adds the water against the end of the mass, in its crack or before its face.
+/// Adds the water thrust on the end of the mass, in its crack or in front of its face.
 void add_end(const Strata& strata, const scene::Circle& pivot, const MassEnd& end, From outside,
              Slices& slices);
 

@@ -18,8 +18,8 @@ Slices make_slices(const Strata& strata, int wanted) {
     for (const Strip& strip : strata.strips) {
         most_layers = std::max(most_layers, strip.last - strip.first);
     }
-    // a strip is cut by each of its boundaries, water lines and its floor at most twice; every piece
-    // may round up by one slice
+    // Each boundary, water line and floor cuts a strip at most twice; each piece may round up by
+    // one slice.
     Slices slices;
     slices.reserve(static_cast<std::size_t>(wanted) + 2 * strata.layers.size() +
                        (3 + 2 * strata.lines) * strata.strips.size() + 1,

@@ -7,7 +7,7 @@ namespace breach::lem {
 
 namespace {
 
-/// Abscissae between which the sign of (ground - arc) cannot change.
+/// Abscissae between which (ground - arc) does not change sign.
 std::vector<double> sign_borders(const Strata& strata, const scene::Circle& circle) {
     const double from = std::max(strata.left(), circle.center.x() - circle.radius);
     const double to = std::min(strata.right(), circle.center.x() + circle.radius);
@@ -85,7 +85,7 @@ std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, 
 double Ends::largest_sagitta() const {
     const scene::Vec2 chord = right - left;
     const double L = half_chord();
-    // the centre lies (L^2 - s^2) / 2s above the chord's middle, along its normal
+    // The centre is (L^2 - s^2) / 2s above the chord's middle, along its normal.
     const double rise = 0.5 * std::abs(chord.y()) * chord.norm() / chord.x();
     return std::sqrt(rise * rise + L * L) - rise;
 }
@@ -106,7 +106,7 @@ Touching touching(const Ends& ends, const Line& line) {
     const scene::Vec2 up = scene::Vec2(-chord.y(), chord.x()) / (2.0 * L);
     const scene::Vec2 normal = scene::Vec2(-line.slope, 1.0) / std::hypot(1.0, line.slope);
     const scene::Vec2 middle = 0.5 * (ends.left + ends.right);
-    // distance of the centre from the line = R:  (1 + B) s^2 - 2 A s + (1 - B) L^2 = 0
+    // Distance of the centre from the line = R:  (1 + B) s^2 - 2 A s + (1 - B) L^2 = 0
     const double A = normal.dot(middle - scene::Vec2(0.0, line.level));
     const double B = normal.dot(up);
     const double discriminant = A * A - (1.0 - B * B) * L * L;

@@ -10,15 +10,15 @@
 
 namespace breach::lem {
 
-/// Every mass above a circle's lower arc, from left to right, each with its crack at the higher
-/// end. Masses shallower than the crack are left out.
+/// Every mass above a circle's lower arc, from left to right, with its crack at the higher end.
+/// Omits masses shallower than the crack.
 std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle);
 
-/// y of the arc, or of the floor where that is higher [m].
+/// y of the arc, or of the floor if that is higher [m].
 double base_level(const Strata& strata, const Surface& surface, double x);
 
-/// The surface cut off where the mass becomes as deep as the crack, coming from the upper end; none
-/// if it never does. Without a crack in the strata it is the surface itself.
+/// The surface, ended at the crack: where the depth of the mass, from the upper end, reaches that
+/// of the crack; none if it never does. Unchanged if the strata have no crack.
 enum class UpperEnd { left, right };
 std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, UpperEnd upper);
 
@@ -28,15 +28,14 @@ struct Ends {
     scene::Vec2 right;
 
     double half_chord() const { return 0.5 * (right - left).norm(); }
-    /// The deepest arc: its centre is level with the higher end, so that it does not overhang
-    /// [m].
+    /// Sagitta of the deepest arc without overhang: its centre is level with the higher end [m].
     double largest_sagitta() const;
 };
 
-/// The circle whose lower arc joins the ends and bulges by `sagitta` [m] > 0 under their chord.
+/// The circle through the ends whose lower arc has this sagitta > 0 [m].
 Surface surface_through(const Ends& ends, double sagitta);
 
-/// Sagittas of the circles through the ends that touch a line: the one resting on it first [m].
+/// Sagittas of the circles through the ends that are tangent to a line, first the one above it [m].
 struct Touching {
     int count = 0;
     double sagitta[2];

@@ -8,27 +8,27 @@ namespace breach::lem {
 
 namespace {
 
-/// A slice turned so that the mass slides to the left.
+/// A slice, mirrored so that the mass slides to the left.
 struct Block {
-    double sin_a;  ///< base inclination, positive where the base falls with the slide [-]
+    double sin_a;  ///< base inclination, positive if it falls in the sliding direction [-]
     double cos_a;  ///< [-]
     double V;      ///< vertical load [N/m]
-    double H;      ///< horizontal load towards the slide [N/m]
-    double H_dry;  ///< without the water's part [N/m]
-    double r;      ///< arm of the shear about the centre over R [-]
-    double f;      ///< arm of the normal force over R [-]
+    double H;      ///< horizontal load in the sliding direction [N/m]
+    double H_dry;  ///< H without water [N/m]
+    double r;      ///< lever arm of the shear about the centre, over R [-]
+    double f;      ///< lever arm of the normal force, over R [-]
     double c_l;    ///< [N/m]
     double u_l;    ///< [N/m]
     double u_b;    ///< [N/m]
     double tan_phi;
-    double normal;      ///< across the base without interslice forces [N/m]
-    double along;       ///< and along it, down [N/m]
+    double normal;      ///< normal to the base, without interslice forces [N/m]
+    double along;       ///< along the base, downwards [N/m]
     double resistance;  ///< c l + (normal - u l) tan phi [N/m]
 };
 
 struct Mass {
     std::vector<Block> blocks;
-    double driving = 0.0;  ///< moment of all loads about the centre over R [N/m]
+    double driving = 0.0;  ///< driving moment of all loads about the centre, over R [N/m]
 };
 
 Mass mass_of(const Slices& slices, const scene::Circle& circle, Slide slide, double k_h) {
@@ -41,7 +41,7 @@ Mass mass_of(const Slices& slices, const scene::Circle& circle, Slide slide, dou
         double r = 1.0;
         double f = 0.0;
         double driving = sense * slices.driving[i] + k_h * slices.shaking[i];
-        if (slices.stands_on[i] == Base::straight) {  // the loads' own moment, see cut()
+        if (slices.stands_on[i] == Base::straight) {  // moment of the loads alone, see cut()
             const double d = sense * (slices.left[i] + 0.5 * slices.width[i] - circle.center.x()) /
                              circle.radius;
             const double h = (circle.center.y() - slices.base[i]) / circle.radius;
@@ -62,7 +62,7 @@ Mass mass_of(const Slices& slices, const scene::Circle& circle, Slide slide, dou
     return mass;
 }
 
-/// All interslice forces have this direction.
+/// Direction of all interslice forces.
 struct Direction {
     explicit Direction(double theta) : sine(std::sin(theta)), cosine(std::cos(theta)) {}
     double sine;
@@ -71,13 +71,13 @@ struct Direction {
     double sin_turn(const Block& b) const { return b.sin_a * cosine - b.cos_a * sine; }
 };
 
-/// Resultant of the interslice forces on a block, inclined by theta, for equilibrium along and
-/// across its base.
+/// Resultant of the interslice forces on a slice with the inclination theta, from equilibrium along
+/// and normal to its base.
 double resultant(const Block& b, double F, const Direction& theta) {
     return (F * b.along - b.resistance) / (F * theta.cos_turn(b) + theta.sin_turn(b) * b.tan_phi);
 }
 
-/// The sum of the resultants, and its derivative to F.
+/// Sum of the resultants and its derivative by F.
 struct Sum {
     double value = 0.0;
     double slope = 0.0;
@@ -95,7 +95,7 @@ Sum sum_of_resultants(const Mass& mass, double F, const Direction& theta) {
     return sum;
 }
 
-/// F at which the resultants sum to zero; the sum grows with F above the last pole.
+/// F for which the resultants sum to zero; the sum increases with F above the last pole.
 std::optional<double> force_balance(const Mass& mass, const Direction& theta) {
     double low = 1e-6;
     for (const Block& b : mass.blocks) {
@@ -121,7 +121,7 @@ std::optional<double> force_balance(const Mass& mass, const Direction& theta) {
     return F;
 }
 
-/// What is left over where the forces balance.
+/// Residual moment at force equilibrium.
 struct Leftover {
     double theta;
     double F;
@@ -142,8 +142,8 @@ std::optional<Leftover> leftover(const Mass& mass, double inclination) {
     return left;
 }
 
-/// The inclination without a moment left between two with opposite ones. False position with the
-/// weight of an end halved that stays twice (Illinois).
+/// The inclination with zero moment between two with opposite signs, by the Illinois method (false
+/// position).
 double balanced(const Mass& mass, double a, double at_a, double b, double at_b) {
     for (int n = 0; n < 60 && std::abs(b - a) > 1e-12; ++n) {
         const double theta = (a * at_b - b * at_a) / (at_b - at_a);
@@ -172,8 +172,8 @@ Spencer answer(const Mass& mass, const Leftover& balanced) {
     return {balanced.F, balanced.theta, m_alpha};
 }
 
-/// Looks from level interslice forces outwards for a balance of both. Before bases turn over, where F
-/// runs away, steps are halved.
+/// Searches from horizontal interslice forces outwards for equilibrium of both. Halves its steps
+/// near inclinations at which bases turn over and F diverges.
 std::optional<Leftover> outwards(const Mass& mass, const Leftover& level, double sense,
                                  Leftover& nearest) {
     constexpr double longest = 0.05;
@@ -196,7 +196,7 @@ std::optional<Leftover> outwards(const Mass& mass, const Leftover& level, double
     return std::nullopt;
 }
 
-/// Between two steps the moment may pass zero and come back: looks closer about the nearest one.
+/// Between two steps the moment may cross zero twice: searches finer near the smallest.
 std::optional<Leftover> between_steps(const Mass& mass, Leftover& nearest) {
     for (double step = 0.025; step > 1e-4; step *= 0.5) {
         const double center = nearest.theta;
@@ -243,7 +243,7 @@ std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Cir
     const auto level = leftover(mass, 0.0);
     if (!level) return Unbalanced{0.0, 0.0, 0.0, frictionless};
     Leftover nearest = *level;
-    // the solution nearest to level interslice forces is the physical one
+    // The solution nearest to horizontal interslice forces is the physical one.
     for (const double sense : {1.0, -1.0})
         if (const auto found = outwards(mass, *level, sense, nearest)) return answer(mass, *found);
     if (const auto found = between_steps(mass, nearest)) return answer(mass, *found);

@@ -1,5 +1,5 @@
-// Further methods on the same slices: Spencer's as a rigorous check, Ordinary (Fellenius) as the
-// oldest. Only for reports; the search uses Bishop's.
+// More methods on the same slices, for reports: Spencer's as a rigorous check, Ordinary
+// (Fellenius). The search uses Bishop's.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace breach::lem {
 
 /// The Ordinary method, without interslice forces.
 struct Ordinary {
-    /// With N' = (W - u b) cos a - H sin a, H without the water's thrust: a slice under water has
-    /// its buoyant weight (Turnbull & Hvorslev 1967), at any depth of water [-].
+    /// With N' = (W - u b) cos a - H sin a, H without the water thrust: a slice under water has its
+    /// buoyant weight (Turnbull & Hvorslev 1967), for any water depth [-].
     double factor_of_safety;
-    /// With N' = W cos a - H sin a - u l, as Fellenius' method is mostly written: it falls with the
-    /// depth of free water, as no real slope does [-].
+    /// With the usual N' = W cos a - H sin a - u l: it decreases with the depth of free water,
+    /// unlike real slopes [-].
     double conventional;
 };
 
@@ -26,21 +26,25 @@ std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circ
 
 struct Spencer {
     double factor_of_safety;  ///< [-]
-    double theta;    ///< inclination of all interslice forces, falling with the slope [rad]
-    double m_alpha;  ///< least cos(a - theta) + sin(a - theta) tan phi / F of frictional slices [-]
+    /// inclination of all interslice forces, downwards in the sliding direction [rad]
+    double theta;
+    /// minimum of cos(a - theta) + sin(a - theta) tan phi / F over slices with friction [-]
+    double m_alpha;
 };
 
-/// No inclination of the interslice forces balances forces and moments: the nearest one.
+/// No inclination of the interslice forces gives equilibrium of forces and moments; the nearest
+/// one.
 struct Unbalanced {
-    double theta;           ///< [rad]
-    double force_factor;    ///< F that balances the forces there [-]; 0: no inclination has one
-    double moment_left;     ///< residual over driving moment, signed; positive: it drives [-]
-    bool without_friction;  ///< no slice has any: moment equilibrium alone gives F, for any theta
+    double theta;         ///< [rad]
+    double force_factor;  ///< F from force equilibrium there [-]; 0: no inclination has one
+    double moment_left;   ///< residual over driving moment [-]; positive: drives
+    /// no friction at all: F follows from moment equilibrium alone, for any theta
+    bool without_friction;
 };
 
-/// Spencer (1967): all interslice forces have one inclination; forces and moments of the whole mass
-/// are in equilibrium. Searched between -0.6 and 1.2 rad, where all bases stay positive.
-/// circle: what the slices' moments are about.
+/// Spencer (1967): all interslice forces have the same inclination; the whole mass is in
+/// equilibrium of forces and moments. Searches from -0.6 to 1.2 rad, with positive base forces
+/// only. circle: reference of the slices' moments.
 std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
                                           Slide slide, double k_h);
 

@@ -19,7 +19,8 @@ double bottom_of(const scene::Region& region) {
     return geometry::bounding_box(region.polygon).low.y();
 }
 
-/// Depth at which F falls through 1, linear between the stages around it; 0 when it begins below.
+/// Depth at which F decreases through 1, linear between stages; 0 if F is below 1 from the
+/// beginning.
 json depth_at_one(const json& stages) {
     if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
     for (std::size_t i = 1; i < stages.size(); ++i) {
@@ -33,22 +34,22 @@ json depth_at_one(const json& stages) {
     return nullptr;
 }
 
-/// Depth of what can liquefy.
+/// Depth of the layers that can liquefy.
 double depth_of_layers(const json& stages) { return stages.back().at("liquefied_depth"); }
 
-/// Depth of the surface with the least F: that in front of its stage, over all methods.
+/// Depth of the critical surface with the least F over all stages and methods.
 double depth_of_surface(const json& stages) {
     const auto lowest =
         std::min_element(stages.begin(), stages.end(), [](const json& a, const json& b) {
-            // a stage that repeats the minimum adds nothing: the earlier one counts
+            // Ignores stages that only repeat the minimum.
             return a.at("factor_of_safety").get<double>() <
                    b.at("factor_of_safety").get<double>() * (1.0 - 1e-6);
         });
     return lowest->at("lowest_point_depth");
 }
 
-/// Depth of the lowest point of the stage with the least F, but none below what can liquefy; 0 when
-/// the slope fails without any liquefaction, because then nothing has to liquefy.
+/// Depth of the lowest point of the stage with the least F, at most that of liquefiable soil; 0 if
+/// the slope fails without liquefaction.
 double critical_depth(const json& stages) {
     if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
     return std::min(depth_of_surface(stages), depth_of_layers(stages));

@@ -1,4 +1,4 @@
-// Layers that liquefy from the top down: a search for every stage.
+// Layers that liquefy from the top down: one search per stage.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,12 +8,11 @@
 namespace breach::lem {
 
 /// Adds stages, critical_depth, depth_at_fs_1 and surfaces_analysed_in_stages to the result, and
-/// the flags of the liquefied states. The first stage, without liquefaction, is the search already
-/// made.
+/// the flags of the liquefied states. `unliquefied`: result of the first stage.
 void add_stages(const scene::Scene& scene, const Model& sound, const Families& unliquefied,
                 int threads, nlohmann::json& result, std::vector<fault::Flag>& flags);
 
-/// Flags on the critical depth: the slope fails without liquefaction, or stands with all layers
+/// Flags about the critical depth: the slope fails without liquefaction, or stands with all layers
 /// liquefied.
 std::vector<fault::Flag> flags_of_stages(const nlohmann::json& stages);
 

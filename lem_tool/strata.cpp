@@ -11,8 +11,8 @@ namespace breach::lem {
 
 namespace {
 
-/// Vertices closer than this (relative to the width) are the same; gaps thinner than gap_share of
-/// the height are drawing inaccuracies and belong to the layer above.
+/// Vertices closer than this (over the width) coincide; gaps thinner than gap_share of the height
+/// are inaccuracies of the drawing and belong to the layer above.
 constexpr double same_place = 1e-9;
 constexpr double gap_share = 1e-3;
 
@@ -34,15 +34,14 @@ void add_crossings(const Path& one, const Path& other, std::vector<double>& xs) 
     }
 }
 
-/// A line from side to side of the model: level beyond its ends.
+/// A line extended horizontally to both sides of the model.
 Path prolonged(Path line, double from, double to) {
     if (line.front().x() > from) line.insert(line.begin(), {from, line.front().y()});
     if (line.back().x() < to) line.emplace_back(to, line.back().y());
     return line;
 }
 
-/// Kinks of a line and where it crosses the border of a region: for the water, among them, where it
-/// meets the ground.
+/// Points of a line and its intersections with borders of regions, the ground included.
 std::vector<double> breaks_of(const Path& line, const scene::Section& section) {
     std::vector<double> xs;
     for (const scene::Vec2& vertex : line) xs.push_back(vertex.x());
@@ -63,7 +62,7 @@ std::vector<Path> water_paths(const scene::Lem& lem, double from, double to) {
     return paths;
 }
 
-/// Abscissae between which everything is straight.
+/// Abscissae between which all lines are straight.
 std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
     const scene::Section& section = scene.section;
     const scene::Lem& lem = scene::lem_of(scene);
@@ -106,7 +105,7 @@ std::vector<double> strip_borders(const scene::Scene& scene, Extent& extent) {
     return xs;
 }
 
-/// What one region contributes to a strip.
+/// The part of one region in a strip.
 struct Piece {
     Line top;
     Line bottom;
@@ -139,7 +138,7 @@ void add_pieces(const geometry::Polygon& polygon, std::size_t region, double fro
 
 constexpr Line nowhere{-std::numeric_limits<double>::infinity(), 0.0};
 
-/// The straight part of a line over x = middle; it goes on level beyond its ends.
+/// The straight piece of a line at x = middle; level beyond its ends.
 Line part_over(const Path& line, double middle) {
     if (line.empty()) return nowhere;
     if (middle <= line.front().x()) return {line.front().y(), 0.0};
@@ -153,9 +152,9 @@ Line water_over(const scene::Lem& lem, double middle) {
     return lem.water ? part_over(lem.water->line, middle) : nowhere;
 }
 
-/// cos^2 of the line's inclination, where the scene asks for it, on the depth below line and ground
-/// alike: a line on the ground (a seepage face) is corrected whichever of the two a rounding puts
-/// on top. What stands above the ground is free water.
+/// cos^2 of the line's inclination, if requested, applies to the depth below the line or the
+/// ground, whichever is lower: a line on the ground (seepage face) is corrected in spite of
+/// round-off. Above ground it is free water.
 PorePressure pressure_below(const Line& line, const Line& ground, double gamma_w, double middle,
                             scene::PhreaticCorrection correction) {
     const bool corrected = correction == scene::PhreaticCorrection::cos2;
@@ -166,8 +165,8 @@ PorePressure pressure_below(const Line& line, const Line& ground, double gamma_w
             gamma};
 }
 
-/// One for each phreatic line of the scene. A piezometric line is no free water: it is hydrostatic
-/// from its own level down.
+/// One per phreatic line of the scene. A piezometric line has no free water: hydrostatic from its
+/// level down.
 void add_pressures(const scene::Scene& scene, const Line& ground, double middle, Strata& strata) {
     const scene::Lem& lem = scene::lem_of(scene);
     const auto add = [&](const scene::Water& water, bool stands_free) {
@@ -196,8 +195,8 @@ double surcharge_on(const scene::Lem& lem, double middle) {
           "bottom of the model, without overhang"}});
 }
 
-/// What a piece presses on soil that it has not consolidated: its weight less the pressure of the water
-/// that stands in it, which such soil feels as it did before. `lower` is the piece's lower border.
+/// Load of a piece that has not consolidated the soil below: its weight minus the pressure of its
+/// water, which acts as before. `lower`: lower border of the piece.
 void add_effective(const Piece& piece, const Line& lower, double gamma, const PorePressure* water,
                    double middle, Line& sum) {
     const auto add = [&](const Line& top, double per_metre) {
@@ -258,7 +257,7 @@ void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::s
     strata.strips.push_back(strip);
 }
 
-/// Free water against the vertical faces of the ground, and the line loads.
+/// Adds free water on the vertical faces of the ground, and the line loads.
 void add_loads(const scene::Scene& scene, const Extent& extent, Strata& strata) {
     const double same_level = same_place * (extent.width + extent.height);
     for (std::size_t i = 0; strata.gamma_w > 0.0 && i + 1 < strata.strips.size(); ++i) {
@@ -301,7 +300,7 @@ Line Strata::crack_foot(const Strip& strip) const {
     };
     if (crack.reach == Crack::Reach::none) return top;
     if (crack.reach == Crack::Reach::depth) return below({top.level - crack.foot, top.slope});
-    // strips end where the level meets the ground: one of the two is lower all over
+    // Strips end where the level crosses the ground: one of the two is lower everywhere.
     return top.at(0.5 * (strip.from + strip.to)) > crack.foot ? below({crack.foot, 0.0}) : top;
 }
 
@@ -310,7 +309,7 @@ Thrust thrust(double gamma_w, double water, double low, double high) {
     const double deep = water - low;
     const double shallow = std::max(0.0, water - high);
     const double force = 0.5 * gamma_w * (deep * deep - shallow * shallow);
-    // pressure-weighted depth: (2/3) (b^3 - a^3) / (b^2 - a^2)
+    // Pressure-weighted depth: (2/3) (b^3 - a^3) / (b^2 - a^2)
     const double depth =
         (2.0 / 3.0) * (deep * deep + deep * shallow + shallow * shallow) / (deep + shallow);
     return {force, water - depth};

@@ -1,6 +1,5 @@
-// The cross-section as vertical strips: within a strip every boundary is one straight line from
-// side to side, so the weight above a point is a linear function, without a search. No slip
-// surfaces here.
+// The cross-section as vertical strips, within which every boundary is one straight line: the
+// weight above a point is a linear function.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +17,14 @@ struct Line {
     double at(double x) const { return level + slope * x; }
 };
 
-/// A soil between its upper boundary and the next layer's (or the strip's bottom).
+/// The soil between its upper boundary and that of the next layer (or the strip's bottom).
 struct Layer {
-    Line top;             ///< [m]
-    std::size_t region;   ///< index into the section's regions
-    double gamma;         ///< unit weight [N/m3]
-    Line weight_above;    ///< weight per area of everything above `top` [Pa]
-    Line unconsolidated;  ///< effective share of what has not consolidated the soil below [Pa]
+    Line top;            ///< [m]
+    std::size_t region;  ///< index into the section's regions
+    double gamma;        ///< unit weight [N/m3]
+    Line weight_above;   ///< weight per area of everything above `top` [Pa]
+    /// effective load of the soil above that has not consolidated the soil below [Pa]
+    Line unconsolidated;
 };
 
 struct Strip {
@@ -32,15 +32,15 @@ struct Strip {
     double to;          ///< [m]
     std::size_t first;  ///< layers first .. last - 1, from the ground down
     std::size_t last;
-    Line bottom;       ///< lower border of the model, or lowest level of the search if higher [m]
-    Line floor;        ///< no surface goes below; -inf: none [m]
-    Line water;        ///< level of /lem/water, below ground or free above it; -inf: none [m]
+    Line bottom;       ///< lower border of the model, or the search's lowest level if higher [m]
+    Line floor;        ///< lower limit of surfaces; -inf: none [m]
+    Line water;        ///< line of /lem/water, below ground or free water above it; -inf: none [m]
     double surcharge;  ///< vertical pressure on the ground [Pa]
-    std::size_t pressures;  ///< its first one in Strata::pressures
+    std::size_t pressures;  ///< index of its first one in Strata::pressures
 };
 
-/// Pore pressure of one phreatic line within a strip: at_top + gamma (top - y) below `top`, none
-/// above it. Free water stands on the ground, so that `top` is the ground there.
+/// Pore pressure of one phreatic line within a strip: at_top + gamma (top - y) below `top`, 0 above
+/// it. Under free water `top` is the ground.
 struct PorePressure {
     Line top;      ///< [m]
     Line at_top;   ///< [Pa]
@@ -52,7 +52,7 @@ struct PorePressure {
     }
 };
 
-/// A force on one vertical: a line load on the ground, or free water against a vertical face.
+/// A force at one abscissa: a line load on the ground, or free water on a vertical face.
 struct PointLoad {
     enum class Of { line_load, water };
     double x;      ///< [m]
@@ -67,24 +67,25 @@ struct Crack {
     enum class Reach { none, depth, level };
     Reach reach = Reach::none;
     double foot = 0.0;     ///< depth below ground, or level [m]
-    double share = 1.0;    ///< of that height which surfaces end in (lem_tool/crack.hpp) [-]
-    double filled = 0.0;   ///< share of its height under water [-]
+    double share = 1.0;    ///< used share of that height (lem_tool/crack.hpp) [-]
+    double filled = 0.0;   ///< share of its height filled with water [-]
     double gamma_w = 0.0;  ///< [N/m3]
 };
 
 struct Strata {
     std::vector<Strip> strips;  ///< left to right, without gaps
     std::vector<Layer> layers;
-    std::vector<PorePressure> pressures;  ///< `lines` of each strip: /lem/water, piezometric_lines
+    /// lines of each strip, in order: /lem/water, piezometric_lines
+    std::vector<PorePressure> pressures;
     std::size_t lines = 0;
     std::vector<PointLoad> loads;
     Crack crack;
-    double gamma_w = 0.0;  ///< unit weight of free water [N/m3]; 0 in a scene without /lem/water
+    double gamma_w = 0.0;  ///< unit weight of free water [N/m3]; 0 without /lem/water
 
     double left() const { return strips.front().from; }
     double right() const { return strips.back().to; }
     const Line& ground(const Strip& strip) const { return layers[strip.first].top; }
-    /// Foot of a crack; the ground where it does not reach below it.
+    /// Tip of the crack; the ground where the crack does not reach below it.
     Line crack_foot(const Strip& strip) const;
 };
 
@@ -95,20 +96,19 @@ struct Thrust {
 };
 Thrust thrust(double gamma_w, double water, double low, double high);
 
-/// Cuts the section at every vertex, kink of water or floor, end of a surcharge, and where water or
-/// floor meet a boundary. Throws BadInput where a vertical line meets air below ground (an
-/// overhang, a cavity, two separate bodies): limit equilibrium with vertical slices has no answer
-/// there.
+/// Divides the section at every vertex, point of water or floor, end of a surcharge, and where
+/// water or floor cross a boundary. Throws BadInput for air below ground (overhang, cavity, two
+/// separate bodies): vertical slices do not allow it.
 Strata make_strata(const scene::Scene& scene);
 
-/// Each region's phreatic line, its own, or /lem/water unless that is for other regions only: an index
-/// from Strip::pressures on.
+/// Water line of each region: its own, or /lem/water unless that names other regions. Index from
+/// Strip::pressures on.
 std::vector<std::optional<std::size_t>> lines_of_regions(const scene::Scene& scene);
 
-/// Index of the strip that holds x, the left one on a border; x is clamped to the model.
+/// Index of the strip at x, the left one on a border; x is clamped to the model.
 std::size_t strip_at(const Strata& strata, double x);
 
-/// Ground level [m] approached from that side; the two differ on a vertical face only.
+/// Ground level [m] at the left or right of x; they differ at a vertical face.
 enum class From { left, right };
 double ground_level(const Strata& strata, double x, From from);
 

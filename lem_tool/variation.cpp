@@ -30,17 +30,17 @@ void scale(scene::UndrainedStrength& strength, double factor) {
     strength.factor *= factor;
 }
 
-/// The scene as it was asked for, whose entries parameters name, and as it is analysed.
+/// The original scene, whose entries the parameters name, and the analysed one.
 struct Varied {
     explicit Varied(const scene::Scene& scene)
         : asked(scene), limit(limit_scene(scene)), undrained(undrained_parts(scene)) {}
 
     const scene::Scene& asked;
     scene::Scene limit;
-    std::vector<std::vector<std::size_t>> undrained;  ///< of `limit`, for each of `asked`
+    std::vector<std::vector<std::size_t>> undrained;  ///< [original entries] entries of `limit`
 };
 
-/// Changes one parameter by a factor, in a copy of the scene that is analysed.
+/// Multiplies one parameter in a copy of the analysed scene.
 void vary(const Varied& of_scene, scene::Scene& scene, Parameter parameter, std::size_t of,
           double factor) {
     switch (parameter) {
@@ -90,8 +90,7 @@ std::string name_of(const Varied& of_scene, Parameter parameter, std::size_t of)
     return "seismic_coefficient";
 }
 
-/// Bishop's factor of varied scenes, on the surface that is critical without variation or on their
-/// own.
+/// Bishop's factor of varied scenes, on the unvaried critical surface or on new ones.
 class Variations {
   public:
     Variations(const scene::Scene& scene, scene::VariedSurface surface, std::size_t layers,
@@ -113,7 +112,7 @@ class Variations {
 
     double unvaried() const { return base_.bishop.factor_of_safety; }
 
-    /// Infinite where nothing drives the mass. Takes a copy of the scene to vary further.
+    /// Infinite without driving moment.
     double factor_of(scene::Scene varied) const {
         if (surface_ == scene::VariedSurface::searched && varied.lem->search) {
             const double circles = searched(varied);
@@ -149,7 +148,7 @@ class Variations {
     scene::VariedSurface surface_;
     std::size_t layers_;
     Critical base_{};
-    std::vector<scene::Vec2> floor_;  ///< of the weak layer that the surface follows; or none
+    std::vector<scene::Vec2> floor_;  ///< along the weak layer of the surface; or none
     double crack_share_ = 1.0;
     Slide slide_ = Slide::to_left;
 };
@@ -159,7 +158,7 @@ struct Strength {
     std::size_t of;
 };
 
-/// Every strength parameter of the scene that is not zero.
+/// Every nonzero strength parameter of the scene.
 std::vector<Strength> strengths_of(const Varied& of_scene, std::size_t layers) {
     const scene::Scene& scene = of_scene.limit;
     std::vector<Strength> strengths;
@@ -179,7 +178,7 @@ std::vector<Strength> strengths_of(const Varied& of_scene, std::size_t layers) {
 
 json or_null(double F) { return std::isfinite(F) ? json(F) : json(nullptr); }
 
-/// Of the parameter over its mean.
+/// Distribution of the parameter over its mean.
 statistics::Distribution distribution_of(const scene::RandomVariable& variable) {
     const double cov = variable.variation;
     if (variable.distribution == scene::Distribution::normal)

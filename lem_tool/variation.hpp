@@ -1,4 +1,4 @@
-// Variation of parameters: one at a time, and all at random.
+// Variation of parameters: one at a time, or all at random.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,22 +9,22 @@
 
 namespace breach::lem {
 
-// Both take the original scene, not limit_scene's.
+// Both need the original scene, not limit_scene's.
 
-/// Adds "sensitivity": F with each strength parameter lower and higher by the scene's share.
+/// Adds "sensitivity": F with each strength parameter decreased and increased by the scene's share.
 void add_sensitivity(const scene::Scene& scene, int threads, nlohmann::json& result);
 
-/// The samples of a probabilistic run, one entry per sample and variable.
+/// Samples of a probabilistic analysis.
 struct Samples {
     std::vector<std::string> names;            ///< "cohesion of clay"
-    std::vector<std::vector<double>> factors;  ///< by variable: value over mean [-]
-    std::vector<double> factor_of_safety;      ///< infinite: nothing drives the mass [-]
+    std::vector<std::vector<double>> factors;  ///< [variables][samples] value over mean [-]
+    std::vector<double> factor_of_safety;      ///< infinite: no driving moment [-]
 };
 
 /// Adds "probability": mean, standard deviation, probability_of_failure, reliability indices.
 Samples add_probability(const scene::Scene& scene, int threads, nlohmann::json& result);
 
-/// The varied factor is Bishop's, and the result's own is lower.
+/// Flags that Bishop's factor is varied while another method's is lower.
 std::vector<fault::Flag> flags_of_variations(const nlohmann::json& result);
 
 /// One line per sample.

@@ -10,24 +10,24 @@ namespace breach::lem {
 
 namespace {
 
-/// Thinner than this share of the slide's depth: a circle cannot stay in the layer.
+/// Thickness over the slide's depth below which a circle cannot follow the layer.
 constexpr double thin = 0.1;
-/// Of the neighbour's strength: weaker than this is another soil.
+/// Strength over the neighbour's below which a layer counts as weaker.
 constexpr double weaker = 0.95;
 
-/// Neighbouring layers of like strength within a strip.
+/// Adjacent layers of similar strength within a strip.
 struct Band {
     Line top;
     Line bottom;
     bool is_weak;
 };
 
-/// Weak bands that continue each other from strip to strip.
+/// Weak bands connected from strip to strip.
 struct Chain {
     std::size_t last_strip;
     Path bottom;
-    double thickness = 0.0;  ///< greatest, within the search's ranges [m]
-    double depth = 0.0;      ///< greatest, of the bottom below ground [m]
+    double thickness = 0.0;  ///< largest, within the search's ranges [m]
+    double depth = 0.0;      ///< largest, of the bottom below ground [m]
 
     bool is_thin() const { return thickness < thin * depth; }
 };
@@ -67,7 +67,8 @@ class WeakBands {
     }
 
   private:
-    /// Just inside a layer, at its upper (share 0) or lower border in the strip's middle [Pa].
+    /// Strength just inside a layer, at its upper (share 0) or lower border, in the strip's middle
+    /// [Pa].
     double strength(const Strip& strip, const Line& upper, const Line& lower, double share) {
         constexpr double inside = 1e-3;
         const double x = 0.5 * (strip.from + strip.to);
@@ -80,7 +81,7 @@ class WeakBands {
             maker.add_piece(strip, x - half, x + half, Base::straight, [&](double) { return y; });
         if (verdict != Cut::done) return std::numeric_limits<double>::infinity();
         const double normal = slices_.weight[0] / slices_.width[0] - slices_.u[0];
-        constexpr double no_strength = 1.0;  // [Pa]: layers without any strength are alike
+        constexpr double no_strength = 1.0;  // [Pa]: layers without strength are equal
         return slices_.c[0] + std::max(0.0, normal) * slices_.tan_phi[0] + no_strength;
     }
 
@@ -88,7 +89,7 @@ class WeakBands {
     Slices slices_;
 };
 
-/// From side to side, its ends going on as they are.
+/// Extrapolates the path linearly to both sides.
 Path to_both_sides(Path path, double from, double to) {
     const auto at = [](const scene::Vec2& a, const scene::Vec2& b, double x) {
         return scene::Vec2(x, a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()));

@@ -1,4 +1,4 @@
-// The body at time 0: from the transfer's points, or from the section filled with points.
+// The body at time 0, from the transfer's points or from the section filled with points.
 #pragma once
 
 #include "core/process/session.hpp"
@@ -10,16 +10,16 @@ namespace breach::mpm {
 struct Begun {
     Body body;
     double transfer_time;                  ///< on the FEM's clock [s]
-    std::optional<GroundMotion> ground{};  ///< nothing: at rest
+    std::optional<GroundMotion> ground{};  ///< none: at rest
 };
 
-/// Logs the sampling error of each region. With moving ground, the points' places and velocities are relative
-/// to it: the transfer's minus the ground's at that moment. Throws BadInput when points lie outside the grid
-/// or below the terrain, or when the motion of the ground is missing.
+/// Logs the sampling error of each region. With moving ground, positions and velocities are
+/// relative to it: the transfer's minus those of the ground at that time. Throws BadInput if points
+/// are outside the grid or below the terrain, or if the ground motion is missing.
 Begun begin(const process::Session& session);
 
-/// Converts places and velocities of the points from far rock to the ground, the reference of the
-/// section: floor, terrain, walls, toe and gauges.
+/// Converts positions and velocities of the points from far rock to the moving ground, the
+/// reference of floor, terrain, walls, toe and gauges.
 void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state);
 
 Computing computing_of(const process::Session& session);

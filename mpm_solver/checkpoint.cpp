@@ -18,7 +18,7 @@ constexpr const char* records_prefix = "records.";
     throw fault::BadInput(file, {{where, cause, "start afresh without --resume"}});
 }
 
-/// The numbers of the run that are not per point. Calls visit(name, value).
+/// Numbers of the run that are not per point. Calls visit(name, value).
 template <class AnyClock, class AnyStart, class AnyTally, class Visit>
 void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& visit) {
     visit("time", clock.time), visit("dt", clock.dt);
@@ -68,8 +68,7 @@ std::optional<GroundMotion> load_ground(const Archive& archive, const std::strin
     return GroundMotion({clock.at(0), velocity}, clock.at(1));
 }
 
-/// Said before that the scenes differ: half a run on ground that moves and half on ground at rest is
-/// neither.
+/// Refuses first: a run must not change between moving and resting ground.
 void refuse_other_ground(const Archive& archive, scene::Shaking here, const std::string& file) {
     const bool moved = archive.reals.contains(ground_velocity);
     const bool moves = here == scene::Shaking::goes_on;
@@ -81,8 +80,8 @@ void refuse_other_ground(const Archive& archive, scene::Shaking here, const std:
                 "resume with --set /mpm/shaking=" + then + ", or start afresh without --resume"}});
 }
 
-/// Arrays of one length, and indices that lie in what they point into: a checkpoint that another
-/// program changed is refused here rather than read past its ends.
+/// Refuses arrays of unequal length and indices out of range, in a checkpoint changed by another
+/// program.
 void refuse_if_ragged(const Points& points, std::size_t soils, const std::string& file) {
     const std::size_t n = points.size();
     if (n == 0) refuse(file, "/x", "holds no points");
@@ -104,8 +103,8 @@ void refuse_if_ragged(const Points& points, std::size_t soils, const std::string
         refuse(file, "/stress_of_soils", "has another length");
 }
 
-/// Points are on the grid, and their homes are no farther than a column and a row from the cells where they are, unless
-/// they are sorted before homes are next asked for.
+/// Refuses points outside the grid, and homes more than one column and row away, unless the points
+/// are sorted before homes are used.
 void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
                         const std::string& file) {
     if (strayed < 0.0) refuse(file, "/run.strayed", "is less than nothing");
@@ -124,7 +123,7 @@ void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
     }
 }
 
-/// How often something has happened: not negative, and far from where adding one would overflow.
+/// A count: not negative, and far from overflow by adding one.
 std::int64_t count_at(const Archive& archive, const std::string& name, const std::string& file) {
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t count = archive.integers.at(name).at(0);

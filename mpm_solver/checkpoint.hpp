@@ -1,4 +1,4 @@
-// checkpoint.h5: the complete state of a run, from which it continues bit for bit.
+// checkpoint.h5: the complete state of a run; a resumed run continues with the same bits.
 #pragma once
 
 #include <filesystem>

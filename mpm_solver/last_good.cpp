@@ -6,7 +6,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Calls visit(array) for what changes from step to step and is written.
+/// Calls visit(array) for what changes during steps and is written.
 template <class AnyPoints, class Visit>
 void for_each_changing(AnyPoints& points, Visit&& visit) {
     for (const auto& real : reals_of_points<Reals>)

@@ -1,5 +1,5 @@
-// The state at the last check without a fault, for the diagnosis of a breakdown. In single
-// precision and without constants: only for display.
+// State at the last check without a fault, to diagnose a breakdown. In single precision and without
+// constants: for display only.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ class LastGood {
     LastGood(const Points& points, double time, std::int64_t step) { keep(points, time, step); }
 
     void keep(const Points& points, double time, std::int64_t step);
-    /// The points at that time; `now` are the same ones, later.
+    /// The points at that time; `now`: the same points later.
     Points restored(const Points& now) const;
     double time() const { return time_; }
     std::int64_t step() const { return step_; }
@@ -22,7 +22,7 @@ class LastGood {
   private:
     double time_ = 0.0;
     std::int64_t step_ = 0;
-    std::vector<float> values_;  ///< array after array, each in the order of the input
+    std::vector<float> values_;  ///< array by array, in the order of the input
 };
 
 }  // namespace breach::mpm

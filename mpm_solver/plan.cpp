@@ -126,7 +126,7 @@ void plan_beds(const scene::Scene& scene, Plan& plan) {
                     "/section/regions"});
 }
 
-/// One line for all soils: that of the first one that opens, if any does.
+/// One line for all soils: of the first one that opens, if any.
 void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
     std::optional<process::PlanLine> line;
     for (const scene::Material& soil : scene.materials) {

@@ -58,7 +58,7 @@ json gauges_json(const Simulation& simulation) {
     return result;
 }
 
-/// Where and how much at most, and how far the flow came by the envelope's own rule.
+/// Maxima and their places, and the envelope's runout.
 json envelope_json(const Simulation& simulation, double arrival_depth) {
     const Envelope& envelope = simulation.records().envelope;
     const std::vector<double> places = profile_places(simulation.view());
@@ -80,7 +80,7 @@ json envelope_json(const Simulation& simulation, double arrival_depth) {
     return result;
 }
 
-/// What passed each section, per metre of width; with a breach width in m3 and m3/s, too.
+/// Volumes through each section, per metre of width; with a breach width also in m3 and m3/s.
 json sections_json(const Simulation& simulation, const scene::Mpm& mpm) {
     const auto& width = mpm.breach_width;
     std::vector<double> times;
@@ -119,7 +119,7 @@ json rest_json(const scene::Mpm& mpm, const scene::Rest& rest, const Ending& end
             {"moving", ending.moving ? json(*ending.moving) : json(nullptr)}};
 }
 
-/// What the ground did; a place against far rock is the place on the ground plus its displacement.
+/// Motion of the ground. Position relative to far rock = position on the ground + its displacement.
 json shaking_json(const GroundMotion& ground, double time) {
     return {{"until", ground.end()},
             {"peak_acceleration", ground.peak_acceleration()},
@@ -131,7 +131,7 @@ double fastest_of(const History& history) {
     return std::ranges::max(history, {}, &Row::fastest).fastest;
 }
 
-/// Elastic, of any point: how much of its volume soil has lost to its pressure [-].
+/// Largest elastic volume loss due to pressure, over the points [-].
 double largest_compression(const Body& body) {
     double largest = 0.0;
     const Points& points = body.points;
@@ -142,7 +142,7 @@ double largest_compression(const Body& body) {
     return largest;
 }
 
-/// A scale above the energy released is that of a fall of centimetres (energy_scale).
+/// Energy scale above the energy released: a fall of centimetres (energy_scale).
 bool stood(const scene::Mpm& mpm, const Simulation& simulation) {
     const Row& first = simulation.records().history.front();
     const Row& last = simulation.last_row();
@@ -176,7 +176,7 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             })};
 }
 
-/// The deposit's largest depth beyond the toe [m]; 0: nothing lies there.
+/// The deposit's largest depth beyond the toe [m]; 0: none.
 double depth_beyond_toe(const scene::Mpm& mpm, const Simulation& simulation) {
     const std::vector<double> places = profile_places(simulation.view());
     const std::vector<Flow> deposit = without_grains(simulation.profile());
@@ -240,7 +240,7 @@ void write_history(const Session& session, const Simulation& simulation) {
     write_archive(session.output(phases::files::history), archive, session.provenance());
 }
 
-/// The deposit as a table: for other programs, and for the eye.
+/// Writes the deposit as a table.
 void write_profile(Session& session, const Simulation& simulation) {
     const FlowView& view = simulation.view();
     const Points& points = simulation.body().points;
@@ -264,7 +264,7 @@ void write_profile(Session& session, const Simulation& simulation) {
     session.announce(file, {{"kind", "profile"}, {"time", simulation.clock().time}});
 }
 
-/// The envelope as a table; nothing in a cell for what never came.
+/// Writes the envelope as a table; an empty cell if never reached.
 void write_envelope(Session& session, const Simulation& simulation) {
     const Envelope& envelope = simulation.records().envelope;
     const std::vector<double> places = profile_places(simulation.view());
@@ -300,7 +300,7 @@ Depths depths_of(const Simulation& simulation) {
     return depths;
 }
 
-/// What a person wants to know first, for the log.
+/// Logs the main results.
 void say(const Session& session, const Ending& ending, const Row& row) {
     std::string flags;
     for (const fault::Flag& each : session.flags())

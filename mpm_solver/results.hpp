@@ -1,4 +1,4 @@
-// The results of a finished run beside its points: result.json, history.h5 and the deposit's
+// Results of a finished run besides its points: result.json, history.h5 and the deposit in
 // profile.csv.
 #pragma once
 

@@ -81,7 +81,7 @@ void show_progress(Session& session, const Simulation& simulation) {
     char message[64];
     std::snprintf(message, sizeof message, "t = %.2f s", time);
     const scene::Mpm& mpm = *session.scene().mpm;
-    // When soil will rest nobody knows: the share then only grows towards 1.
+    // The time of rest is unknown: the share then approaches 1.
     session.progress(time / (mpm.until_rest ? time + simulation.rest().earliest : mpm.duration),
                      message);
 }
@@ -95,7 +95,7 @@ void look_and_write(Session& session, Simulation& simulation) {
     if (simulation.frame_due()) write_frame(session, simulation);
 }
 
-/// Steps until the end; saves checkpoints on the way.
+/// Steps until the end; saves checkpoints.
 Outcome advance_to_the_end(Session& session, Simulation& simulation) {
     double saved = session.wall_seconds();
     while (simulation.verdict() == Verdict::goes_on) {
@@ -126,7 +126,7 @@ void finish(Session& session, Simulation& simulation, double speed) {
     session.progress(1.0, "done");
 }
 
-/// The warnings about the scene before it ran, which may explain why it broke down.
+/// Warnings about the scene, which may explain a breakdown.
 std::string warnings_before(const scene::Scene& scene) {
     std::string text;
     for (const fault::Flag& each : scene.warnings)

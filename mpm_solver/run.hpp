@@ -5,15 +5,15 @@
 
 namespace breach::mpm {
 
-/// Raise it when the numbers change for the same input: the cache then reuses no older result.
+/// Raise it when results change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 14;
 
-/// The features of this phase that the scene uses and leaves out.
+/// Features of this phase: used by the scene or not.
 process::Plan plan(const scene::Scene& scene);
 
 process::Outcome run(process::Session& session);
 
-/// Ten steps of the body from the start of the run, timed step by step.
+/// Runs ten steps from the start, timed step by step.
 process::Cost measure(process::Session& session);
 
 }  // namespace breach::mpm

@@ -33,7 +33,8 @@ GridArrays arrays_of(Grid& grid, const WallRows& walls_y) {
             .walls_y = walls_y};
 }
 
-/// Soil that flows does not yield in every step; what has not yielded for some 20 eta / G stands.
+/// Flowing soil does not yield in every step; soil that has not yielded for about 20 eta / G is at
+/// rest.
 double damping_return(const Zone& zone, double dt) {
     if (zone.damping == 0.0) return 0.0;
     return std::min(dt * zone.elasticity.shear_modulus() / (20.0 * zone.damping), 1.0);

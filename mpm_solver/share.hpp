@@ -1,4 +1,4 @@
-// A loop over all points, divided by strips among the threads.
+// Loops over all points, distributed among the threads by strips.
 #pragma once
 
 #include "mpm_solver/body/body.hpp"
@@ -7,15 +7,15 @@ namespace breach::mpm {
 
 /// Memory that a loop writes besides its own points.
 enum class Writes {
-    own_points,  ///< nothing: all strips at once
-    nodes,       ///< nodes or cells: strips that share none at once
+    own_points,  ///< none: all strips at once
+    nodes,       ///< nodes or cells: only strips that share none at once
 };
 
-/// Runs one of the loops of every zone over every strip; returns its sums, strip by strip in their
-/// order: the same for any number of threads.
+/// Runs one of the loops of every zone over every strip; sums in the order of the strips, equal for
+/// any number of threads.
 Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt);
 
-/// Anti-locking: resets the cells in use.
+/// Anti-locking: resets the used cells.
 void forget_averages(Body& body);
 
 }  // namespace breach::mpm

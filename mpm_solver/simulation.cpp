@@ -49,7 +49,7 @@ double Simulation::next_step() const {
     const double next_frame = static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
     const double left = std::min(next_frame, mpm_.duration) - clock_.time;
     if (left <= 0.0 || dt < 0.5 * left) return dt;
-    return dt < left ? 0.5 * left : left;  // two equal steps rather than a full one and a crumb
+    return dt < left ? 0.5 * left : left;  // two equal steps instead of a full one and a tiny one
 }
 
 void Simulation::advance() {
@@ -67,7 +67,7 @@ void Simulation::advance() {
     clock_.dt = dt;
     clock_.time += dt;
     ++clock_.step;
-    // Sums of steps miss round times by round-off; a frame's time is exact.
+    // Summed time steps differ from round times by round-off; a frame's time is exact.
     const double next_frame = static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
     if (std::abs(clock_.time - next_frame) < 1e-9 * dt) clock_.time = next_frame;
     if (const auto complaint = step_complaint(body_, limits_)) break_down(*complaint);
@@ -142,8 +142,7 @@ const Row& Simulation::look() {
     if (const auto complaint = ground_complaint(body_)) break_down(*complaint);
     moving_ = why_moving(records_.history, start_.energy, body_, view_.mobile, rest_);
     const double interval = mpm_.telemetry_interval;
-    constexpr double most =
-        0x1p53;  // an interval of 1e-30 s asks for more looks than can be counted
+    constexpr double most = 0x1p53;  // an interval of 1e-30 s would overflow the counter
     const double looks = std::clamp(std::floor(clock_.time / interval) + 1.0, 0.0, most);
     clock_.looks = interval > 0.0 ? static_cast<std::int64_t>(looks) : 0;
     last_good_.keep(body_.points, clock_.time, clock_.step);

@@ -1,4 +1,4 @@
-// A run above the time step: when to measure, to write, to stop. A checkpoint stores one
+// A run as a sequence of time steps: when to measure, write and stop. A checkpoint stores one
 // Simulation.
 #pragma once
 
@@ -25,17 +25,17 @@ struct Clock {
     double dt_max = 0.0;
     std::int64_t step = 0;
     std::int64_t frames = 0;     ///< snapshots written so far
-    std::int64_t looks = 0;      ///< telemetry lines due so far
+    std::int64_t looks = 0;      ///< telemetry lines so far
     double transfer_time = 0.0;  ///< on the FEM's clock [s]
 };
 
-/// Reference values of the run.
+/// Reference values at the start.
 struct Start {
     Energy energy;
     double mobile_volume = 0.0;  ///< [m3]
 };
 
-/// Records of a run so far.
+/// Records of a run.
 struct Records {
     History history;
     GaugeRecords gauges;
@@ -48,16 +48,16 @@ enum class Verdict { goes_on, rests, time_is_up };
 
 class Simulation {
   public:
-    /// `body` at time 0; its velocities are relative to the ground, which moves or is at rest.
+    /// `body` at time 0; its velocities are relative to the ground, moving or at rest.
     Simulation(const scene::Scene& scene, Body body, double transfer_time,
                std::optional<GroundMotion> ground = {});
     /// From a checkpoint.
     Simulation(const scene::Scene& scene, Body body, Clock clock, Start start, Records records,
                std::optional<GroundMotion> ground);
 
-    /// One step; never past the next snapshot or the end. Throws Breakdown.
+    /// One step; ends at most at the next snapshot or the end. Throws Breakdown.
     void advance();
-    /// Whether a snapshot (or a measurement) is due at this time.
+    /// Whether a snapshot (or a measurement) is due.
     bool frame_due() const;
     bool look_due() const;
     /// Stores the profile of a snapshot.
@@ -65,21 +65,20 @@ class Simulation {
     /// Measures, checks the budget (throws Breakdown) and adds a row to the history.
     const Row& look();
     Verdict verdict() const;
-    /// Why the soil was not at rest at the last look; empty: it was.
+    /// Why the soil moved at the last measurement; empty: at rest.
     const std::optional<std::string>& moving() const { return moving_; }
-    /// Reference energy at the end, see energy_scale [J].
+    /// Reference energy at the end (energy_scale) [J].
     double scale_of_energy() const;
 
     const Body& body() const { return body_; }
     const Clock& clock() const { return clock_; }
     const Start& start() const { return start_; }
-    /// Nothing: the ground is at rest.
+    /// None: the ground is at rest.
     const std::optional<GroundMotion>& ground() const { return ground_; }
-    /// Conditions for the soil's rest: never while the ground shakes.
+    /// Conditions of rest; never fulfilled while the ground shakes.
     const scene::Rest& rest() const { return rest_; }
     const Records& records() const { return records_; }
     const Row& last_row() const { return records_.history.back(); }
-    /// The profile now.
     std::vector<Flow> profile() const { return flow_profile(body_.points, view_); }
     const FlowView& view() const { return view_; }
     const std::vector<scene::Gauge>& gauges() const { return mpm_.gauges; }

@@ -9,9 +9,9 @@ namespace breach::mpm {
 
 namespace {
 
-/// Coulomb friction of a node that presses on the floor: the impulse that stops it is at most mu
-/// times the normal one. Returns the work that friction takes, impulse x (v_before + v_after) / 2
-/// [J], exact for the node's kinetic energy.
+/// Coulomb friction of a node pressed on the floor: its impulse is at most mu times the normal one.
+/// Returns the work of friction, impulse x (v_before + v_after) / 2 [J], exact for the node's
+/// kinetic energy.
 double rub(double m, double mu, const Vec2& v_before, Vec2& v) {
     if (v.y() >= 0.0) return 0.0;  // lifts off
     const double normal = -m * v.y();
@@ -22,7 +22,7 @@ double rub(double m, double mu, const Vec2& v_before, Vec2& v) {
     return m * (free_vx - v.x()) * 0.5 * (v_before.x() + v.x());
 }
 
-/// Nothing may go through walls, floor and terrain. Friction has done its work already.
+/// Removes velocities through walls, floor and terrain; friction is already applied.
 void hold(Grid& grid, std::int32_t node) {
     Lane& v = grid.motion[node];
     const std::uint8_t must = grid.conditions[node];
@@ -37,9 +37,8 @@ void hold(Grid& grid, std::int32_t node) {
     if (must & condition::hold_y) v[1] = 0.0;
 }
 
-/// What walls, floor and terrain make of a node's velocity; returns the work of friction. Walls come
-/// first: what they hold does not slide, however strong the push along the ground. Between wall and
-/// slope there is no way down.
+/// Applies walls, floor and terrain to a node's velocity; returns the work of friction. Walls come
+/// first: what they hold does not slide. Between wall and slope a node cannot move down.
 double bear(const Grid& grid, std::int32_t node, const Vec2& v_before, Vec2& v) {
     const std::uint8_t must = grid.conditions[node];
     if (must & condition::hold_x) v.x() = 0.0;
@@ -74,7 +73,7 @@ void average(Body& body, double CellSum::*number) {
     }
 }
 
-/// Work of the moving frame's force, impulse x (v_before + v_after) / 2 as that of friction [J].
+/// Work of the moving frame's inertial force, impulse x (v_before + v_after) / 2 [J].
 double work_of_frame(const Body& body, double dt) {
     const Grid& grid = body.grid;
     double momentum = 0.0;
@@ -161,7 +160,7 @@ void map_again(Body& body, double dt) {
 
 void update_stress_first(Body& body, double dt) {
     Grid& grid = body.grid;
-    // The momentum waits where the force comes later.
+    // Store the momentum here if the force comes later.
     for (const std::int32_t node : grid.active) {
         Lane& motion = grid.motion[node];
         motion = Lane{0.0, 0.0, motion[0], motion[1]};

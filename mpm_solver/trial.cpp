@@ -1,4 +1,4 @@
-// What a step costs: ten of them, verb by verb.
+// Cost of a step: that of ten, operation by operation.
 #include <ctime>
 
 #include "mpm_solver/begin.hpp"
@@ -40,7 +40,7 @@ class Laps {
     std::vector<std::pair<std::string, double>> spent_;
 };
 
-/// What Simulation::advance does before the step, and the verbs of step.cpp in their order.
+/// What Simulation::advance does before the step, and the operations of step.cpp in their order.
 void timed_step(Body& body, const scene::Mpm& mpm, OverlapMeter& overlap, std::int64_t number,
                 Laps& laps) {
     if (number % steps_between_marks == 0) {

@@ -12,7 +12,7 @@
 namespace breach::transfer {
 namespace {
 
-/// What docs/reference/methods/mochikoshi_case.md names as signs, in the order of a failure's course.
+/// Signs listed in docs/reference/methods/mochikoshi_case.md, in the order of a failure.
 struct KnownSign {
     const char* name;
     const char* condition;

@@ -13,7 +13,7 @@ const materials::Law& law_of(const scene::Scene& scene, std::size_t region) {
     return scene.materials[scene.section.regions[region].material].law;
 }
 
-/// Pore pressure at xi, of the present and of the beginning; 0 in a dry snapshot [Pa].
+/// Present or initial pore pressure at xi [Pa]; 0 in a dry snapshot.
 double pressure_at(const std::vector<double>& pressure, const MeshSnapshot& mesh,
                    std::size_t element, const Vec2& xi) {
     return pressure.empty() ? 0.0
@@ -53,7 +53,8 @@ Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
         materials::if_state_parameter(law_of(scene, region), [&](const auto& law) {
             strength = undrained_strength(law, sigma, mesh.psi[i], u);
         });
-        // A stress past the line may have been cut down for the path: it is carried all the same.
+        // The stress may have been reduced for the undrained path; the real one is a lower bound of
+        // the peak.
         strength.peak = std::max(strength.peak, std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[3]));
         const bool past_line = mesh.instability_ratio[i] >= instability;
         soils_[i] = {strength, past_line, past_line && mesh.epsilon_q[i] > strain_};

@@ -1,5 +1,5 @@
-// Soil with a state parameter at the transfer: which of it has collapsed, and its undrained
-// strength. The criterion is not a pore pressure ratio.
+// Soil with a state parameter at the transfer: collapsed or not, and its undrained strength. The
+// criterion is not a pore pressure ratio.
 #pragma once
 
 #include <optional>
@@ -13,37 +13,37 @@ namespace breach::transfer {
 
 using mechanics::Vec2;
 
-/// Stress ratio over the limiting one from which soil is past its instability line: less than 1, as
-/// soil at its critical state lies on it.
+/// eta / eta_L from which soil counts as past its instability line. Less than 1, as soil at its
+/// critical state is on that line.
 inline constexpr double instability = 0.98;
 
-/// Whether the region's law has a state parameter, and /transfer/liquefied names it: then its points
+/// Whether the region's law has a state parameter and /transfer/liquefied names it: its points then
 /// get strengths by state.
 bool collapses(const scene::Scene& scene, std::size_t region);
 
-/// Criteria for the regions of /transfer/liquefied.
+/// Criteria used in the regions of /transfer/liquefied.
 struct JudgedBy {
     bool state = false;     ///< by state parameter: collapses()
-    bool pressure = false;  ///< the others: r_u
+    bool pressure = false;  ///< others: r_u
 };
 JudgedBy judged_by(const scene::Scene& scene);
 
-/// Counts of points, for result.json and people.
+/// Counts of points, for result.json and messages.
 struct CollapseReport {
-    double epsilon_q;           ///< strain from which soil counts as strained
+    double epsilon_q;           ///< strain above which soil counts as strained
     std::size_t points = 0;     ///< of these regions
     std::size_t saturated = 0;  ///< of these, with strengths by state
     std::size_t past_line = 0;  ///< of these, past the instability line
-    std::size_t collapsed = 0;  ///< of these, strained as well: residual strength from the start
+    std::size_t collapsed = 0;  ///< of these, strained too: residual strength from the start
     double mass = 0.0;          ///< collapsed [kg]
 };
 
-/// Strengths of such Gauss points, from their stress and state parameter.
+/// Strengths of these Gauss points by stress and state parameter.
 class Collapse {
   public:
     Collapse() = default;
-    /// regions: [regions of the mesh] index into the section's. Computes nothing if none collapses.
-    /// The mesh has psi there.
+    /// regions: [regions of the mesh] index into the section's. Needs psi in the mesh if a region
+    /// collapses.
     Collapse(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
              std::span<const std::size_t> regions);
 
@@ -51,8 +51,8 @@ class Collapse {
         materials::UndrainedStrength strength;
         bool past_line, collapsed;
     };
-    /// Of the Gauss point nearest to xi; nothing if the soil has no strength by state, or is dry:
-    /// above the water at the beginning of the motion, and now.
+    /// At the Gauss point nearest to xi. None if the soil has no strength by state, or is dry:
+    /// above the water at the beginning of the motion and at the transfer.
     std::optional<Soil> at(std::size_t element, const Vec2& xi) const;
     double strain() const { return strain_; }
 

@@ -10,7 +10,7 @@ using Eigen::MatrixXd;
 
 constexpr Index block = 96;
 
-/// LU of columns [k, k + b) below row k; the rows of A and B are swapped whole.
+/// LU of columns [k, k + b) below row k; swaps whole rows of A and B.
 void factorise_panel(MatrixXd& A, MatrixXd& B, Index k, Index b) {
     const Index N = A.rows();
     for (Index j = k; j < k + b; ++j) {
@@ -26,7 +26,7 @@ void factorise_panel(MatrixXd& A, MatrixXd& B, Index k, Index b) {
     }
 }
 
-/// Columns [from, to) of what lies right of the panel: their rows of U, and their rest.
+/// Updates columns [from, to) to the right of the panel: their rows of U, and the rest.
 void update_columns(MatrixXd& A, Index k, Index b, Index from, Index to) {
     const Index below = A.rows() - k - b;
     auto U = A.block(k, from, b, to - from);
@@ -43,8 +43,8 @@ Solved solve_in_place(MatrixXd& A, MatrixXd& B, int threads, const Watch& watch)
         if (!watch.go_on(1.0 - left * left * left)) return Solved::stopped;
         const Index b = std::min(block, N - k);
         factorise_panel(A, B, k, b);
-        // A column's sums do not depend on which columns are worked on beside it, as long as the
-        // parts begin at multiples of the block.
+        // A column's sums do not depend on the other columns of its part if parts begin at
+        // multiples of the block.
         const auto blocks = static_cast<std::size_t>((N - k - b + block - 1) / block);
         numerics::run_parts(blocks, threads, [&](std::size_t begin, std::size_t end, std::size_t) {
             for (std::size_t i = begin; i < end; ++i) {

@@ -1,5 +1,5 @@
-// A large dense system, solved block by block, so that it can report progress, be stopped and use
-// several threads.
+// Solves a large dense system block by block, with progress reports, stop requests and several
+// threads.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +10,9 @@ namespace breach::transfer {
 
 enum class Solved { done, stopped };
 
-/// Overwrites A by its LU factors (partial pivoting, Golub & Van Loan, blocked outer products) and
-/// B by the solution of A X = B. 2/3 N^3 operations; the result does not depend on the threads.
+/// Overwrites A by its LU factors (partial pivoting, blocked outer products: Golub & Van Loan) and
+/// B by the solution of A X = B. 2/3 N^3 operations; the result does not depend on the number of
+/// threads.
 Solved solve_in_place(Eigen::MatrixXd& A, Eigen::MatrixXd& B, int threads, const Watch& watch);
 
 }  // namespace breach::transfer

@@ -11,7 +11,7 @@ using exchange::MeshSnapshot;
 constexpr double coinciding = 1e-12;        // in natural coordinates
 constexpr double strain_round_off = 1e-12;  // of a strain
 
-/// Number of the mesh's Gauss point at these natural coordinates, or -1.
+/// Index of the Gauss point at these natural coordinates, or -1.
 int gauss_at(const MeshSnapshot& mesh, const Vec2& xi) {
     for (std::size_t g = 0; g < mesh.gauss_positions.size(); ++g)
         if ((mesh.gauss_positions[g] - xi).cwiseAbs().maxCoeff() < coinciding)
@@ -65,7 +65,7 @@ Sources points_as_sources(const MeshSnapshot& mesh, const Points& points) {
     return from;
 }
 
-/// epsilon_q is a norm: what the interpolant lets swing below zero is set to zero.
+/// epsilon_q is a norm: sets negative interpolated values to zero.
 std::vector<double> not_negative(const Values& values, Eigen::Index column, std::size_t& raised) {
     std::vector<double> result(static_cast<std::size_t>(values.rows()));
     for (Eigen::Index p = 0; p < values.rows(); ++p) {
@@ -75,7 +75,7 @@ std::vector<double> not_negative(const Values& values, Eigen::Index column, std:
     return result;
 }
 
-/// Nodal velocities from the points, mass-weighted, against the mesh's.
+/// Compares mass-weighted nodal velocities of the points with the mesh's.
 void measure_velocity(const MeshSnapshot& mesh, const Points& points, RoundTrip& trip) {
     std::vector<Vec2> momentum(mesh.velocity.size(), Vec2::Zero());
     std::vector<double> mass(mesh.velocity.size(), 0.0);

@@ -81,8 +81,8 @@ class GridOnce {
             }
     }
 
-    /// 1 in the directions in which nothing holds the node. Floor and terrain hold in both: what
-    /// friction can take is the MPM's to find.
+    /// 1 in the free directions of a node, else 0. Floor and terrain hold both: friction is left to
+    /// the MPM.
     Vec2 freedom(long key) const {
         const long column = std::lround(static_cast<double>(key) / static_cast<double>(stride));
         const long row = key - column * stride;
@@ -101,7 +101,7 @@ class GridOnce {
     const scene::Mpm& mpm_;
     double gravity_;
     std::size_t soils_;
-    std::vector<grid::WallRows> walls_of_soil_;  ///< upright, from the floor's row
+    std::vector<grid::WallRows> walls_of_soil_;  ///< vertical, from the floor's row
     long columns_ = 0;
     std::map<long, Node> nodes_;
 };

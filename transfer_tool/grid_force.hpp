@@ -1,5 +1,5 @@
-// The out-of-balance force of the new points on the MPM's grid, evaluated once with the MPM's
-// kernel: the force in its first step, before any motion.
+// Unbalanced force of the new points on the MPM's grid, with the MPM's kernel: the force in its
+// first step.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace breach::transfer {
 
-/// By soil: sums over the grid's nodes, every node shared among the soils by mass. Nodes that a
-/// wall or the floor holds count only in the direction in which they are free.
+/// Of one soil: sums over the grid's nodes, each shared among soils by mass. Nodes at walls and
+/// floor count in their free directions only.
 struct GridForce {
     double inertia = 0.0;  ///< sum |m_i a_i| with the FEM's acceleration [N]
     double force = 0.0;    ///< sum |f_i,internal + m_i g| [N]
@@ -24,7 +24,7 @@ struct GridForce {
     }
 };
 
-/// Internal force of the total stress: f_i = - sum_p V_p (sigma_p - u_p I) grad N_ip.
+/// Internal force of the total stress, per soil: f_i = - sum_p V_p (sigma_p - u_p I) grad N_ip.
 std::vector<GridForce> grid_force(const scene::Scene& scene, const Points& points);
 
 }  // namespace breach::transfer

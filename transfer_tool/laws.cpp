@@ -5,9 +5,9 @@
 namespace breach::transfer {
 namespace {
 
-constexpr double stress_round_off = 1e-9;  // of the stress itself
+constexpr double stress_round_off = 1e-9;  // over the stress
 
-/// The law of one point, with the point's own strength where it has one.
+/// The law of a point, with its individual strength if it has one.
 class LawOfPoint {
   public:
     LawOfPoint(std::span<const materials::Law> laws, const exchange::ParticleState& state)

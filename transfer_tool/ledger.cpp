@@ -17,8 +17,7 @@ using exchange::MeshSnapshot;
 using exchange::ParticleState;
 using mechanics::Voigt;
 
-/// A sum with the round-off of its additions carried along (Neumaier 1974): with a million equal
-/// points a plain sum would already miss 1e-12.
+/// Compensated sum (Neumaier 1974): with a million equal points a plain sum would miss 1e-12.
 class Sum {
   public:
     Sum& operator+=(double x) {
@@ -39,7 +38,7 @@ class Sum {
     double lost_ = 0.0;
 };
 
-/// Everything that is counted, for one region.
+/// All quantities of one region.
 struct Amounts {
     Sum mass;
     Sum volume;
@@ -63,7 +62,7 @@ struct Amounts {
     }
 };
 
-/// Everything that both sides of the ledger are computed from.
+/// Input of both sides of the ledger.
 struct Books {
     const MeshSnapshot& mesh;
     const Points& points;
@@ -79,7 +78,7 @@ double lowest_node(const MeshSnapshot& mesh) {
     return y;
 }
 
-/// Weight of each of the snapshot's Gauss points in natural coordinates.
+/// Weight of each Gauss point of the snapshot.
 std::vector<double> gauss_weights(const MeshSnapshot& mesh, const std::string& file) {
     const int n = static_cast<int>(std::lround(std::sqrt(mesh.gauss_positions.size())));
     const GaussRule rule = gauss_legendre(std::max(n, 1));
@@ -154,7 +153,7 @@ std::vector<Amounts> on_mesh(const Books& books, const std::string& file) {
     return regions;
 }
 
-/// Index into the mesh's regions of each soil; soils of regions that the mesh lacks: 0, without
+/// Region of the mesh for each soil; 0 for soils of regions that the mesh lacks, which have no
 /// points.
 std::vector<std::size_t> mesh_regions(const Books& books) {
     std::vector<std::size_t> regions;
@@ -190,7 +189,7 @@ std::vector<Amounts> on_points(const Books& books) {
     return regions;
 }
 
-/// By region of the mesh.
+/// [regions of the mesh]
 std::vector<GridForce> on_grid(const Books& books, const scene::Scene& scene) {
     const std::vector<std::size_t> region_of_soil = mesh_regions(books);
     const std::vector<GridForce> soils = grid_force(scene, books.points);
@@ -224,7 +223,7 @@ void add_rows(Ledger& ledger, const std::string& region, const Amounts& b, const
     row("elastic energy", "J", b.elastic, a.elastic, b.elastic);
 }
 
-/// The FEM's own lumped sums against the points.
+/// Compares the FEM's lumped sums with the points.
 void add_nodal_rows(Ledger& ledger, const MeshSnapshot& mesh, const Amounts& a) {
     Amounts b;
     for (std::size_t i = 0; i < mesh.nodal_mass.size(); ++i) {
@@ -264,7 +263,7 @@ Ledger ledger_of(const MeshSnapshot& mesh, const Points& points, const SoilMap& 
                           (f.force - f.inertia) / std::max(f.weight, 1e-300)});
     };
     for (std::size_t r = 0; r < before.size(); ++r) {
-        if (before[r].mass.total() == 0.0) continue;  // a region without elements
+        if (before[r].mass.total() == 0.0) continue;  // no elements
         add_rows(ledger, mesh.regions[r], before[r], after[r]);
         add_balance(mesh.regions[r], balance[r]);
         total_before += before[r];

@@ -17,8 +17,8 @@ using exchange::MeshSnapshot;
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Half of the farthest corner to the left and to the right of each node, over its elements in the
-/// regions that can liquefy: what the node stands for.
+/// Half the distance to the farthest corner on both sides of each node, over its elements in
+/// regions that can liquefy.
 struct Reach {
     double left = 0.0;
     double right = 0.0;
@@ -71,7 +71,7 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
         ++nodes_;
     }
     std::ranges::sort(edges, {}, &ZoneEdge::x);
-    std::multiset<double> open;  // levels of the nodes whose columns hold the current x
+    std::multiset<double> open;  // levels of the nodes whose columns contain the present x
     for (std::size_t i = 0; i < edges.size(); ++i) {
         if (edges[i].begins)
             open.insert(edges[i].level);
@@ -83,7 +83,8 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
     close_walls(narrowest_wall);
 }
 
-/// From each column to those that begin less than `narrowest` behind its end: what lies between them.
+/// Liquefies what lies between each column and those that begin less than `narrowest` after its
+/// end.
 void LiquefiedZone::close_walls(double narrowest) {
     const std::map<double, double> own = level_from_;
     for (auto left = own.begin(); left != own.end(); ++left) {

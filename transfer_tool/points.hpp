@@ -1,4 +1,4 @@
-// Places and masses of the material points, and the nodal fields that they take from the mesh.
+// Positions and masses of the material points, and their fields from the mesh's nodes.
 #pragma once
 
 #include <vector>
@@ -10,29 +10,29 @@
 
 namespace breach::transfer {
 
-/// The new material points, element after element, with their places in the elements.
+/// The new material points, element by element, with their natural coordinates.
 struct Points {
-    exchange::ParticleState state;                   ///< its stress: set by settle_stress
+    exchange::ParticleState state;                   ///< settle_stress sets its stress
     std::vector<mechanics::Voigt> effective_stress;  ///< [n_points] interpolated [Pa]
-    std::vector<Corners> shape;      ///< [n_elements] corners of the points' elements [m]
+    std::vector<Corners> shape;                      ///< [n_elements] corners for the points [m]
     std::vector<std::size_t> first;  ///< [n_elements + 1] first point of each element
     std::vector<Vec2> xi;            ///< [n_points] natural coordinates
     std::vector<Vec2> acceleration;  ///< [n_points] for the ledger only [m/s2]
 };
 
 /// n x n points at the Gauss positions of each panel of each deformed element. With weights w and
-/// the thickness t: mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for every n,
-/// since J is linear; with a shift for n >= 2.
+/// thickness t: mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for every n, as J is
+/// linear; with a shift for n >= 2.
 Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> shapes,
                     const std::vector<Panels>& panels, int n, const Shift& shift = {});
 
-/// By shape functions: velocity v = sum N_i v_i and its gradient L = sum v_i (dN_i/dx)^T on the
-/// deformed element, acceleration, and where the snapshot has them pore pressure u = sum N_i u_i
-/// and r_u = sum N_i (u - u_0)_i / sum N_i sigma'_v0,i (0 where no stress was), u and u_0 without
-/// their alternating parts.
+/// By shape functions: velocity v = sum N_i v_i, its gradient L = sum v_i (dN_i/dx)^T on the
+/// deformed element, acceleration; if the snapshot has them, pore pressure u = sum N_i u_i and r_u
+/// = sum N_i (u - u_0)_i / sum N_i sigma'_v0,i (0 without stress), u and u_0 without their
+/// alternating parts.
 void carry_nodal_fields(const exchange::MeshSnapshot& mesh, Points& points);
 
-/// (u - u_0) / sigma'_v0 [-]; 0 where sigma_v0 is not positive: soil there cannot liquefy.
+/// (u - u_0) / sigma'_v0 [-]; 0 if sigma_v0 is not positive.
 double pore_pressure_ratio(double d_u, double sigma_v0);
 
 }  // namespace breach::transfer

@@ -11,10 +11,10 @@
 namespace breach::transfer {
 namespace {
 
-constexpr double coincident = 1e-9;  // of the extent of the centres
-constexpr double flat = 1e-6;        // spread across a line over spread along it
-// Spreads beside the middle. Elements two rows thick reach 2; one row of single Gauss points, bent
-// by the failure, hundreds: the slope across it is that of the bend, and no field's.
+constexpr double coincident = 1e-9;  // over the extent of the centres
+constexpr double flat = 1e-6;        // ratio of the spreads across and along a line
+// In spreads from the middle. Elements in two rows reach 2. One row of single Gauss points, bent by
+// the failure, reaches hundreds: the slope across it is due to the bend.
 constexpr double farthest_across = 8.0;
 
 double phi(const Vec2& a, const Vec2& b, double epsilon) {
@@ -65,7 +65,7 @@ double average_distance(std::span<const Vec2> position) {
     const auto N = static_cast<double>(position.size());
     if (edge.minCoeff() > 0.0) return std::sqrt(edge.x() * edge.y() / N);
     if (edge.maxCoeff() > 0.0) return edge.maxCoeff() / N;
-    return 1.0;  // a single centre: any length will do
+    return 1.0;  // a single centre: any length
 }
 
 LocalInterpolant::LocalInterpolant(const Centres& centres, std::span<const Vec2> wanted) {
@@ -79,8 +79,8 @@ LocalInterpolant::LocalInterpolant(const Centres& centres, std::span<const Vec2>
     P.col(0).setOnes();
     for (Eigen::Index i = 0; i < k; ++i)
         P.row(i).tail(directions_) = centre_[i].head(directions_).transpose();
-    // The best linear field is taken out first: what is left is small where the field is nearly
-    // linear, and so is the round-off of the system below.
+    // Subtracts the best linear field first: the rest is small for nearly linear fields, and so is
+    // the round-off of the system.
     const Eigen::MatrixXd linear = P.householderQr().solve(centres.value);
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(k + t, k + t);
     for (Eigen::Index i = 0; i < k; ++i)

@@ -1,5 +1,5 @@
 // Radial basis functions: interpolates scattered values with the multiquadric phi(r) = sqrt(r^2 +
-// epsilon^2). Independent of meshes, regions and the meaning of the values.
+// epsilon^2).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,24 +20,23 @@ using Values = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 struct Centres {
     std::vector<Vec2> position;  ///< [m]
     Values value;
-    std::size_t merged = 0;  ///< how many were dropped as coincident
+    std::size_t merged = 0;  ///< number of coincident centres removed
 };
-/// Merges places closer than 1e-9 of the extent into one with the mean of their values. Compares
-/// all pairs.
+/// Merges places closer than 1e-9 of the extent, with the mean of their values. Compares all pairs.
 Centres merge_coincident(const std::vector<Vec2>& position, const Values& value);
 
-/// sqrt(bounding-box area / N) [m]; along a line, its length / N (Sordo et al. 2024 through its
+/// sqrt(bounding-box area / N) [m]; on a line, its length / N (Sordo et al. 2024, in their
 /// reference code).
 double average_distance(std::span<const Vec2> position);
 
-/// Interpolant through a few centres: multiquadric plus a linear tail, exact for constant and
-/// linear fields. Distances are measured along the principal directions of the centres in units of
-/// their spread there, so that a mesh of aspect 1:100 is as well conditioned as one of squares.
-/// Centres on a line, or so near to one that `wanted` places lie many spreads away from it, give a
-/// field that is linear along the line and constant across. One centre gives its value.
+/// Interpolant through a few centres: multiquadric plus linear tail, exact for constant and linear
+/// fields. Distances are scaled by the centres' spread along their principal directions, so that an
+/// aspect ratio of 1:100 is as well conditioned as a square mesh. If the centres are on a line, or
+/// so near to one that `wanted` places are many spreads away from it, the field is linear along the
+/// line and constant across. One centre gives its value.
 class LocalInterpolant {
   public:
-    /// At least one centre.
+    /// Needs at least one centre.
     explicit LocalInterpolant(const Centres& centres, std::span<const Vec2> wanted = {});
     /// Writes one value per field.
     void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;
@@ -47,20 +46,20 @@ class LocalInterpolant {
     Vec2 normalised(const Vec2& place) const;
 
     Vec2 middle_ = Vec2::Zero();
-    /// Columns: principal directions over the spread [1/m]
+    /// Columns: principal directions over the spread [1/m].
     Eigen::Matrix2d axes_ = Eigen::Matrix2d::Zero();
-    int directions_ = 0;           ///< number of directions in which the centres spread
+    int directions_ = 0;           ///< number of directions with spread
     std::vector<Vec2> centre_;     ///< normalised [-]
     double epsilon_ = 1.0;         ///< [-]
     Eigen::MatrixXd coefficient_;  ///< multiquadrics, then constant, then slopes
 };
 
-/// One interpolant through all centres without a tail, around the mean of the values so that a
+/// One interpolant through all centres, without tail, about the mean of the values so that a
 /// constant stays constant. Dense: N^2 memory, N^3 time. Departs from: Sordo et al. 2024, who do
 /// not subtract the mean.
 class GlobalInterpolant {
   public:
-    /// Nothing when the watch stopped it.
+    /// None if stopped by the watch.
     static std::optional<GlobalInterpolant> through(Centres centres, int threads = 1,
                                                     const Watch& watch = {});
     void at(const Vec2& place, Eigen::Ref<Eigen::RowVectorXd> value) const;

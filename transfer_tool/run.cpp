@@ -46,7 +46,7 @@ nlohmann::json soils_as_json(const Transferred& t) {
     return soils;
 }
 
-/// Of all soils.
+/// Sum over all soils.
 YieldShare outside_yield_surface(const YieldReport& report) {
     YieldShare all;
     for (const YieldShare& each : report) {
@@ -86,7 +86,7 @@ std::string collapse_criterion(const CollapseReport& collapse) {
            words::text_of(collapse.epsilon_q);
 }
 
-/// What only some transfers have.
+/// Reports optional parts.
 void report_options(const Transferred& t, nlohmann::json& result) {
     if (t.supply)
         result["cells"] = {{"occupied", t.supply->occupied},
@@ -186,7 +186,7 @@ void report(process::Session& session, const Transferred& t) {
 process::Outcome run(process::Session& session) {
     const std::string file = session.input().string();
     const auto output = session.output(phases::files::particles);
-    std::filesystem::remove(output);  // points of an earlier transfer must not pass for this one's
+    std::filesystem::remove(output);  // an older file must not be mistaken for the result
     session.progress(0.0, "reading");
     const exchange::MeshSnapshot mesh = exchange::read_mesh_snapshot(session.input()).snapshot;
     if (session.stop_requested()) return process::Outcome::stopped;

@@ -1,17 +1,17 @@
-// The transfer as a phase: its plan, and its conversion of one snapshot into one particle file; and
-// its advice as another phase.
+// The transfer as a phase: its plan, and the conversion of one snapshot to one particle file; and
+// the advice as another phase.
 #pragma once
 
 #include "core/process/phase.hpp"
 
 namespace breach::transfer {
 
-/// Raise it when the numbers change for the same input: the cache then reuses no older result.
+/// Raise it when results change for the same input: the cache then reuses no older result.
 inline constexpr int numerics = 11;
 
 process::Plan plan(const scene::Scene& scene);
 process::Outcome run(process::Session& session);
-/// Reads the scene, and checks its advice window.
+/// Reads the scene and checks its window.
 scene::Scene read(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 /// `transfer_tool advise`: telemetry in, result.json out.

@@ -13,7 +13,7 @@ constexpr double most_points = 50e6;
 constexpr double area_round_off = 1e-9;  // of a cell's area
 constexpr int most_rounds = 40;
 
-/// The cells under the mesh's bounding box, and which element covers how much of each.
+/// The cells in the mesh's bounding box, with the areas that elements cover.
 class CellCover {
   public:
     struct Part {
@@ -44,8 +44,8 @@ class CellCover {
                static_cast<std::size_t>(std::min(at.y(), rows_ - 1));
     }
 
-    std::vector<double> share;  ///< of each cell's area that elements cover [-]
-    std::vector<Part> parts;    ///< every element that covers some of a cell
+    std::vector<double> share;  ///< covered share of each cell [-]
+    std::vector<Part> parts;    ///< elements in cells
 
   private:
     Eigen::Array2i cell_of(const Vec2& place) const {

@@ -1,5 +1,5 @@
-// Number of points per element and direction, so that each cell of the MPM grid gets enough: an
-// element is divided into panels, and every panel gets the scene's Gauss points.
+// Number of points per element and direction such that each cell of the MPM grid gets enough:
+// elements are divided into panels, each with the scene's Gauss points.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ using Panels = std::array<int, 2>;
 /// Along xi and along eta, as defined by shifted_rule [-].
 using Shift = std::array<double, 2>;
 
-/// The MPM's cells and the number of points that they need.
+/// The MPM's cells and their required number of points.
 struct CellDemand {
     double cell_size;      ///< [m]
     Vec2 origin;           ///< of any node [m]
@@ -30,13 +30,13 @@ struct CellDemand {
     Shift shift = {};      ///< of the points within their panels
 };
 
-/// Result for the cells. A cell is filled by the share of its area that elements cover; one with
-/// share f needs floor(f * points_per_cell) points.
+/// Points in the cells. Elements cover a share f of a cell's area; the cell needs floor(f *
+/// points_per_cell) points.
 struct CellSupply {
-    std::size_t occupied = 0;         ///< cells that any element touches with more than round-off
-    std::size_t filled = 0;           ///< of them, covered completely
-    std::size_t least_in_filled = 0;  ///< fewest points in such a cell
-    std::size_t short_cells = 0;      ///< cells with fewer than they need
+    std::size_t occupied = 0;         ///< cells that elements cover by more than round-off
+    std::size_t filled = 0;           ///< completely covered cells
+    std::size_t least_in_filled = 0;  ///< fewest points in a filled cell
+    std::size_t short_cells = 0;      ///< cells with too few points
 };
 
 struct Sampling {
@@ -44,12 +44,11 @@ struct Sampling {
     std::optional<CellSupply> supply;
 };
 
-/// Every element one panel.
 Sampling one_panel_each(std::size_t elements);
 
-/// First as many panels as the mean distance of points requires, then more wherever a cell still
-/// has too few points, in the direction in which the element's points lie farther apart. Throws
-/// BadInput when that would take more than fifty million points.
+/// Starts with the number of panels for the mean distance of points, then adds panels where a cell
+/// has too few points, in the direction with the larger distance. Throws BadInput above fifty
+/// million points.
 Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand);
 
 }  // namespace breach::transfer

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t largest_dense_system = 16384;  // 2 GiB of coefficients
 constexpr std::size_t groups_between_looks = 64;
 
-/// The sources of one region as nanoflann wants to see them.
+/// The sources of one region, in nanoflann's interface.
 struct Cloud {
     std::vector<std::size_t> member;
     const std::vector<Vec2>* places;

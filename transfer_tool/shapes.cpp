@@ -34,8 +34,8 @@ void check_undeformed(const MeshSnapshot& mesh, const std::string& file) {
                         "give a snapshot whose mesh has convex quads, corners counter-clockwise"}});
 }
 
-/// The undeformed element turned by the angle that brings its corners nearest to the displaced ones
-/// (least squares, no reflection), about the mean of the displaced corners.
+/// The undeformed element, rotated to fit the displaced corners (least squares, no reflection) and
+/// centred at their mean.
 Corners rebuilt(const Corners& x_0, const Corners& x) {
     const Vec2 middle_0 = x_0.rowwise().mean();
     const Vec2 middle = x.rowwise().mean();
@@ -94,7 +94,7 @@ Eigen::Vector4d corner_pressure(const std::vector<double>& pressure,
     const Eigen::Vector4d h(1.0, -1.0, 1.0, -1.0), p = corner_values(pressure, quad);
     const Corners dN =
         jacobian(x, Vec2::Zero()).inverse().transpose() * shape_gradients(Vec2::Zero());
-    // The amplitude of xi eta: h . p less what a linear field has of it on a skewed quad.
+    // Amplitude of xi eta: h . p minus the contribution of a linear field on a skewed quad.
     const double amplitude = 0.25 * (h.dot(p) - (x * h).dot(dN * p));
     return p - amplitude * h;
 }

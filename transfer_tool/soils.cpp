@@ -11,8 +11,7 @@ namespace {
 using exchange::MeshSnapshot;
 using exchange::StressMeasure;
 
-/// Index into the section's regions of each region of the mesh; faults where the scene does not
-/// fit.
+/// Section index of each region of the mesh; adds faults if the scene does not match.
 std::vector<std::size_t> match_regions(const MeshSnapshot& mesh, const scene::Scene& scene,
                                        std::vector<fault::Fault>& faults) {
     const std::string remedy = "use the scene that the snapshot was made with";
@@ -60,7 +59,7 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                           "give a snapshot of a FEM with pore water, or remove this part"});
 }
 
-/// [regions of the section] no element of the snapshot is of them.
+/// [regions of the section] without elements in the snapshot.
 std::vector<bool> regions_gone(const MeshSnapshot& mesh, const scene::Scene& scene) {
     std::vector<bool> there(mesh.regions.size(), false);
     for (const std::int32_t region : mesh.region_of_element) there[region] = true;

@@ -31,7 +31,7 @@ std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
                               zone.closed_width(), zone.gaps()};
 }
 
-/// Of the mesh's lowest node, the leftmost of them where several lie as low [m].
+/// Displacement of the mesh's lowest node, the leftmost of several [m].
 double displacement_of_base(const exchange::MeshSnapshot& mesh) {
     const auto lower = [](const mechanics::Vec2& a, const mechanics::Vec2& b) {
         return std::pair(a.y(), a.x()) < std::pair(b.y(), b.x());

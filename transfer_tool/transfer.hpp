@@ -1,4 +1,4 @@
-// Converts a FEM snapshot to material points: the steps in order. No files here.
+// Converts a FEM snapshot to material points, step by step, without files.
 #pragma once
 
 #include <optional>
@@ -13,10 +13,10 @@ namespace breach::transfer {
 
 /// The liquefied zone of a transfer.
 struct LiquefactionReport {
-    scene::LiquefiedWhen when;  ///< at_transfer too if the snapshot stores no earlier maximum
+    scene::LiquefiedWhen when;  ///< at_transfer too if the snapshot has no earlier maximum
     std::size_t nodes;          ///< liquefied
-    double deepest_level;       ///< of them, undeformed [m]; +infinity: none
-    double closed_width;        ///< of walls too narrow to stay [m]
+    double deepest_level;       ///< of the liquefied nodes, undeformed [m]; +infinity: none
+    double closed_width;        ///< of walls that were too narrow [m]
     std::vector<LiquefiedGap> gaps;
 };
 
@@ -25,10 +25,10 @@ struct LeftOut {
     std::size_t points = 0;
     double mass = 0.0;               ///< [kg]
     double largest_epsilon_q = 0.0;  ///< [-]
-    mechanics::Vec2 place{};         ///< of the most strained [m]
+    mechanics::Vec2 place{};         ///< of the largest strain [m]
 };
 
-/// Throws BadInput if a failing part is left out.
+/// Throws BadInput if a part of the failing soil is left out.
 void refuse_cut(const LeftOut& out);
 
 struct Transferred {
@@ -44,13 +44,12 @@ struct Transferred {
     GaussFieldReport gauss_fields;
     YieldReport yield;
     std::optional<RoundTrip> round_trip;
-    double base_displacement = 0.0;  ///< that was subtracted [m]
+    double base_displacement = 0.0;  ///< subtracted [m]
     std::optional<LeftOut> left_out;
 };
 
-/// `file` is named in messages. Nothing: the watch stopped it. Throws Breakdown when the mesh is
-/// entangled, BadInput when mesh and scene do not fit. The caller checks the ledger
-/// (refuse_losses).
+/// `file`: for messages. None if stopped by the watch. Throws Breakdown if the mesh is entangled,
+/// BadInput if mesh and scene do not match. The caller checks the ledger (refuse_losses).
 std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
                                     const Work& work, const std::string& file);
 

@@ -6,7 +6,7 @@
 namespace breach::transfer {
 
 struct Watch {
-    /// Takes the share that is done, in [0, 1]; false: stop. Called on one thread only.
+    /// Gets the completed share, in [0, 1]; returns false to stop. Called by one thread only.
     std::function<bool(double)> go_on = [](double) { return true; };
 };
 

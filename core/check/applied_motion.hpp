@@ -7,9 +7,9 @@
 
 namespace breach::check {
 
-/// Corrected and scaled where requested and possible: an acceleration.
+/// Baseline-corrected and scaled as the scene requests; a velocity record becomes an acceleration.
 motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording);
-/// The same from the file: an acceleration or a velocity. Throws as motion::read_motion does.
+/// The same from the scene's motion file. Throws as motion::read_motion does.
 motion::Recording applied_motion(const scene::BaseMotion& wanted);
 
 }  // namespace breach::check

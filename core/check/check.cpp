@@ -17,7 +17,7 @@ Findings findings_of(const scene::Scene& scene) {
 
 Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
     Findings findings;
-    if (!has_soil(scene)) return findings;  // the reader has said why
+    if (!has_soil(scene)) return findings;  // the reader has already reported that
     check_geometry(scene, findings);
     if (scene.lem) check_stability(scene, findings);
     if (scene.fem) {
@@ -33,7 +33,8 @@ Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
     return findings;
 }
 
-/// A model of 10 cm has cells of millimetres: cells that fit the section are no slip of the unit.
+/// Drops unit warnings about small cells that suit the section: a model of 10 cm has cells of
+/// millimetres.
 static void drop_warnings_of_fitting_cells(scene::Scene& scene) {
     if (!scene.mpm || !has_soil(scene)) return;
     const double h = scene.mpm->cell_size, cells = scene::area_of_section(scene) / (h * h);

@@ -1,5 +1,5 @@
-// Everything wrong with a scene that can be found before a run: in the scene itself and in the files
-// that it names, for every phase in it. Needs no mesh nodes and no results.
+// All faults of a scene that can be found before a run, in the scene and in the files that it
+// names, for every phase. Needs no mesh nodes and no results.
 #pragma once
 
 #include <filesystem>
@@ -21,24 +21,24 @@ struct Findings {
     std::vector<fault::Flag> warnings;  ///< it can run, but is probably not what was meant
 };
 
-/// The scene as scene::Reading has it, whole or without its faulty parts. Reads the motion
-/// and looks into the mesh file; a few milliseconds.
+/// Checks a complete scene, or the valid parts of a faulty one (scene::Reading). Reads the motion
+/// and the head of the mesh file; takes a few milliseconds.
 Findings findings_of(const scene::Scene& scene);
-/// The same for one of many scenes: a motion that an earlier one named is not read again.
+/// The same for one of many scenes: reads each motion file once.
 Findings findings_of(const scene::Scene& scene, Recordings& recordings);
 
-/// The reader's faults and the findings in one.
+/// A scene with the faults of its reader and of the checks.
 struct Checked {
-    scene::Scene scene;  ///< its warnings hold the findings'; of use only when there are no faults
+    scene::Scene scene;  ///< its warnings include those of the findings; use only without faults
     std::vector<fault::Fault> faults;
-    nlohmann::json completed;  ///< with every default filled in; of use only without faults
+    nlohmann::json completed;  ///< with all defaults; use only without faults
 };
-/// As scene::parse_scene takes it. Throws BadInput only where the text is no JSON object.
+/// Arguments of scene::parse_scene. Throws BadInput only if the text is no JSON object.
 Checked checked_text(std::string_view text, const std::string& name,
                      const std::filesystem::path& folder,
                      const std::vector<std::string>& overrides);
 
-/// The same of a document that was parsed already.
+/// The same for a parsed document.
 Checked checked_document(nlohmann::json document, const std::string& name,
                          const std::filesystem::path& folder,
                          const std::vector<std::string>& overrides, Recordings& recordings);
@@ -46,8 +46,8 @@ Checked checked_document(nlohmann::json document, const std::string& name,
                          const std::filesystem::path& folder,
                          const std::vector<std::string>& overrides);
 
-/// scene::read_scene with the findings: throws BadInput with every fault of both, IoError if the
-/// file cannot be read.
+/// scene::read_scene and the checks: throws BadInput with all faults of both, IoError if the file
+/// cannot be read.
 scene::Scene checked_scene(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides);
 

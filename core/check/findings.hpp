@@ -1,5 +1,5 @@
-// Inside core/check only: the checks by subject, and how they report findings. Each takes a scene
-// that may be incomplete: absent parts, regions without polygon or material.
+// Inside core/check only: the checks by subject. Each accepts an incomplete scene: absent parts,
+// regions without polygon or material.
 #pragma once
 
 #include <string>
@@ -17,38 +17,41 @@ inline void warn(Findings& findings, std::string code, std::string pointer, std:
         {std::move(code), fault::Severity::warning, std::move(message), std::move(pointer)});
 }
 
-/// Refuses a range of x that lies beside the section; false then.
+/// Adds a fault and returns false if the range of x lies outside the section.
 bool check_beside(const scene::Scene& scene, double from, double to, const std::string& pointer,
                   Findings& findings);
 
-/// At least one region has a polygon.
 bool has_soil(const scene::Scene& scene);
 
 /// Gaps and slivers between regions.
 void check_geometry(const scene::Scene& scene, Findings& findings);
-/// /lem: ground under every slice, ends of the surfaces, loads and layers where there is soil.
+/// /lem: ground under every slice, ends of the slip surfaces, loads and layers within the section.
 void check_stability(const scene::Scene& scene, Findings& findings);
-/// /fem: requirements of the laws on the stages and on the mesh file.
+/// /fem: what the laws require of the stages and of the mesh file.
 void check_stages(const scene::Scene& scene, Findings& findings);
 /// /fem: supports, the edges that base and free-field columns need, the crest.
 void check_supports(const scene::Scene& scene, Findings& findings);
-/// A water table is drawn over the section and reaches some soil; false: it is refused.
+/// Adds a fault and returns false unless the water table overlaps the section and lies above some
+/// soil.
 bool check_table(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
                  const std::string& pointer, Findings& findings);
-/// Beyond its ends a line continues level: warns where it is then above ground, as undrawn water.
+/// A line continues level beyond its ends. Warns where that continuation is above ground: it would
+/// be free water that the user did not draw.
 void warn_about_ends(const scene::Scene& scene, const std::vector<scene::Vec2>& line,
                      const std::string& pointer, Findings& findings);
-/// /fem/water: what is wet, what wet soil needs, boundaries of pressure, the liquefaction watch.
+/// /fem/water: saturated regions and the entries that they need, pressure boundaries, the
+/// liquefaction watch.
 void check_water(const scene::Scene& scene, Findings& findings);
-/// /fem/motion: the file and what is in it.
+/// /fem/motion: the file and its contents.
 void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& findings);
-/// Strengths of one soil that differ between phases, and relations outside their range.
+/// Warns of strengths of one soil that differ between phases, and of relations used outside their
+/// range.
 void check_strengths(const scene::Scene& scene, Findings& findings);
-/// Laws that points can have, for the transfer and the MPM.
+/// Laws of the transfer's and the MPM's material points.
 void check_soils(const scene::Scene& scene, Findings& findings);
-/// /transfer: what it needs from the FEM, and its window.
+/// /transfer: the FEM entries that it needs, and its window.
 void check_transfer(const scene::Scene& scene, Findings& findings);
-/// /mpm: the section between terrain, walls and lid of the grid; the toe.
+/// /mpm: the section inside the grid's terrain, walls and lid; the toe.
 void check_ground(const scene::Scene& scene, Findings& findings);
 
 }  // namespace breach::check

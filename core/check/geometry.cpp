@@ -10,11 +10,11 @@ namespace breach::check {
 namespace {
 
 constexpr double nearly_parallel = 0.94;  // cosine of 20 degrees
-constexpr double slit = 0.25;             // width over length: wider ones are valleys
+constexpr double slit = 0.25;             // largest width over length; wider gaps are valleys
 constexpr double short_side = 0.05;       // of an element
 
-/// Widths between these are gaps that nobody meant: below, the phases see none; above, it is a
-/// valley.
+/// Widths of unintended gaps between regions: smaller ones do not exist for the meshers, larger
+/// ones are valleys.
 struct GapRange {
     double least, largest;
 };
@@ -40,10 +40,10 @@ GapRange gap_range(const scene::Scene& scene, const scene::Region& a, const scen
 
 struct Gap {
     double width;
-    Vec2 from, to;  ///< where it is widest: of one region, and its foot on the other
+    Vec2 from, to;  ///< widest place: on one region, and its foot on the other
 };
 
-/// Air between two sides that face each other, nearly parallel.
+/// The gap between two nearly parallel sides that face each other.
 std::optional<Gap> gap_between(const scene::Scene& scene, const Side& one, const Side& other) {
     const Vec2 along = (one.b - one.a).normalized();
     const Vec2 back = (other.a - other.b).normalized();

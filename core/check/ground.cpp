@@ -12,11 +12,12 @@ namespace breach::check {
 
 namespace {
 
-/// Soil that the terrain cuts through would begin inside it.
+/// Refuses terrain that cuts through the section: that soil would start inside the terrain.
 void check_terrain(const scene::Scene& scene, Findings& findings) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.terrain.empty()) return;
-    const double allowed = 0.05 * mpm.cell_size;  // a drawing's inaccuracy: no point lies so deep
+    // inaccuracy of a drawing: no material point is that deep
+    const double allowed = 0.05 * mpm.cell_size;
     for (const scene::Region& region : scene.section.regions) {
         if (region.polygon.empty()) continue;
         const Depth deepest = deepest_below(region.polygon, mpm.terrain, straight_level_at);
@@ -29,10 +30,10 @@ void check_terrain(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// Where the section hangs above what should carry it: it falls as far before it flows.
+/// Where the section is above terrain or floor: its soil falls freely before it flows.
 struct Clearance {
-    double size = 0.0;  ///< largest [m]
-    double x = 0.0;     ///< of the largest [m]
+    double size = 0.0;  ///< maximum [m]
+    double x = 0.0;     ///< x of the maximum [m]
     double from = std::numeric_limits<double>::infinity();
     double to = -std::numeric_limits<double>::infinity();
 };
@@ -84,7 +85,7 @@ void check_support(const scene::Scene& scene, Findings& findings) {
              ", or draw the soil that fills the gap");
 }
 
-/// Soil that is too soft for its own flow is compressed by it.
+/// Flags stiffness so low that the flow compresses the soil.
 void check_stiffness(const scene::Scene& scene, Findings& findings) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.stiffness_scale == 1.0) return;
@@ -113,8 +114,8 @@ void check_toe(const scene::Scene& scene, Findings& findings) {
                    " to " + metres(mpm.domain_y[1]));
 }
 
-/// A FEM holds its section at the upstream end, where the soil goes on; the MPM's wall holds it only where it
-/// stands against it.
+/// Warns of an upstream face that is held in the FEM and free in the MPM: the MPM's wall supports
+/// the soil only if it touches it.
 void check_upstream_end(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem) return;
     const scene::Mpm& mpm = *scene.mpm;

@@ -8,7 +8,7 @@ namespace breach::check {
 
 namespace {
 
-/// By what the FEM takes: the runout may take another law for the same soil.
+/// Tests the laws that the FEM uses; the MPM may use others for the same soil.
 bool some_soil(const scene::Scene& scene, bool (*is)(const materials::Law&)) {
     return std::ranges::any_of(scene.section.regions, [&](const scene::Region& region) {
         const scene::Material* material = material_of(scene, region);

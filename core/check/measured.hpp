@@ -1,5 +1,5 @@
-// Which telemetry columns the FEM of a scene measures. Others are not written, so a condition on one
-// of them would never be true.
+// Telemetry columns that the FEM of a scene measures. A condition on an unmeasured column would
+// never be true.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct NotMeasured {
     const char* remedy;
 };
 
-/// Why the column is not measured; nothing: it is. The scene has /fem.
+/// Why the FEM does not measure the column; none: it does. The scene must have /fem.
 std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry::Needs needs);
 
 /// One fault at `pointer` for each field of a condition that the scene's FEM does not measure.

@@ -27,7 +27,7 @@ std::set<std::string> surface_names(std::istream& in) {
 
 MeshHead read_mesh_head(const std::filesystem::path& file) {
     std::ifstream in;
-    std::error_code error;  // a device or a pipe never ends
+    std::error_code error;  // excludes devices and pipes
     if (std::filesystem::is_regular_file(file, error)) in.open(file);
     if (!in.is_open()) {
         const bool exists = std::filesystem::exists(file, error);

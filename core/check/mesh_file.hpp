@@ -1,5 +1,4 @@
-// The head of a mesh file, before its nodes: its format, to know whether the FEM can read it,
-// and its surfaces. fem_solver reads the rest.
+// The head of a mesh file, before its nodes: format and surfaces. fem_solver reads the rest.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +12,8 @@ struct MeshHead {
     std::set<std::string> surfaces;  ///< names of its physical surfaces
 };
 
-/// Throws IoError when there is no such file or it cannot be opened; BadInput when it is no gmsh text
-/// mesh of a supported format.
+/// Throws IoError if the file cannot be opened, BadInput if it is no gmsh text mesh of a supported
+/// format.
 MeshHead read_mesh_head(const std::filesystem::path& file);
 
 }  // namespace breach::check

@@ -19,7 +19,7 @@ constexpr const char* file_pointer = "/fem/motion/file";
 std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Recordings& recordings,
                                       Findings& findings) {
     const std::string file = wanted.file.string();
-    std::error_code ignored;  // a path longer than one can be does not exist
+    std::error_code ignored;  // an overlong path counts as missing
     if (!std::filesystem::exists(wanted.file, ignored)) {
         refuse(findings, file_pointer, "does not exist: " + file,
                "give a path relative to the scene file, or the absolute path on the machine that "
@@ -40,7 +40,7 @@ std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Recording
     return std::nullopt;
 }
 
-/// What cannot be done with this kind of recording.
+/// Refuses operations that this kind of recording does not allow.
 void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& findings) {
     if (quantity == Quantity::displacement)
         refuse(findings, file_pointer, "is a displacement",
@@ -62,7 +62,7 @@ double dynamic_duration(const scene::Fem& fem) {
     return sum;
 }
 
-/// Steps of an analysis that pass over the motion's samples.
+/// Warns of time steps that skip samples of the motion.
 void check_steps(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         if (fem.stages[i].kind != scene::StageKind::dynamic) continue;
@@ -72,7 +72,7 @@ void check_steps(const scene::Fem& fem, const motion::Series& series, Findings& 
     }
 }
 
-/// Stages that end before most of the shaking has come.
+/// Warns of stages that end before most of the shaking.
 void check_length(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
     const double end = dynamic_duration(fem);
     motion::Series felt = acceleration;
@@ -86,8 +86,8 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
                  text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
 }
 
-/// Damping that is given at a frequency which the motion does not have damps the others by another
-/// ratio.
+/// Warns of damping given at a frequency outside the motion's band: other frequencies have other
+/// ratios.
 void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
     if (!fem.damping_frequency) return;
     const motion::Band band = motion::band(acceleration);

@@ -1,5 +1,4 @@
-// Cache of motions: the scenes of one study often name the same file, which is read
-// once. Thread-safe.
+// Cache of motions: reads a file that several scenes of a study name once. Thread-safe.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +11,7 @@ namespace breach::check {
 
 class Recordings {
   public:
-    /// Throws as motion::read_motion does; a file that could not be read is tried again next time.
+    /// Throws as motion::read_motion does; a failed read is not cached.
     motion::Recording of(const std::filesystem::path& file);
 
   private:

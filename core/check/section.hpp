@@ -26,7 +26,7 @@ using geometry::strata_at;
 using geometry::Stratum;
 using scene::Vec2;
 
-/// "12.4", "(3, -5)": a number as the scene would write it.
+/// "12.4", "(3, -5)": written as in a scene.
 std::string text(double value);
 std::string text(const Vec2& point);
 std::string metres(double value);
@@ -36,10 +36,10 @@ std::string reach_of_ground(const scene::Scene& scene);
 
 std::string region_pointer(std::size_t region, const std::string& below = "");
 
-/// The region's material; null when the scene does not have it.
+/// The region's material; null if the scene does not define it.
 const scene::Material* material_of(const scene::Scene& scene, const scene::Region& region);
 
-/// Edge length of the region's elements as the scene gives it; for a block from its area [m].
+/// Edge length of the region's elements [m]: sqrt(area / elements) of a block, else element_size.
 double element_size(const scene::Region& region);
 double least_element_size(const scene::Scene& scene);
 double largest_element_size(const scene::Scene& scene);

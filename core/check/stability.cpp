@@ -10,9 +10,10 @@ namespace breach::check {
 
 namespace {
 
-constexpr double gap_share = 1e-3;  // of the section's height: thinner is a drawing's inaccuracy
+// of the section's height; thinner gaps are inaccuracies of a drawing
+constexpr double gap_share = 1e-3;
 
-/// Vertical slices need ground without holes below it.
+/// Refuses holes below the ground: slices are vertical.
 bool check_slices(const scene::Scene& scene, Findings& findings) {
     const geometry::Box box = extent(scene.section);
     const double allowed = gap_share * (box.high.y() - box.low.y());
@@ -44,10 +45,10 @@ bool check_slices(const scene::Scene& scene, Findings& findings) {
     return true;
 }
 
-/// A range of x of which some lies over the section.
+/// Refuses an x range outside the section.
 bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
                  const std::string& pointer, Findings& findings) {
-    if (range[0] > range[1]) return false;  // core/scene has refused it
+    if (range[0] > range[1]) return false;  // reported by core/scene
     if (!check_beside(scene, range[0], range[1], pointer, findings)) return false;
     if (const geometry::Levels over = ground_over(scene.section, range[0], range[1]);
         over.highest < over.lowest) {
@@ -88,7 +89,7 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
                "give a depth within the section");
 }
 
-/// A crack cannot be deeper than the section, and begins in its ground.
+/// The crack must not be deeper than the section and must start in its ground.
 void check_crack(const scene::Scene& scene, const scene::TensionCrack& crack, Findings& findings) {
     const geometry::Box box = extent(scene.section);
     const std::string remedy =
@@ -140,7 +141,7 @@ void check_loads(const scene::Scene& scene, Findings& findings) {
                     "/lem/line_loads/" + std::to_string(i) + "/x", findings);
 }
 
-/// Every layer that liquefies is a part of its region, and no two are the same soil.
+/// Every layer must be part of its region, and no two may overlap.
 void check_layers(const scene::Scene& scene, Findings& findings) {
     const auto& layers = scene.lem->liquefaction;
     for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -169,14 +170,14 @@ void check_layers(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// Levels of a layer, as far as its region reaches.
+/// Range of y of a layer within its region.
 std::array<double, 2> levels_of(const scene::Scene& scene, const scene::UndrainedRegion& layer) {
     const geometry::Box box = geometry::bounding_box(scene.section.regions[layer.region].polygon);
     if (!layer.levels) return {box.low.y(), box.high.y()};
     return {std::max(box.low.y(), (*layer.levels)[0]), std::min(box.high.y(), (*layer.levels)[1])};
 }
 
-/// What of a layer lies over x, from the top down.
+/// The layer's soil at x, from the top down.
 std::vector<Stratum> parts_at(const scene::Scene& scene, const scene::UndrainedRegion& layer,
                               double x) {
     const auto [low, high] = levels_of(scene, layer);
@@ -190,7 +191,7 @@ std::vector<Stratum> parts_at(const scene::Scene& scene, const scene::UndrainedR
     return parts;
 }
 
-/// Somewhere the one lies on the other.
+/// Whether one layer lies on the other anywhere.
 bool lies_on(const scene::Scene& scene, const scene::UndrainedRegion& upper,
              const scene::UndrainedRegion& lower) {
     const std::vector<double> xs = abscissae(scene.section);
@@ -205,8 +206,8 @@ bool lies_on(const scene::Scene& scene, const scene::UndrainedRegion& upper,
     return false;
 }
 
-/// Depths of the stages are counted from the top of the first layer downwards, and so is what triggers
-/// compare them with.
+/// Layers must be listed from the top down: stages and triggers count depths from the top of the
+/// first one.
 void check_order(const scene::Scene& scene, Findings& findings) {
     const auto& layers = scene.lem->liquefaction;
     const auto& regions = scene.section.regions;
@@ -236,7 +237,7 @@ void check_order(const scene::Scene& scene, Findings& findings) {
                  ": a trigger that compares them fires at another depth than it says");
 }
 
-/// Some entry of /lem says where water stands in it.
+/// Whether /lem has water in the region.
 bool may_be_wet(const scene::Lem& lem, std::size_t region) {
     const auto reaches = [&](const scene::Water& line) {
         return std::ranges::count(line.regions, region) > 0;
@@ -252,7 +253,7 @@ bool has_water(const scene::Lem& lem) {
     return lem.water || !lem.piezometric_lines.empty() || !lem.pore_pressure_ratios.empty();
 }
 
-/// Soil that fails undrained has a strength to do so with; one by state needs water that holds its volume.
+/// Soil that fails undrained needs an undrained strength; strength by state needs water.
 void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     const auto refuse_dry = [&](const scene::UndrainedRegion& each, const std::string& pointer,
@@ -304,7 +305,7 @@ void check_tables(const scene::Scene& scene, Findings& findings) {
                         "/lem/piezometric_lines/" + std::to_string(i) + "/line", findings);
 }
 
-/// The other phases know nothing of weight that has not consolidated the soil below.
+/// Warns that only the lem excludes weight that has not consolidated the soil.
 void warn_about_unconsolidated(const scene::Scene& scene, Findings& findings) {
     if (scene.lem->unconsolidated.empty() || !(scene.mpm || scene.fem)) return;
     for (const scene::Material& each : scene.materials) {
@@ -346,7 +347,7 @@ void check_stability(const scene::Scene& scene, Findings& findings) {
     check_tables(scene, findings);
     warn_about_unconsolidated(scene, findings);
     check_loads(scene, findings);
-    if (!check_slices(scene, findings)) return;  // no ground to ask for
+    if (!check_slices(scene, findings)) return;  // without ground the other checks are meaningless
     if (lem.search) check_search(scene, *lem.search, findings);
     if (lem.circle) check_circle(scene, *lem.circle, findings);
     if (lem.tension_crack) check_crack(scene, *lem.tension_crack, findings);

@@ -8,7 +8,7 @@ namespace breach::check {
 
 namespace {
 
-/// Of a law of the regions whose points remember more than State; null: there is none.
+/// Type of a law whose points have a memory, among the regions; null: none.
 const char* name_of_law_with_memory(const scene::Scene& scene) {
     for (const scene::Region& region : scene.section.regions) {
         const scene::Material* material = material_of(scene, region);
@@ -18,7 +18,7 @@ const char* name_of_law_with_memory(const scene::Scene& scene) {
     return nullptr;
 }
 
-/// An elastic stage would lose what points remember.
+/// Refuses an elastic stage after the law has begun: the memory of points would be lost.
 void check_memory(const scene::Scene& scene, const std::string& law, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
     bool began = false;
@@ -32,7 +32,7 @@ void check_memory(const scene::Scene& scene, const std::string& law, Findings& f
     }
 }
 
-/// What changes the body in a dynamic stage comes as a blow unless it is given time.
+/// Warns of sudden changes in a dynamic stage: without a ramp they act as an impact.
 void warn_about_blows(const scene::Fem& fem, Findings& findings) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const scene::Stage& stage = fem.stages[i];
@@ -46,8 +46,7 @@ void warn_about_blows(const scene::Fem& fem, Findings& findings) {
 }
 
 constexpr const char* mesh_pointer = "/fem/msh_file";
-/// The head of the mesh file: its format, and a surface for every region. Nodes and elements are
-/// read when it is used.
+/// Checks the head of the mesh file: its format, and a surface for every region.
 void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& file,
                      Findings& findings) {
     MeshHead head;
@@ -72,13 +71,12 @@ void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& fil
     }
 }
 
-/// Where a stage that moves the water says so.
+/// Entry of a stage that changes the water.
 std::string moved_water_of(const scene::Stage& stage, const std::string& pointer) {
     return pointer + (stage.phreatic_line ? "/phreatic_line" : "/water_boundaries");
 }
 
-/// Undrained stages: there is water, it was at rest before, and nothing begins or moves in them that
-/// needs drainage.
+/// Undrained stages need water at rest before them, and no changes that need drainage.
 void check_undrained(const scene::Scene& scene, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
     const bool remembers = name_of_law_with_memory(scene) != nullptr;
@@ -106,7 +104,7 @@ void check_undrained(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// Softening by region belongs to laws with a state parameter.
+/// Softening by region needs a law with a state parameter.
 void check_softening(const scene::Scene& scene, const scene::Stage& stage,
                      const std::string& pointer, Findings& findings) {
     for (std::size_t r = 0; r < stage.S_of_region.size(); ++r) {
@@ -121,7 +119,7 @@ void check_softening(const scene::Scene& scene, const scene::Stage& stage,
     }
 }
 
-/// S is what undrained soil is weaker by: soil that drains has no reason to soften so.
+/// Warns of S in a stage with drainage: S is the additional softening of undrained soil.
 void check_drained_softening(const scene::Scene& scene, const scene::Stage& stage,
                              const std::string& pointer, Findings& findings) {
     if (stage.kind != scene::StageKind::static_equilibrium) return;
@@ -141,7 +139,7 @@ void check_drained_softening(const scene::Scene& scene, const scene::Stage& stag
     }
 }
 
-/// Regions come and go once each, in an order that can be; what cannot change says so.
+/// Each region may be placed and removed once, in a possible order.
 void check_changes(const scene::Scene& scene, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
     if (!fem.changes_the_body()) return;

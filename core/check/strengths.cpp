@@ -1,5 +1,5 @@
-// Strength profiles against each other, against the entries that phases have of their own, and
-// against the ranges of their relations.
+// Compares strength profiles with each other, with strengths given for single phases, and with the
+// ranges of their relations.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,17 +19,17 @@ namespace {
 using materials::Place;
 using materials::StrengthCurve;
 
-/// Closer than this is one strength: of the shear strength, averaged over a region [-].
+/// Relative difference of mean shear strengths that counts as equal [-].
 constexpr double same = 0.05;
 constexpr double least_difference = 100.0;  // Pa
 
-/// What the shear strength of soil may be at a place [Pa]: one number, or what softening spans.
+/// Range of the shear strength at a place [Pa], from residual to peak.
 struct Shear {
     double low, high;
     bool undrained;
 };
 
-/// One entry of the scene that says how strong a region's soil is, for some phase.
+/// A strength of a region's soil for one phase, and its scene entry.
 struct View {
     std::string phase;
     std::string pointer;
@@ -59,7 +59,7 @@ View view_of(std::string pointer, const scene::UndrainedRegion& entry) {
     return {"LEM", std::move(pointer), [&entry](const Place& place) -> std::optional<Shear> {
                 const bool beside = entry.levels && (place.elevation < (*entry.levels)[0] ||
                                                      place.elevation >= (*entry.levels)[1]);
-                if (beside || entry.strength.on_path) return std::nullopt;  // the law's own
+                if (beside || entry.strength.on_path) return std::nullopt;  // by the law
                 const scene::UndrainedStrength& s = entry.strength;
                 const double s_u =
                     s.constant + s.coefficient * std::pow(std::max(place.sigma_v0, 0.0) /
@@ -129,7 +129,7 @@ class Region {
                                                   &scene::LiquefiedLayer::material) > 0;
     }
 
-    /// Materials of this soil that have a profile, each once.
+    /// Profiles of the region's materials, each once.
     std::vector<const scene::Material*> profiles() const {
         std::vector<const scene::Material*> found;
         if (own_.strength) found.push_back(&own_);
@@ -187,10 +187,10 @@ class Region {
     const scene::Scene& scene_;
     std::size_t region_;
     const scene::Material& own_;
-    std::vector<const scene::Material*> points_;  ///< what its soil is in the MPM, unliquefied
+    std::vector<const scene::Material*> points_;  ///< materials of its unliquefied soil in the MPM
 };
 
-/// A few places all over a region.
+/// Sample places over a region.
 std::vector<Place> places_in(const scene::Scene& scene, const scene::Ground& ground,
                              std::size_t region) {
     constexpr int along = 6;
@@ -209,8 +209,8 @@ std::vector<Place> places_in(const scene::Scene& scene, const scene::Ground& gro
 
 std::string kilopascals(double stress) { return text(std::round(stress / 100.0) / 10.0) + " kPa"; }
 
-/// Mean shear strengths of two views over the places that both know; nothing where they are not of
-/// one kind.
+/// Mean shear strengths of two entries, over the places where both are defined; none if one is
+/// drained and the other undrained.
 struct Means {
     Shear a{0.0, 0.0, true}, b{0.0, 0.0, true};
 };
@@ -275,7 +275,7 @@ void check_relation(const materials::BySounding& by, const std::string& pointer,
                  "): the relation is extrapolated there");
 }
 
-/// A residual strength that is more than the peak would harden.
+/// Refuses a residual strength above the peak.
 void check_fall(const scene::Material& soil, const std::vector<Place>& places, Findings& findings) {
     double peak = 0.0;
     double residual = 0.0;
@@ -291,7 +291,7 @@ void check_fall(const scene::Material& soil, const std::vector<Place>& places, F
            "soil softens, it does not harden: lower the residual, or raise the peak");
 }
 
-/// Mean shear strength of a view over the places that it knows; nothing where it knows none [Pa].
+/// Mean shear strength over the places where it is defined [Pa]; none if there is none.
 std::optional<double> mean_of(const View& view, const std::vector<Place>& places) {
     double sum = 0.0, n = 0.0;
     for (const Place& place : places)
@@ -299,7 +299,7 @@ std::optional<double> mean_of(const View& view, const std::vector<Place>& places
     return n > 0.0 ? std::optional(sum / n) : std::nullopt;
 }
 
-/// Residual strengths that entries of the phases give, against the peak that the region has before.
+/// Warns of residual strengths of single phases above the region's peak.
 void warn_about_residuals(const Region& region, const std::string& name,
                           const std::vector<Place>& places, Findings& findings) {
     const std::vector<View> peaks = region.peaks();
@@ -309,7 +309,7 @@ void warn_about_residuals(const Region& region, const std::string& name,
         const auto left = mean_of(residual, places);
         if (!peak || !left || *left <= *peak * (1.0 + same) || *left - *peak < least_difference)
             continue;
-        if (residual.phase == "profile") continue;  // check_fall refuses it
+        if (residual.phase == "profile") continue;  // reported by check_fall
         warn(findings, "implausible", residual.pointer,
              "the residual strength of \"" + name + "\" is above its peak: " + kilopascals(*left) +
                  " against " + kilopascals(*peak) + " by " + peaks.front().pointer +
@@ -318,7 +318,7 @@ void warn_about_residuals(const Region& region, const std::string& name,
     }
 }
 
-/// A cohesion that would be a friction angle, and the other way round.
+/// Warns of a cohesion that looks like a friction angle, or the reverse.
 void warn_about_swapped(const scene::Material& soil, Findings& findings) {
     const auto look = [&](double c_Pa, double phi_rad, const char* entry) {
         const double c = c_Pa / 1e3, phi = phi_rad * 180.0 / std::numbers::pi;
@@ -345,7 +345,7 @@ bool asks_for_stress(const scene::Material& soil) {
             (soil.strength->residual && materials::needs_stress(*soil.strength->residual)));
 }
 
-/// The FEM has one strength per material.
+/// The FEM uses one strength per material.
 void check_fem(const scene::Scene& scene, Findings& findings) {
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Material& soil = scene.materials[scene.section.regions[r].material];

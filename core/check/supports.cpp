@@ -9,7 +9,7 @@ namespace breach::check {
 
 namespace {
 
-/// Regions that touch each other, directly or through others, have the same number.
+/// Number of the connected body of each region.
 std::vector<std::size_t> bodies_of(const scene::Scene& scene, double tolerance) {
     const auto& regions = scene.section.regions;
     std::vector<std::size_t> body(regions.size());
@@ -31,7 +31,7 @@ std::vector<std::size_t> bodies_of(const scene::Scene& scene, double tolerance) 
     return body;
 }
 
-/// Which body the segment touches; regions.size() when none.
+/// [bodies] whether the segment touches them.
 std::vector<bool> bodies_touched(const scene::Scene& scene, const std::vector<std::size_t>& body,
                                  const Side& segment, double tolerance) {
     std::vector<bool> touched(body.size(), false);
@@ -105,7 +105,7 @@ double length_of_lowest_sides(const scene::Scene& scene, double tolerance) {
     return length_on_sides(scene, {low, {high.x(), low.y()}}, tolerance);
 }
 
-/// The dashpots stand on the edges of the lowest level.
+/// The base needs horizontal edges at the lowest level, for its dashpots.
 void check_base(const scene::Scene& scene, double tolerance, Findings& findings) {
     if (!scene.fem->base) return;
     const geometry::Box box = extent(scene.section);
@@ -122,7 +122,7 @@ void check_base(const scene::Scene& scene, double tolerance, Findings& findings)
              cause + ": the rest moves without rock below; " + remedy);
 }
 
-/// A section that was made longer, and its support was not.
+/// Warns of a base whose support ends before the section does: lengthened without it.
 void warn_of_unheld_base(const scene::Scene& scene, double tolerance, Findings& findings) {
     const double level = extent(scene.section).low.y();
     const double length = length_of_lowest_sides(scene, tolerance);
@@ -159,7 +159,7 @@ void check_crest(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// A long segment that runs along no side was meant to.
+/// Warns of a long segment along no side of a region.
 void warn_if_hardly_held(const scene::Scene& scene, std::size_t index, double tolerance,
                          Findings& findings) {
     const scene::Support& support = scene.fem->supports[index];
@@ -178,7 +178,7 @@ void warn_if_hardly_held(const scene::Scene& scene, std::size_t index, double to
 void check_supports(const scene::Scene& scene, Findings& findings) {
     const double tolerance = 1e-6 * least_element_size(scene);
     check_crest(scene, findings);
-    if (scene.fem->mesh.msh_file) return;  // its own edges count, not the drawn ones
+    if (scene.fem->mesh.msh_file) return;  // a mesh file has edges of its own
     bool missed = false;
     for (std::size_t i = 0; i < scene.fem->supports.size(); ++i) {
         const scene::Support& support = scene.fem->supports[i];

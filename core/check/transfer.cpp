@@ -37,7 +37,7 @@ void check_window(const scene::Scene& scene, Findings& findings) {
     look(window.upper, "/transfer/window/upper");
 }
 
-/// Points know one stress: beside an effective one the pore pressure would be lost.
+/// Effective stress without pore pressure is refused: material points would lose the pore pressure.
 void check_stress(const scene::Scene& scene, Findings& findings) {
     if (scene.transfer->stress != scene::TransferredStress::effective) return;
     if (!scene.mpm || !scene.fem || !scene.fem->water) return;
@@ -56,8 +56,8 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// Points that fill the section are of one material in each region; what a transfer would decide stays
-/// undecided.
+/// Points that fill the section have one material per region. Warns of entries that only a transfer
+/// applies.
 void warn_about_what_a_transfer_decides(const scene::Scene& scene, Findings& findings) {
     if (scene.fem || !scene.mpm) return;
     const scene::Transfer& transfer = *scene.transfer;
@@ -80,7 +80,7 @@ double tan_phi_of(const scene::Material& material) {
     return strength ? strength->tan_phi : 0.0;
 }
 
-/// The water table of a scene without FEM: all that the stability analysis or a mapping knows.
+/// The phreatic line of a scene without FEM, from /lem or the mapping.
 const std::vector<Vec2>* water_table_of(const scene::Scene& scene) {
     if (scene.transfer && !scene.transfer->phreatic_line.empty())
         return &scene.transfer->phreatic_line;
@@ -89,8 +89,8 @@ const std::vector<Vec2>* water_table_of(const scene::Scene& scene) {
     return everywhere ? &scene.lem->water->line : nullptr;
 }
 
-/// Points carry total stress: friction below the water table acts on water pressure, too, so slopes
-/// that fail by limit equilibrium may stand. After an FEM, liquefied soil is flagged instead.
+/// Warns of friction below the water table with total stress: the water pressure adds to it, so
+/// slopes that fail in limit equilibrium may stand. After a FEM, liquefied soil is flagged instead.
 void warn_about_friction_under_water(const scene::Scene& scene,
                                      const std::vector<scene::Soil>& soils, Findings& findings) {
     if (scene.fem) return;
@@ -116,7 +116,7 @@ void warn_about_friction_under_water(const scene::Scene& scene,
     }
 }
 
-/// Deepest water that stands on the ground [m].
+/// Largest depth of free water [m].
 double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
     const geometry::Box box = extent(scene.section);
     const double near = 1e-6 * (box.high.x() - box.low.x());
@@ -124,13 +124,13 @@ double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
     for (const Vec2& each : line) xs.push_back(each.x());
     double deepest = 0.0;
     for (const double at : xs)
-        for (const double x : {at - near, at + near})  // both heads of a vertical face
+        for (const double x : {at - near, at + near})  // top and bottom of a vertical face
             if (const double ground = ground_at(scene.section, x); std::isfinite(ground))
                 deepest = std::max(deepest, level_at(line, x) - ground);
     return deepest;
 }
 
-/// What lies on the ground in the FEM lies on it no longer in the runout.
+/// Warns of FEM loads that do not act in the runout.
 void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
     if (!scene.fem || !scene.mpm) return;
     const scene::Fem& fem = *scene.fem;
@@ -163,7 +163,7 @@ void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
     if (pond > shallow) tell("/fem/water/line", "free water up to " + metres(pond) + " deep");
 }
 
-/// Points keep the mass of the soil that they were.
+/// Warns of a mapping to a material of another density: points keep their mass.
 void warn_about_densities(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
                           Findings& findings) {
     std::vector<std::size_t> told;
@@ -184,7 +184,7 @@ void warn_about_densities(const scene::Scene& scene, const std::vector<scene::So
 }  // namespace
 
 void check_soils(const scene::Scene& scene, Findings& findings) {
-    // Every scene has a /transfer by default; whether points are meant, the MPM or a mapping says.
+    // /transfer always exists by default: the MPM or a mapping shows that points are used.
     if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     warn_about_friction_under_water(scene, soils, findings);

@@ -10,9 +10,9 @@ namespace {
 
 using scene::GroundWater;
 
-/// How far a region must reach below the line before some of its elements are wet for certain.
+/// Depth below the line from which some element of a region is certainly saturated [m].
 double certainly_wet(const GroundWater& water, const scene::Region& region) {
-    // "drained": one node below the line makes an element wet; "dry": its centre must be.
+    // "drained": one saturated node is enough; "dry": the centre must be below the line.
     return water.above == scene::AboveWater::dry ? element_size(region)
                                                  : 1e-6 * element_size(region);
 }
@@ -50,7 +50,7 @@ void check_boundaries(const scene::Scene& scene, const GroundWater& water, Findi
     }
 }
 
-/// Does some soil of the region lie between these abscissae?
+/// Whether the region has soil between these abscissae.
 bool lies_between(const scene::Region& region, const std::array<double, 2>& x) {
     if (region.polygon.empty()) return false;
     const geometry::Box box = geometry::bounding_box(region.polygon);
@@ -61,7 +61,7 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
     const scene::LiquefactionWatch& watch = *scene.fem->liquefaction;
     bool seen = false, wet = false;
     for (const std::size_t r : watch.regions) {
-        if (r >= scene.section.regions.size()) return;  // the reader has said so
+        if (r >= scene.section.regions.size()) return;  // reported by the reader
         const scene::Region& region = scene.section.regions[r];
         if (!lies_between(region, watch.x)) continue;
         seen = true;
@@ -80,13 +80,13 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-/// No stretch of the line lies over the section: it would be level there, at the height of an end.
+/// Whether the line lies beside the section: there it would be level, at the height of its end.
 bool is_beside(const scene::Scene& scene, const std::vector<Vec2>& line) {
     const geometry::Box box = extent(scene.section);
     return line.size() > 1 && (line.back().x() <= box.low.x() || line.front().x() >= box.high.x());
 }
 
-/// Lines of stages: within the soil that is there then.
+/// Water lines of stages: only within soil that exists in the stage.
 void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Findings& findings) {
     const auto& regions = scene.section.regions;
     for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {

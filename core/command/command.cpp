@@ -22,9 +22,9 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t most_bytes = 64 << 20;  // the queue of a busy cluster
+constexpr std::size_t most_bytes = 64 << 20;  // enough for the queue of a busy cluster
 
-/// A pipe whose ends do not leak into other children.
+/// A pipe that other child processes do not inherit.
 struct Pipe {
     std::array<int, 2> ends{-1, -1};
     Pipe() {
@@ -41,7 +41,7 @@ struct Pipe {
     }
 };
 
-/// In a process group of its own, so that what it starts can be ended with it.
+/// Starts the program in its own process group, to kill its children with it.
 pid_t start(std::vector<std::string>& words, const Pipe& in, const Pipe& out, const Pipe& err) {
     posix_spawn_file_actions_t actions{};
     posix_spawn_file_actions_init(&actions);
@@ -73,7 +73,7 @@ pid_t start(std::vector<std::string>& words, const Pipe& in, const Pipe& out, co
     return pid;
 }
 
-/// Reads what there is; closes the pipe at its end.
+/// Reads what is available; closes the pipe at its end.
 void drain(Pipe& pipe, short happened, std::string& text) {
     if ((happened & (POLLIN | POLLHUP | POLLERR)) == 0) return;
     std::array<char, 1 << 16> buffer{};
@@ -87,8 +87,8 @@ struct End {
     rusage spent{};
 };
 
-/// Waits until the process exits, or kills it and its children at the deadline: a process that has
-/// closed its output may still run without end.
+/// Waits for the process until the deadline, then kills its process group: a process that has
+/// closed its output may still run.
 End end_of(pid_t pid, Clock::time_point deadline) {
     constexpr auto pause = std::chrono::milliseconds(2);
     End end;
@@ -118,7 +118,7 @@ Result run(std::vector<std::string> words, const std::string& input,
     out.shut(1);
     err.shut(1);
     if (!input.empty() && write(in.ends[1], input.data(), input.size()) < 0) {
-        // It did not want its input: what it says and its exit code tell why.
+        // The process closed its input: its output and exit code say why.
     }
     in.shut(1);
 

@@ -32,7 +32,7 @@ Criterion::State Criterion::follow(const Line& line) {
         return state_;
     }
     if (!crossing_) crossing_ = line;
-    const double slack = 1e-9 * (hold_ + line.time);  // decimal times are not binary ones
+    const double slack = 1e-9 * (hold_ + line.time);  // times in decimals are not exact in binary
     const bool held = line.time - crossing_->time >= hold_ - slack;
     if (held && state_ != State::met) met_at_ = line.time;
     state_ = held ? State::met : State::holding;

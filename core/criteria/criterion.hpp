@@ -1,6 +1,6 @@
-// A condition that must hold for a while: armed -> holding -> met, and back to armed when it is
-// broken inside the hold. A pure function of the lines it was given, so that a replay gives the
-// same decision.
+// A condition that must stay true for a hold time: armed -> holding -> met; back to armed if it
+// becomes false during the hold. A pure function of the lines it is given: a replay gives the same
+// decision.
 #pragma once
 
 #include <map>
@@ -21,28 +21,27 @@ struct Line {
     std::vector<double> values;
 };
 
-/// The line's values for this expression; NaN where it lacks a field. beside: constants for all
-/// lines (critical_depth); the line's own values replace them.
+/// The line's values for this expression; NaN for a field that it lacks. beside: constants for all
+/// lines (critical_depth), unless the line has a value of that name.
 Line line_for(const Expression& expression, const telemetry::Line& line,
               const std::map<std::string, double>& beside = {});
 
 class Criterion {
   public:
-    /// hold [s] of simulated time: 0 is met on the first line on which the condition is true.
+    /// hold [s], simulated time. 0: met on the first line on which the condition is true.
     Criterion(Expression condition, double hold);
 
     enum class State { armed, holding, met };
 
-    /// Takes the next line; what is met stays met.
+    /// Updates with the next line; a met criterion stays met.
     State take(const Line& line);
-    /// The same, but the state is met only while the condition is true.
+    /// The same, but the criterion is met only as long as the condition is true.
     State follow(const Line& line);
 
     State state() const { return state_; }
     const Expression& expression() const { return evaluation_.expression(); }
-    /// The line on which the condition became true for the current or completed hold.
+    /// The line on which the condition became true, for the current or the completed hold.
     const std::optional<Line>& crossing() const { return crossing_; }
-    /// Simulated time at which it was met [s].
     double met_at() const { return met_at_; }
 
   private:

@@ -26,7 +26,7 @@ double either(double x, double y) {
     return std::isnan(x) || std::isnan(y) ? unknown : 0.0;
 }
 
-/// std::min and std::max would drop an unknown first or second operand.
+/// std::min and std::max would ignore a NaN operand.
 double extreme(double x, double y, double chosen) {
     return std::isnan(x) || std::isnan(y) ? unknown : chosen;
 }
@@ -66,7 +66,7 @@ double combined(Code code, double x, double y) {
         case Code::growth:
             break;
     }
-    assert(false);  // these have no second operand
+    assert(false);  // without second operand
     return unknown;
 }
 
@@ -75,7 +75,7 @@ double combined(Code code, double x, double y) {
 double Past::shifted(double t, double x) {
     samples_.push_back({t, x});
     const double wanted = t - length_;
-    const double slack = 1e-9 * length_;  // a past that is too short by rounding only is whole
+    const double slack = 1e-9 * length_;  // tolerance for round-off of the window's length
     while (first_ + 1 < samples_.size() && samples_[first_ + 1].t <= wanted + slack) ++first_;
     if (first_ > samples_.size() / 2) {
         samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(first_));

@@ -1,6 +1,5 @@
-// Evaluates an expression line by line: the values of its fields go in, its value comes out. Unknown
-// (a field missing in the line, a window longer than the past so far) is NaN and propagates; a
-// condition on something unknown is unknown too, and unknown never counts as true.
+// Evaluates an expression line by line. A field that the line lacks, or a window longer than the
+// record so far, is NaN and propagates; a condition on NaN is NaN and never counts as true.
 #pragma once
 
 #include <span>
@@ -9,12 +8,12 @@
 
 namespace breach::criteria {
 
-/// The past of one quantity over a sliding window of simulated time.
+/// Samples of one quantity over a sliding window of simulated time.
 class Past {
   public:
     explicit Past(double length) : length_(length) {}
-    /// Adds x(t) and returns x(t - length), interpolated linearly; NaN while the past is too short.
-    /// Times ascend.
+    /// Adds x(t) and returns x(t - length), interpolated linearly; NaN until the record is that
+    /// long. Call with ascending t.
     double shifted(double t, double x);
 
   private:
@@ -31,8 +30,8 @@ class Evaluation {
     explicit Evaluation(Expression expression);
 
     const Expression& expression() const { return expression_; }
-    /// `values`: one per field of the expression, NaN where the line has none; every line once, in
-    /// ascending time (the windows remember). Conditions: 1 true, 0 false, NaN unknown.
+    /// Call once per line, in ascending time: the windows keep samples. `values`: one per field of
+    /// the expression, NaN if the line lacks it. A condition returns 1 true, 0 false, NaN unknown.
     double operator()(double time, std::span<const double> values);
 
   private:

@@ -15,8 +15,8 @@ using Code = Instruction::Code;
 constexpr std::size_t longest_text = 4096;
 constexpr int deepest_nesting = 64;
 
-/// Recursive descent: or, and, not, comparison, sum, product, factor; each level tells what kind of
-/// value it left on the stack.
+/// Recursive descent: or, and, not, comparison, sum, product, factor. Each level returns the kind
+/// of value that it left on the stack.
 class Parsing {
   public:
     Parsing(std::string_view text, const std::vector<std::string>& known)
@@ -211,7 +211,7 @@ class Parsing {
         return words_[at_++].value;
     }
 
-    /// Brackets and signs nest only so deep: a text from outside must not exhaust the stack.
+    /// Limits the nesting of brackets and signs: input must not overflow the stack.
     struct Nesting {
         explicit Nesting(Parsing& of) : parsing(of) {
             if (++parsing.nesting_ > deepest_nesting)

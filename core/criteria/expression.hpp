@@ -1,5 +1,4 @@
-// A condition or a quantity written by a user over the fields of telemetry, checked once and then
-// evaluated line by line:
+// A user's condition or quantity over telemetry fields, parsed once and evaluated line by line:
 //
 //     jacobian_least_avg < 0.97 and not (time < 1)
 //     growth(kinetic_energy, 0.2) > 5 or epsilon_q_avg >= 0.2
@@ -18,7 +17,7 @@ namespace breach::criteria {
 
 enum class Kind { quantity, condition };
 
-/// One instruction of the compiled expression; operands are on a stack.
+/// One instruction of the compiled expression, for a stack machine.
 struct Instruction {
     enum class Code {
         constant,
@@ -42,21 +41,21 @@ struct Instruction {
         growth,
     };
     Code code;
-    double value = 0.0;     ///< of a constant; a window's length [s]
-    std::size_t index = 0;  ///< of a field; of a window's memory
+    double value = 0.0;     ///< a constant, or a window's length [s]
+    std::size_t index = 0;  ///< of the field, or of the window
 };
 
 struct Expression {
     std::string text;
     Kind kind = Kind::quantity;
-    std::vector<std::string> fields;  ///< names, each once; "time" only when it is used
+    std::vector<std::string> fields;  ///< each once; "time" only if it is used
     std::vector<Instruction> program;
     std::size_t depth = 0;    ///< largest height of the stack
-    std::size_t windows = 0;  ///< calls of rate and growth
+    std::size_t windows = 0;  ///< number of calls of rate and growth
 };
 
-/// Throws BadInput with one fault at `pointer` that says where in the text (column from 1) and what
-/// was expected. `known` lists the fields there are; empty: any name is taken.
+/// Throws BadInput with one fault at `pointer`: the column in the text (from 1) and what was
+/// expected there. `known`: allowed fields; empty: any name is allowed.
 Expression parse(std::string_view text, Kind wanted, const std::string& pointer,
                  const std::vector<std::string>& known = {});
 

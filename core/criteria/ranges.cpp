@@ -9,12 +9,12 @@ namespace {
 
 using Code = Instruction::Code;
 
-/// Of a condition: 0 where it may be false, 1 where it may be true.
+/// Range of a condition: 0 if it may be false, 1 if it may be true.
 Range truth(bool may_be_true, bool may_be_false) {
     return {may_be_false ? 0.0 : 1.0, may_be_true ? 1.0 : 0.0};
 }
 
-/// Products and quotients are not followed: anything.
+/// Products and quotients: unlimited range.
 Range combined(Code code, const Range& x, const Range& y) {
     switch (code) {
         case Code::add:

@@ -13,7 +13,7 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
 };
 
-/// False only where no values within the ranges make it true.
+/// False only if no values within the ranges make the condition true.
 bool can_be_true(const Expression& condition,
                  const std::function<Range(const std::string& field)>& range_of);
 

@@ -12,14 +12,14 @@ static constexpr auto words_of(Pick) {
         {{first, "first"}, {midpoint, "midpoint"}, {last_before, "last_before"}});
 }
 
-constexpr double slack = 1e-6;  // names of snapshots carry six decimals [s]
+constexpr double slack = 1e-6;  // names of snapshots have six decimals [s]
 
 std::optional<Pick> pick_named(std::string_view name) { return words::find<Pick>(name); }
 
 Window::Window(Expression lower, Expression upper, double hold)
     : lower_(std::move(lower), hold), upper_(std::move(upper), hold) {}
 
-/// While the lower condition is in its hold it may be broken yet: then what was found is of no edge.
+/// An interval found during the lower condition's hold is dropped if that condition becomes false.
 void Window::take_upper(const Line& line) {
     using State = Criterion::State;
     last_time_ = line.time;

@@ -18,8 +18,8 @@ struct Archive {
     std::map<std::string, std::vector<double>> reals;
     std::map<std::string, std::vector<std::int64_t>> integers;
     std::map<std::string, std::string> texts;
-    std::map<std::string, std::string> units;  ///< unit of an array, by its name; optional
-    Spent spent = {};                          ///< as read: what the file has cost so far
+    std::map<std::string, std::string> units;  ///< of an array, by its name; optional
+    Spent spent = {};                          ///< computing time that went into the file, as read
 };
 
 void write_archive(const std::filesystem::path& path, const Archive& archive,
@@ -27,8 +27,8 @@ void write_archive(const std::filesystem::path& path, const Archive& archive,
 
 /// Which reals an archive may contain.
 enum class Reals {
-    any,     ///< a table may have places without a value
-    finite,  ///< a state to resume from: a number that is not finite is refused
+    any,     ///< NaN marks a table entry without a value
+    finite,  ///< refuse non-finite numbers: a state to resume from
 };
 
 /// Throws BadInput if the kind or version differs, an array is damaged or a real is not allowed;

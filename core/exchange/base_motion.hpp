@@ -1,4 +1,4 @@
-// The ground's motion from the FEM's first dynamic stage to the end of the earthquake: needed by a
+// Motion of the ground from the FEM's first dynamic stage to the end of the earthquake. Needed by a
 // runout that begins while the ground still shakes.
 #pragma once
 
@@ -8,8 +8,8 @@ namespace breach::exchange {
 
 /// Horizontal velocity of the base beneath the free-field columns, which do not fail.
 struct BaseMotion {
-    double time_step = 0.0;        ///< [s]; samples at 0, time_step, 2 time_step, ...
-    std::vector<double> velocity;  ///< of the ground against far rock at rest [m/s]; empty: unknown
+    double time_step = 0.0;        ///< samples at 0, time_step, 2 time_step, ... [s]
+    std::vector<double> velocity;  ///< relative to far rock at rest [m/s]; empty: unknown
 
     bool any() const { return !velocity.empty(); }
 };

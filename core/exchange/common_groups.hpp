@@ -1,4 +1,4 @@
-// The parts that mesh and particle files share: the VTKHDF grid, regions and provenance. Private to
+// Parts that mesh and particle files share: the VTKHDF grid, regions and provenance. Only for
 // core/exchange.
 #pragma once
 
@@ -14,35 +14,35 @@
 
 namespace breach::exchange {
 
-/// VTK's numbers for the cells we write.
+/// VTK cell types.
 enum class Cell : std::uint8_t { vertex = 1, quad = 9 };
 
-/// Group /VTKHDF, UnstructuredGrid in the version 1.0 layout, cells all of one type; with empty
-/// PointData, CellData and the time in FieldData. corners: point numbers, cell by cell. Real: double
-/// or float, in which the points' places are kept.
+/// Group /VTKHDF: an UnstructuredGrid 1.0 with cells of one type, empty PointData and CellData, and
+/// the time in FieldData. corners: point numbers, cell by cell. Real: the type in which positions
+/// are stored.
 template <class Real>
 void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Cell cell,
                 std::span<const std::int64_t> corners, double time);
 
 void write_regions(Hdf5Image& image, const std::vector<std::string>& regions,
                    const std::vector<std::string>& materials);
-/// Notes a fault when the two lists differ in length or are empty.
+/// Adds a fault if the lists are empty or differ in length.
 void read_regions(Hdf5Reader& reader, std::vector<std::string>& regions,
                   std::vector<std::string>& materials);
-/// Notes a fault when an index does not belong to a region.
+/// Adds a fault if an index is not that of a region.
 void check_region_indices(Hdf5Reader& reader, const std::string& path,
                           const std::vector<std::int32_t>& indices, std::size_t regions);
-/// Notes a fault at the first value that is not positive.
+/// Adds a fault at the first value that is not positive.
 void check_positive(Hdf5Reader& reader, const std::string& path, const std::vector<double>& values);
 
-/// Nothing where the motion is unknown.
+/// Writes nothing if the motion is unknown.
 void write_base_motion(Hdf5Image& image, const BaseMotion& motion);
 BaseMotion read_base_motion(Hdf5Reader& reader);
 
 void write_provenance(Hdf5Image& image, const Provenance& provenance);
 Provenance read_provenance(Hdf5Reader& reader);
 
-/// The same numbers seen one by one, row after row.
+/// View of all components, row after row.
 template <int n>
 std::span<const double> flat(const std::vector<Eigen::Matrix<double, n, 1>>& rows) {
     return {rows.empty() ? nullptr : rows.front().data(), rows.size() * n};

@@ -6,7 +6,7 @@
 
 namespace breach::exchange {
 
-/// Nothing for null, a string in quotes (its own doubled), anything else as JSON writes it.
+/// Empty for null, a quoted string ("" for a quote), anything else as JSON.
 std::string csv_field(const nlohmann::json& value);
 
 }  // namespace breach::exchange

@@ -1,6 +1,5 @@
-// HDF5 for this folder: an image built in memory and published whole, and a reader that names every
-// fault. Private to core/exchange: no other file includes hdf5.h. Not for concurrent use from several
-// threads.
+// HDF5 for core/exchange only: a file built in memory and published whole, and a reader that
+// reports every fault. No other code includes hdf5.h. Not thread-safe.
 #pragma once
 
 #include <hdf5.h>
@@ -32,7 +31,7 @@ class Handle {
     }
     hid_t get() const { return id_; }
     explicit operator bool() const { return id_ >= 0; }
-    /// Closes now; false if that failed.
+    /// False if closing failed.
     bool close() { return close_(std::exchange(id_, -1)) >= 0; }
 
   private:
@@ -40,13 +39,13 @@ class Handle {
     Close close_;
 };
 
-/// Kind of a file, from the attributes of /breachline.
+/// Kind of a file, stored as attributes of /breachline.
 struct Kind {
     std::string name;  ///< "mesh_snapshot"
     int version;
 };
 
-/// The bytes of a file that HDF5 builds in memory and leaves to us when it closes it.
+/// Receives the bytes of a file that HDF5 builds in memory.
 struct MemoryFile {
     MemoryFile() = default;
     MemoryFile(const MemoryFile&) = delete;
@@ -55,11 +54,11 @@ struct MemoryFile {
     void* begin = nullptr;
 };
 
-/// How an image keeps its arrays: as they are, or shuffled and deflated.
+/// Storage of the arrays; compressed: shuffled and deflated.
 enum class Storage { plain, compressed };
 
-/// An HDF5 file under construction. It lives in memory until save(), so that a full disk is met by
-/// publish() and not inside HDF5. The same calls give the same bytes: no creation times are stored.
+/// An HDF5 file under construction, in memory until save(): publish() reports a full disk, not
+/// HDF5. The same calls give the same bytes, because no creation times are stored.
 class Hdf5Image {
   public:
     explicit Hdf5Image(const Kind& kind, Storage storage = Storage::plain);
@@ -96,12 +95,13 @@ class Hdf5Image {
     Handle file_;
 };
 
-/// A published file, read without trust: every call that finds something wrong notes a fault,
-/// named by dataset path, and returns zeros or empty text; refuse_if_faulty() throws them all.
+/// Reader that trusts nothing in a file. A call that finds an error adds a fault with the dataset's
+/// path and returns zeros or empty text; refuse_if_faulty() throws all faults.
 class Hdf5Reader {
   public:
-    /// Throws IoError if the file cannot be opened, BadInput if it is not whole or of none of these
-    /// kinds. `remedy`: how to get a good one ("give a FEM snapshot written by fem_solver").
+    /// Throws IoError if the file cannot be opened, BadInput if it is incomplete or of none of
+    /// these kinds. `remedy`: which file to give instead ("give a FEM snapshot written by
+    /// fem_solver").
     Hdf5Reader(const std::filesystem::path& path, const std::vector<Kind>& kinds,
                std::string remedy);
 
@@ -110,12 +110,12 @@ class Hdf5Reader {
     /// Names of the entries of a group, ascending.
     std::vector<std::string> names_in(const std::string& group);
 
-    /// Rows of a dataset that its file can hold; 0 is a fault.
+    /// Adds a fault if the dataset has no rows, or more than the file can contain.
     std::size_t rows(const std::string& path);
-    /// Reads exactly [rows] or [rows, width] values; non-finite values are a fault.
+    /// Reads exactly [rows] or [rows, width] values; a non-finite value is a fault.
     void array(const std::string& path, std::span<double> values, std::size_t width);
     void array(const std::string& path, std::span<std::int32_t> values, std::size_t width = 0);
-    /// One-dimensional arrays of any length; any value, or non-finite ones are a fault.
+    /// One-dimensional arrays of any length. finite_reals: a non-finite value is a fault.
     std::vector<double> any_reals(const std::string& path);
     std::vector<double> finite_reals(const std::string& path);
     std::vector<std::int64_t> any_integers(const std::string& path);
@@ -124,11 +124,11 @@ class Hdf5Reader {
     std::string text_attribute(const std::string& object, const std::string& name);
     double real_attribute(const std::string& object, const std::string& name);
     std::int64_t integer_attribute(const std::string& object, const std::string& name);
-    /// A number of rows: not negative, and not more than a file of this size can hold.
+    /// A number of rows; a fault if it is negative, or more than the file can contain.
     std::size_t count_attribute(const std::string& object, const std::string& name);
 
-    /// Reads every dataset not yet read, so that its checksums are compared too, and checks that
-    /// copies for ParaView contain numbers only.
+    /// Reads the remaining datasets to verify their checksums, and checks that the copies for
+    /// ParaView are finite.
     void check_rest();
 
     void fault(const std::string& path, const std::string& cause);
@@ -139,7 +139,7 @@ class Hdf5Reader {
         Handle id;
         std::vector<hsize_t> shape;
     };
-    /// Upper bound of the dataset's size from its storage in the file [bytes].
+    /// Upper bound of the dataset's size, from its storage in the file [bytes].
     double capacity(hid_t dataset) const;
     std::optional<Dataset> open(const std::string& path, H5T_class_t type_class);
     template <typename T>

@@ -31,8 +31,7 @@ std::string as_text(std::span<const hsize_t> shape) {
     return text + "]";
 }
 
-/// The system's view of the file, before HDF5 has one: missing and unreadable files are not bad
-/// input.
+/// Checks the file before HDF5 opens it: a missing or unreadable file is an IoError, not bad input.
 std::uintmax_t readable_bytes(const std::filesystem::path& path) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
@@ -112,7 +111,7 @@ std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
 }
 
 double Hdf5Reader::capacity(hid_t dataset) const {
-    constexpr double most_that_inflates = 1032.0;  // a byte of zlib's deflate, by its format
+    constexpr double most_that_inflates = 1032.0;  // largest ratio of zlib's deflate
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     unsigned flags = 0;
     size_t numbers = 0;
@@ -273,7 +272,7 @@ bool Hdf5Reader::read_attribute(const std::string& object, const std::string& na
 }
 
 std::string Hdf5Reader::text_attribute(const std::string& object, const std::string& name) {
-    constexpr std::size_t longest = std::size_t{1} << 16;  // HDF5's own limit for an attribute
+    constexpr std::size_t longest = std::size_t{1} << 16;  // limit of HDF5 attributes
     const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
     H5Tset_size(type.get(), longest);
     H5Tset_strpad(type.get(), H5T_STR_NULLPAD);

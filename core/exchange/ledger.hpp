@@ -1,5 +1,4 @@
-// What a transfer conserved and lost: one row per region and quantity, stored in the particle
-// file.
+// What a transfer conserved and lost: one row per region and quantity, stored in the particle file.
 #pragma once
 
 #include <string>

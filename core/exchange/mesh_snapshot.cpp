@@ -48,14 +48,14 @@ std::vector<double> averages(std::span<const double> values, std::size_t n, std:
     return mean;
 }
 
-/// 1 where a corner of the deformed element is turned inside out, 0 elsewhere.
+/// 1 if a corner of the deformed element is inside out, else 0.
 std::vector<std::int32_t> inverted_elements(const MeshSnapshot& s) {
     std::vector<std::int32_t> inverted;
     const auto is_there = [&](std::int32_t node) {
         return node >= 0 && static_cast<std::size_t>(node) < s.position_0.size();
     };
     for (const auto& quad : s.quads) {
-        if (!std::ranges::all_of(quad, is_there)) {  // every reader refuses it
+        if (!std::ranges::all_of(quad, is_there)) {  // readers refuse such a snapshot
             inverted.push_back(1);
             continue;
         }

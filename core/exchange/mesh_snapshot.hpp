@@ -1,6 +1,6 @@
-// The FEM's whole state at one time: mesh, nodal and Gauss fields. File: VTKHDF
-// UnstructuredGrid 1.0 (nodes at their displaced places, cell data = Gauss averages) with the Gauss
-// fields in the group /breachline beside it.
+// The FEM's whole state at one time: mesh, nodal and Gauss fields. File: VTKHDF UnstructuredGrid
+// 1.0 (displaced nodes, cell data = averages over Gauss points) and the Gauss fields in the group
+// /breachline.
 #pragma once
 
 #include <array>
@@ -30,14 +30,15 @@ struct MeshSnapshot {
     std::vector<mechanics::Vec2> acceleration;  ///< [m/s2]
     std::vector<double> nodal_mass;             ///< lumped, for the ledger [kg]
     std::vector<double> pore_pressure;          ///< u [Pa]; empty in a scene without water
-    /// Vertical effective stress of the ground before the shaking, that is when the first dynamic
-    /// stage begins, and the pore pressure then; compression positive [Pa]. Both or none; a FEM with
-    /// water writes them, averaged from its Gauss points to the nodes, for r_u = (u - u_0) /
-    /// sigma'_v0. Without them no soil counts as liquefied.
+    /// Before the shaking, when the first dynamic stage begins: vertical effective stress and pore
+    /// pressure at the nodes, averaged from Gauss points; compression positive [Pa]. For r_u = (u -
+    /// u_0) / sigma'_v0. A FEM with water writes both, any other none; without them no soil counts
+    /// as liquefied.
     std::vector<double> sigma_v0;
     std::vector<double> pore_pressure_0;
-    /// Largest excess pressure of each node since then [Pa], from nodal_excess_pressure at each
-    /// step. May be empty although there is u_0: then only the snapshot's own time is known.
+    /// Largest excess pressure of each node since the shaking began [Pa], from
+    /// nodal_excess_pressure in every step. May be empty although pore_pressure_0 is not; then use
+    /// the present value.
     std::vector<double> excess_pressure_max;
 
     // elements [n_elements]
@@ -48,18 +49,17 @@ struct MeshSnapshot {
     // Gauss points [n_elements * gauss_per_element], element by element, in the order of
     // gauss_positions
     int gauss_per_element = 4;
-    /// Natural coordinates (xi, eta) of each, [gauss_per_element]
+    /// Natural coordinates (xi, eta), [gauss_per_element].
     std::vector<mechanics::Vec2> gauss_positions;
     std::vector<mechanics::Voigt> stress;   ///< effective [Pa], tension positive
     std::vector<mechanics::Voigt> strain;   ///< total, since the first dynamic stage began [-]
     std::vector<double> epsilon_q;          ///< sqrt(2/3 e:e) of that total strain [-]
     std::vector<double> epsilon_q_plastic;  ///< accumulated by the law [-]
-    /// State parameter and stress ratio over the limiting one; 0 at points whose law has none. Both
-    /// or none.
+    /// State parameter psi, and eta / eta_L; 0 at points whose law has none. Both or neither.
     std::vector<double> psi;
     std::vector<double> instability_ratio;
 
-    BaseMotion base_motion;  ///< of the whole earthquake, after `time` too
+    BaseMotion base_motion;  ///< of the whole earthquake, also after `time`
 };
 
 void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& snapshot,

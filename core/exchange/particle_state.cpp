@@ -63,7 +63,7 @@ void read_rows(Hdf5Reader& reader, const std::string& path,
     read_3d(reader, path, values);
 }
 
-/// Real: double, or float for what is only looked at.
+/// Real: double, or float for display.
 template <class Real>
 void write_points(Hdf5Image& image, const ParticleState& s,
                   const std::function<bool(std::string_view)>& is_wanted) {
@@ -154,10 +154,10 @@ Ledger read_ledger(Hdf5Reader& reader) {
     return ledger;
 }
 
-/// Which fields a file must have: all but those that only water brings, or none.
+/// Fields that a file must have: all except those of water, or none.
 enum class Wanted { state, what_is_there };
 
-/// Reads into each field that is there, or must be.
+/// Reads the fields that exist; a missing required one is a fault.
 void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n, Wanted wanted) {
     s.position.resize(n);
     read_3d(reader, "/VTKHDF/Points", s.position);

@@ -17,8 +17,8 @@
 
 namespace breach::exchange {
 
-/// Stress measure of a region's points. effective: the total stress is stress - u I with the
-/// points' pore_pressure u; total: stress includes the pore pressure.
+/// Stress measure of a region's points. effective: total stress = stress - u I with the points'
+/// pore_pressure u; total: `stress` is the total stress.
 enum class StressMeasure { effective, total };
 
 constexpr auto words_of(StressMeasure) {
@@ -26,7 +26,7 @@ constexpr auto words_of(StressMeasure) {
     return words::in_order<StressMeasure>({{effective, "effective"}, {total, "total"}});
 }
 
-/// [n_particles] before and after softening; 0 for soils that have no profile.
+/// Peak and residual strength of points [n_particles]; 0 for soil without a strength profile.
 struct StrengthOfPoints {
     std::vector<double> c;                 ///< [Pa]
     std::vector<double> tan_phi;           ///< [-]
@@ -34,26 +34,26 @@ struct StrengthOfPoints {
     std::vector<double> tan_phi_residual;  ///< [-]
 };
 
-/// Fields of every point beside position and region. [n_particles]
+/// Fields of the points besides position and region, [n_particles].
 struct PointFields {
     std::vector<mechanics::Vec2> velocity;  ///< [m/s]
-    /// Rows: component, columns: direction [1/s]
+    /// L_ij = dv_i / dx_j [1/s].
     std::vector<mechanics::Matrix2> velocity_gradient;
     std::vector<double> mass;               ///< [kg] for `thickness`
     std::vector<double> volume_0;           ///< at zero mean stress, the law's reference [m3]
     std::vector<double> volume;             ///< [m3]
     std::vector<mechanics::Voigt> stress;   ///< [Pa], tension positive; see stress_of_regions
     std::vector<double> epsilon_q;          ///< total, sqrt(2/3 e:e) accumulated [-]
-    std::vector<double> epsilon_q_plastic;  ///< what drives softening [-]
-    std::vector<double> gap;                ///< volume strain still to be closed after tension [-]
-    std::vector<double> pore_pressure;      ///< u [Pa]; empty when there is no water
-    std::vector<double> r_u;    ///< (u - u_0) / sigma'_v0 at t_T [-]; for people; may be empty
-    StrengthOfPoints strength;  ///< empty where no soil's material has a strength profile
+    std::vector<double> epsilon_q_plastic;  ///< softening variable of the law [-]
+    std::vector<double> gap;  ///< volumetric strain opened in tension, to be closed again [-]
+    std::vector<double> pore_pressure;  ///< u [Pa]; empty when there is no water
+    std::vector<double> r_u;    ///< (u - u_0) / sigma'_v0 at t_T [-], for display; may be empty
+    StrengthOfPoints strength;  ///< empty if no material has a strength profile
 };
 
 enum class Given { always, maybe, with_cohesion };
 
-/// Calls visit(name, unit, given, array) in the order in which files have the fields.
+/// Calls visit(name, unit, presence, array) for each field, in the order of the files.
 template <class Fields, class Visit>
 constexpr void for_each_field(Fields& of, Visit&& visit) {
     using enum Given;
@@ -89,8 +89,8 @@ struct ParticleState : PointFields {
     std::int64_t step = 0;
     double thickness = 1.0;  ///< [m]
 
-    /// By region index: name, material, and stress measure. A name may occur more than once,
-    /// each time with another material (layers of one region that liquefied).
+    /// [regions] name, material, stress measure. A name may occur several times with different
+    /// materials (liquefied layers of one region).
     std::vector<std::string> regions;
     std::vector<std::string> materials_of_regions;
     std::vector<StressMeasure> stress_of_regions;  ///< empty: all effective
@@ -98,16 +98,16 @@ struct ParticleState : PointFields {
     std::vector<mechanics::Vec2> position;  ///< [n_particles] [m]
     std::vector<std::int32_t> region;       ///< [n_particles]
 
-    /// On the FEM's clock; only files of the transfer have it. Their velocities are still relative to
-    /// far rock.
+    /// On the FEM's clock; only in files of the transfer. The velocities of those files are still
+    /// relative to far rock.
     BaseMotion base_motion{};
 
     std::size_t size() const { return position.size(); }
-    /// New points get zeros in all fields that every point has.
+    /// New points have zeros in the fields that every point has.
     void resize(std::size_t n);
-    /// Keeps only these points, in their order.
+    /// Keeps only these points, in this order.
     void keep(const std::vector<std::size_t>& points);
-    /// u of a point with effective stress; 0 where the stress is total [Pa]
+    /// u of a point with effective stress [Pa]; 0 if its stress is total.
     double pressure_beside(std::size_t p) const;
 };
 
@@ -123,12 +123,12 @@ struct ParticleStateFile {
 /// Throws BadInput or IoError as read_mesh_snapshot does.
 ParticleStateFile read_particle_state(const std::filesystem::path& path);
 
-/// Writes a frame for display, not to compute with: positions, regions and the named fields of
-/// PointData (those that the points have), in single precision, shuffled and deflated.
+/// Writes a frame for display, not for restart: positions, regions and the named fields that the
+/// points have, in single precision, compressed.
 void write_particle_frame(const std::filesystem::path& path, const ParticleState& state,
                           std::span<const std::string_view> fields, const Provenance& provenance);
 
-/// Reads a frame or a whole state; fields that the file lacks are empty. Throws as
+/// Reads a frame or a whole state; fields that the file lacks stay empty. Throws as
 /// read_particle_state does.
 ParticleState read_particle_frame(const std::filesystem::path& path);
 

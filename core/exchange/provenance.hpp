@@ -1,4 +1,4 @@
-// Provenance of a file: stored in every output so that a number can be traced to its inputs.
+// Provenance of a file: stored in every output to trace a number to its inputs.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ struct InputDigest {
     std::string sha256;
 };
 
-/// Spent by all processes that contributed to a file, until it was written [s].
+/// Time that all processes of a run spent until the file was written [s].
 struct Spent {
     double wall = 0.0;
     double cpu = 0.0;

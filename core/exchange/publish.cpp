@@ -42,12 +42,12 @@ class Descriptor {
 void sync(const fs::path& path, int flags, const fs::path& final_path) {
     Descriptor file(path, flags);
     if (file.number() < 0) fail(final_path, "cannot be opened to be synced", errno);
-    // A folder on some network file systems cannot be synced; the rename is then all there is.
+    // Some network file systems cannot sync a folder; then only the rename protects.
     if (::fsync(file.number()) != 0 && errno != EINVAL)
         fail(final_path, "cannot be synced to the disk", errno);
 }
 
-/// Removes the temporary unless it was published.
+/// Removes the temporary file unless it was published.
 class Temporary {
   public:
     explicit Temporary(fs::path path) : path_(std::move(path)) { remove(); }
@@ -84,8 +84,8 @@ void write_all(const fs::path& path, std::string_view text, const fs::path& fina
 
 void publish(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    // One writer per output folder, so one name is enough, and a killed attempt's leftover is
-    // replaced.
+    // A fixed name is enough, as each output folder has one writer; it replaces the rest of a
+    // killed attempt.
     std::string name = ".";
     name.append(path.filename().string()).append(".partial");
     Temporary temporary(folder / name);

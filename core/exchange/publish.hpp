@@ -1,5 +1,5 @@
-// A file that exists under its final name is whole: written beside it, fsynced, renamed, folder
-// fsynced.
+// Write files atomically: written beside the final path, fsynced, renamed, folder fsynced. A file
+// under its final name is complete.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +8,9 @@
 
 namespace breach::exchange {
 
-/// Calls write(temporary path), then publishes the result as `path`. On any exception the temporary
-/// is removed and nothing appears under the final name. Throws IoError (disk full, no permission),
-/// naming path and cause.
+/// Calls write(temporary path), then renames the result to `path`. Any exception removes the
+/// temporary file and leaves `path` unchanged. Throws IoError (disk full, no permission) with path
+/// and cause.
 void publish(const std::filesystem::path& path,
              const std::function<void(const std::filesystem::path&)>& write);
 

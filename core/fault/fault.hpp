@@ -1,5 +1,5 @@
-// Faults of input and files, and their exit codes. Expected outcomes of the physics
-// (not converged, mesh entangled) are return values of the phases, not exceptions.
+// Faults of input and files, and their exit codes. Expected outcomes (not converged, mesh
+// entangled) are return values of the phases, not exceptions.
 #pragma once
 
 #include <stdexcept>
@@ -8,7 +8,7 @@
 
 namespace breach::fault {
 
-/// Exit codes of every phase; the scheduler's retry rule reads nothing else.
+/// Exit codes of every phase; the only input of the scheduler's retry rule.
 enum class ExitCode : int {
     done = 0,
     usage = 2,
@@ -20,15 +20,14 @@ enum class ExitCode : int {
     terminated = 143,
 };
 
-/// One thing that is wrong with an input: where (JSON pointer or dataset path), why, and what to
-/// write instead.
+/// One error of an input: where (JSON pointer or dataset path), why, and what to write instead.
 struct Fault {
     std::string pointer;
     std::string cause;
     std::string remedy;
 };
 
-/// An input that cannot be used; carries every fault that was found. Exit code 65.
+/// An unusable input, with all its faults. Exit code 65.
 class BadInput : public std::runtime_error {
   public:
     BadInput(std::string file, std::vector<Fault> faults);
@@ -46,8 +45,8 @@ class IoError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// The computation broke down: what, where and when. The thrower has saved the last good state. Exit
-/// code 70.
+/// The computation failed. The message says what, where and when; the last good state is saved.
+/// Exit code 70.
 class Breakdown : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

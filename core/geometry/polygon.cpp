@@ -52,7 +52,7 @@ std::vector<Triangle> triangles(Polygon polygon) {
             const Vec2& c = polygon[(i + 1) % n];
             const double bend = turn(a, b, c);
             if (bend < 0) continue;
-            // On the border, too: what is left must not pass through a vertex.
+            // Vertices on the border block too: the rest must not pass through a vertex.
             const bool blocked =
                 bend > 0 && std::any_of(polygon.begin(), polygon.end(), [&](const Vec2& p) {
                     return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
@@ -63,7 +63,7 @@ std::vector<Triangle> triangles(Polygon polygon) {
             polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(i));
             clipped = true;
         }
-        if (!clipped) return result;  // not simple: defect() says so first
+        if (!clipped) return result;  // not simple; defect() reports it
     }
     result.push_back({polygon[0], polygon[1], polygon[2]});
     return result;

@@ -12,7 +12,7 @@ namespace breach::geometry {
 using mechanics::Vec2;
 using Polygon = std::vector<Vec2>;
 
-/// Two points of a ring that follow each other.
+/// Two successive vertices of a ring.
 struct Side {
     Vec2 a, b;
 };
@@ -29,8 +29,8 @@ double distance_to_segment(const Vec2& point, const Vec2& from, const Vec2& to);
 /// Why the ring is not a simple polygon (two edges cross, repeated vertex, no area); empty when it
 /// is one.
 std::optional<std::string> defect(const Polygon& polygon);
-/// Part of a polygon on the left of the line from a to b. One polygon, so the line may cut off one
-/// piece only; empty when nothing is left.
+/// The part of the polygon to the left of the line from a to b; empty if none. The line may cut off
+/// only one piece.
 Polygon clipped_left(const Polygon& subject, const Vec2& a, const Vec2& b);
 /// Area that two simple polygons share [m2].
 double overlap_area(const Polygon& a, const Polygon& b);

@@ -13,13 +13,13 @@ inline double cross(const mechanics::Vec2& a, const mechanics::Vec2& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Where the straight lines through a and b, and through c and d, cross: also as shares of the two
-/// ways. Parallel ones cross nowhere.
+/// Intersection of the straight lines a-b and c-d, with its parameters on both [-]. None if they
+/// are parallel.
 struct Crossing {
     mechanics::Vec2 at;
     double on_first, on_second;
 
-    /// Between the ends of both segments, ends excluded.
+    /// Inside both segments, their ends excluded.
     bool is_within() const {
         return on_first > 0.0 && on_first < 1.0 && on_second > 0.0 && on_second < 1.0;
     }
@@ -30,14 +30,14 @@ std::optional<Crossing> crossing(const mechanics::Vec2& a, const mechanics::Vec2
 /// Level at x of the straight line through two points [m].
 double on_straight(const mechanics::Vec2& a, const mechanics::Vec2& b, double x);
 
-/// Level of the line at x: straight between its points, level beyond its ends [m]. At least one
-/// point, ascending in x.
+/// Level of the line at x, linear between its points and horizontal beyond its ends [m]. At least
+/// one point, ascending in x.
 double level_at(const std::vector<mechanics::Vec2>& line, double x);
 
 /// The same, but the first and the last part are extended straight beyond the ends.
 double straight_level_at(const std::vector<mechanics::Vec2>& line, double x);
 
-using Level = double (*)(const std::vector<mechanics::Vec2>&, double);  ///< one of the two
+using Level = double (*)(const std::vector<mechanics::Vec2>&, double);
 
 /// The share of the line's length in x that is steeper than `slope`, up or down [-]; 0 for fewer
 /// than two points.

@@ -31,7 +31,8 @@ Corners shape_gradients(const Vec2& xi) {
 }
 
 Matrix2 jacobian(const Corners& x, const Vec2& xi) {
-    // From a corner: at 500 km from the origin the sum would lose the digits of an element's size.
+    // Relative to a corner: 500 km from the origin the sum would lose the digits of an element's
+    // size.
     return (x.colwise() - x.col(0)) * shape_gradients(xi).transpose();
 }
 
@@ -93,9 +94,8 @@ GaussRule repeated(const GaussRule& one, int n, int panels) {
     return rule;
 }
 
-/// Points and weights as eigenvalues and first components of eigenvectors of the Jacobi matrix
-/// (Golub & Welsch 1969), whose last diagonal entry carries the shift (Golub 1973, there for
-/// Radau's rule).
+/// Points and weights from eigenvalues and first eigenvector components of the Jacobi matrix (Golub
+/// & Welsch 1969). The shift changes its last diagonal entry (Golub 1973, for Radau's rule).
 GaussRule one_shifted_panel(int n, double shift) {
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, n);
     for (int k = 1; k < n; ++k) J(k, k - 1) = J(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);

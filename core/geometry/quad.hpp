@@ -16,7 +16,7 @@ using Corners = Eigen::Matrix<double, 2, 4>;  ///< columns are corners [m]
 Eigen::Vector4d shape_functions(const Vec2& xi);
 /// dN_i/d(xi, eta), rows: direction, columns: corner.
 Corners shape_gradients(const Vec2& xi);
-/// dx/d(xi, eta) [m]; its determinant J is the area per natural area.
+/// dx/d(xi, eta) [m]; its determinant is the Jacobian J.
 Matrix2 jacobian(const Corners& x, const Vec2& xi);
 /// J at the four corners [m2]. J is linear in xi and eta, so these are its extremes and J = sum N_k
 /// J_k exactly.
@@ -36,9 +36,9 @@ GaussRule gauss_legendre(int n);
 /// The same rule in each of `panels` equal parts of [-1, 1]: n * panels points, ascending, exact to
 /// the same degree. With two points per panel all weights are equal, for any number of panels.
 GaussRule gauss_legendre(int n, int panels);
-/// The n-point rule of the same family whose polynomial is P_n - shift P_(n-1), in each panel: the
-/// points move towards +1 (shift > 0) or -1, at shift = +-1 onto the border (Radau), and all
-/// weights stay positive. Exact to degree 2 n - 2. |shift| < 1; 0: Gauss-Legendre.
+/// Like gauss_legendre, with the points moved towards +1 (shift > 0) or -1: the roots of P_n -
+/// shift P_(n-1) in each panel. |shift| < 1; 0: Gauss-Legendre, +-1: Radau. The weights stay
+/// positive; exact to degree 2 n - 2.
 GaussRule shifted_rule(int n, int panels, double shift);
 
 }  // namespace breach::geometry

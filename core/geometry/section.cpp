@@ -12,13 +12,13 @@ namespace breach::geometry {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double same_share = 1e-9;  // of a section's length
+constexpr double same_share = 1e-9;  // of the section's length
 
 double level_on(const Side& side, double x) {
     return side.a.y() + (x - side.a.x()) / (side.b.x() - side.a.x()) * (side.b.y() - side.a.y());
 }
 
-/// The highest side over x, from left to right.
+/// The highest side at x, oriented from left to right.
 std::optional<Side> top_side(const Outlines& outlines, double x) {
     std::optional<Side> top;
     for (const Polygon* each : outlines)
@@ -110,7 +110,7 @@ Depth deepest_below(const Polygon& polygon, const std::vector<Vec2>& line, Level
         const double below = level(line, place.x()) - place.y();
         if (below > deepest.below) deepest = {below, place};
     };
-    // Both are straight between the polygon's vertices and the line's kinks.
+    // Both are linear between the polygon's vertices and the line's points.
     for (const Side& side : sides_of(polygon)) {
         look(side.a);
         const auto [left, right] = std::minmax(side.a.x(), side.b.x());
@@ -151,7 +151,7 @@ Levels ground_over(const Outlines& outlines, double from, double to) {
     Levels levels{infinity, -infinity};
     for (const double at : xs) {
         if (at < from || at > to) continue;
-        for (const double x : {at - near, at + near}) {  // both heads of a vertical face
+        for (const double x : {at - near, at + near}) {  // top and bottom of a vertical face
             const double ground = ground_at(outlines, x);
             if (ground == -infinity) continue;
             levels.lowest = std::min(levels.lowest, ground);

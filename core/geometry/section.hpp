@@ -1,4 +1,4 @@
-// Queries on a cross-section as drawn: where soil is, the ground level, the strata above a place.
+// Queries on a cross-section as drawn: soil, ground level, strata.
 #pragma once
 
 #include "core/geometry/polygon.hpp"
@@ -6,8 +6,7 @@
 
 namespace breach::geometry {
 
-/// The polygons of a section's regions, in their order; an empty polygon is no soil. The polygons
-/// are not copied.
+/// Polygons of a section's regions, in their order, not copied. An empty polygon is no soil.
 using Outlines = std::vector<const Polygon*>;
 
 template <class Regions, class Polygon>
@@ -17,25 +16,25 @@ Outlines outlines_of(const Regions& regions, Polygon polygon) {
     return outlines;
 }
 
-/// Box around all regions; inverted (low > high) without soil.
+/// Bounding box of all regions; inverted (low > high) if there is no soil.
 Box extent(const Outlines& outlines);
 
 bool in_soil(const Outlines& outlines, const Vec2& place, double tolerance = 0.0);
-/// From a place to the nearest soil; 0 inside [m].
+/// Distance from a place to the nearest soil; 0 inside [m].
 double distance_to_soil(const Outlines& outlines, const Vec2& place);
 
-/// Heights at which the border crosses the upright through x, ascending. Edges count at their left
-/// end only, so a vertex on the upright is met once, or not at all where the border turns back.
+/// Heights at which the border crosses the vertical through x, ascending. An edge counts at its
+/// left end only: a vertex on the vertical gives one crossing, or none where the border turns back.
 std::vector<double> crossings(const Polygon& polygon, double x);
 
-/// Levels of the soil over x, from the top down: [top, bottom] of each region that lies there.
+/// Levels of the soil at x, from the top down: [top, bottom] of each region.
 struct Stratum {
     double top, bottom;
     std::size_t region;
 };
 std::vector<Stratum> strata_at(const Outlines& outlines, double x);
 
-/// Levels between which the border has vertices at x, and whether it runs there as one vertical line.
+/// Range of the border's vertices at x, and whether a vertical side joins them.
 struct Upright {
     double low, high;  ///< inverted (low > high) without vertices
     bool unbroken;
@@ -45,8 +44,7 @@ Upright upright_at(const Outlines& outlines, double x, double tolerance);
 /// Highest soil at x; -infinity: there is none [m].
 double ground_at(const Outlines& outlines, double x);
 
-/// Greatest height of a line over a point of the soil, and where. `level` gives the line's level
-/// beyond its ends.
+/// Greatest height of a line above a point of the soil, and where. `level` extrapolates the line.
 struct Depth {
     double below;  ///< positive: the soil reaches below the line [m]
     Vec2 place;
@@ -54,17 +52,16 @@ struct Depth {
 Depth deepest_below(const Polygon& polygon, const std::vector<Vec2>& line, Level level);
 Depth deepest_below(const Outlines& outlines, const std::vector<Vec2>& line, Level level);
 
-/// Abscissae between which all borders are straight, ascending.
+/// Abscissae between which all borders are straight lines, ascending.
 std::vector<double> abscissae(const Outlines& outlines);
 
-/// Lowest and highest ground level over a range; infinite and inverted where there is no ground.
+/// Lowest and highest ground level over a range; infinite and inverted if there is no ground.
 struct Levels {
     double lowest, highest;
 };
 Levels ground_over(const Outlines& outlines, double from, double to);
 
-/// The upper border of the soil between two abscissae, from left to right: a line for each piece
-/// without gap or step.
+/// The ground surface between two abscissae, from left to right: one line per continuous piece.
 std::vector<std::vector<Vec2>> ground_between(const Outlines& outlines, double from, double to);
 
 }  // namespace breach::geometry

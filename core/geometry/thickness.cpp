@@ -16,7 +16,7 @@ struct Disc {
     double radius;
 };
 
-/// Polygons that touch, as one shape: what two of them share is inside.
+/// Touching polygons as one shape: common borders are inside.
 struct Shape {
     std::vector<Polygon> parts;
     std::vector<Side> border;
@@ -28,7 +28,7 @@ bool lies_on(const Vec2& point, const Polygon& polygon, double tolerance) {
     });
 }
 
-/// An edge cut where a vertex of another polygon lies on it.
+/// Splits an edge at vertices of other polygons.
 std::vector<Side> pieces_of(const Side& edge, const std::vector<Polygon>& others,
                             double tolerance) {
     std::vector<Vec2> cuts{edge.a, edge.b};
@@ -45,7 +45,7 @@ std::vector<Side> pieces_of(const Side& edge, const std::vector<Polygon>& others
     return pieces;
 }
 
-/// The pieces of a polygon's edges that lie on another's border, or those that do not.
+/// Pieces of a polygon's edges shared with other polygons, or not.
 enum class Border { shared, own };
 std::vector<Side> pieces_of(const Polygon& polygon, const std::vector<Polygon>& others,
                             Border wanted) {
@@ -96,7 +96,7 @@ constexpr double places_wanted = 250.0;
 
 double spacing_of(const Polygon& polygon) { return std::sqrt(area(polygon) / places_wanted); }
 
-/// Places inside on a lattice, a few hundred.
+/// A few hundred lattice points inside.
 std::vector<Vec2> places_inside(const Polygon& polygon) {
     const Box box = bounding_box(polygon);
     const Vec2 extent = box.high - box.low;
@@ -127,8 +127,8 @@ std::array<Vec2, count> half_circle() {
     return directions;
 }
 
-/// Middle of the shortest way across the shape through a place: near its medial axis, where the
-/// largest discs have their centres.
+/// Middle of the shortest chord through a place: near the medial axis, on which the largest discs
+/// have their centres.
 Vec2 middle_of_shortest_chord(const Shape& shape, const Vec2& place) {
     static const std::array<Vec2, 16> directions = half_circle<16>();
     double shortest = std::numeric_limits<double>::max();
@@ -154,7 +154,7 @@ Vec2 middle_of_shortest_chord(const Shape& shape, const Vec2& place) {
     return middle;
 }
 
-/// The largest disc near a place inside: uphill, in steps that are halved down to a share of it.
+/// The largest disc near a place, by hill climbing with halved steps.
 Disc largest_disc_near(const Shape& shape, const Vec2& place) {
     Disc disc{place, distance_to_border(shape, place)};
     for (double step = 0.5 * disc.radius; step > 0.03 * disc.radius; step *= 0.5) {
@@ -172,7 +172,7 @@ Disc largest_disc_near(const Shape& shape, const Vec2& place) {
     return disc;
 }
 
-/// Whether the thicknesses' median is at least the limit, as far as they have grown.
+/// Whether the median is at least the limit. Thicknesses only grow, so a true result is final.
 bool reach(double limit, const std::vector<double>& thickness) {
     const auto thin = std::ranges::count_if(thickness, [&](double each) { return each < limit; });
     return static_cast<std::size_t>(thin) <= thickness.size() / 2;
@@ -186,7 +186,7 @@ std::optional<double> thickness_below(double limit, const Polygon& polygon,
     parts.push_back(polygon);
     const Shape shape = shape_of(parts);
     const std::vector<Vec2> places = places_inside(polygon);
-    // A hair's breadth, which no place of the lattice has met.
+    // Too thin for the lattice: use 2 area / perimeter.
     std::vector<double> thickness{2.0 * area(polygon) / perimeter(polygon)};
     if (!places.empty()) thickness.clear();
     for (const Vec2& place : places) thickness.push_back(2.0 * distance_to_border(shape, place));

@@ -1,4 +1,4 @@
-// Thickness of a polygon: to count the cells and elements across it.
+// Thickness of a polygon, to count the cells or elements across it.
 #pragma once
 
 #include <optional>
@@ -7,15 +7,14 @@
 
 namespace breach::geometry {
 
-/// Thickness of a polygon [m], together with those that it touches and that count as one with it. The
-/// local thickness at a place is the diameter of the largest disc inside the whole that covers the
-/// place (Hildebrand & Rueegsegger 1997); half of the polygon's area lies where the whole is thicker
-/// than the value returned, half where it is thinner. For a long band this is its thickness, for a
-/// square its edge; thin wedges and necks with less than half of the area do not count. Accurate to a
-/// few per cent.
+/// Thickness of a polygon [m], joined with the `attached` polygons that it touches. The local
+/// thickness at a place is the diameter of the largest inscribed disc that covers the place
+/// (Hildebrand & Rueegsegger 1997); this is its median over the polygon's area. For a long band it
+/// is the thickness, for a square the edge; wedges and necks with less than half of the area do not
+/// count. Accurate to a few per cent.
 double thickness_of(const Polygon& polygon, const std::vector<Polygon>& attached = {});
 
-/// The same if it is less than a limit [m]; much faster where the polygon is thicker.
+/// The same if it is less than `limit` [m], else none; much faster for thick polygons.
 std::optional<double> thickness_below(double limit, const Polygon& polygon,
                                       const std::vector<Polygon>& attached = {});
 

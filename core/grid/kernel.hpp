@@ -1,6 +1,6 @@
-// One-dimensional shape functions of a point over three neighbouring nodes; a point's weight at a
-// node is the product of one in x and one in y. Lengths in cells; wall-clipped near walls and
-// floor. One formula for one point (Real = double) or for several side by side (Real = Lanes).
+// One-dimensional shape functions of a material point over three neighbouring nodes; its weight at
+// a grid node is the product of one in x and one in y. Lengths in cells; clipped at walls and
+// floor. One formula for one point (Real = double) or several side by side (Real = Lanes).
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace breach::grid {
 
-/// Weights of the nodes first, first + 1, first + 2 and their derivatives [1/cell]. They always sum
-/// to 1 (derivatives to 0), and reproduce a linear field about `centre`, the centroid of the
-/// point's domain [cells]. `first` is a whole number.
+/// Weights of the nodes first, first + 1, first + 2 and their derivatives [1/cell]. They sum to 1
+/// (derivatives to 0) and reproduce a linear field about `centre`, the centroid of the point's
+/// domain [cells]. `first` is a whole number.
 template <class Real>
 struct Stencil {
     Real first;
@@ -22,8 +22,9 @@ struct Stencil {
     Real centre;
 };
 
-/// Node rows that carry a wall; a domain does not reach through them. Open ends lie out of reach.
-/// For one soil, a row can be the end of its bed: points that have come beyond it are free of it.
+/// Node rows with a wall, at which the domains of points are clipped; by default none. For one
+/// soil, the high row can be the top of its bed (core/scene/beds.hpp); it does not affect points
+/// beyond it.
 struct WallRows {
     std::int32_t low = std::numeric_limits<std::int32_t>::min();
     std::int32_t high = std::numeric_limits<std::int32_t>::max();
@@ -35,11 +36,11 @@ template <class Real>
     return (a + Real(materials::lanes::to_integer)) - Real(materials::lanes::to_integer);
 }
 
-/// Row of the nodes that is nearest to a place, and whether it carries a wall.
+/// The node row nearest to a point, and whether it is a wall.
 template <class Real>
 struct NearestRow {
     Real row;
-    Real d;  ///< from that row to the place [cells]
+    Real d;  ///< distance of the point from that row [cells]
     materials::MaskOf<Real> low_wall;
     materials::MaskOf<Real> high_wall;
 
@@ -49,11 +50,11 @@ struct NearestRow {
           low_wall((row >= Real(walls.low)) & (row <= Real(walls.low)) & (d >= Real(-beside))),
           high_wall((row >= Real(walls.high)) & (row <= Real(walls.high)) & (d <= Real(beside))) {}
 
-    static constexpr double beside = 1e-6;  ///< a point on a wall, up to round-off
+    static constexpr double beside = 1e-6;  ///< tolerance for a point on a wall [cells]
 };
 
-/// The hat functions about the nearest row, exact for a domain that ends there: what all kernels
-/// come down to beside a wall. `reach` >= 0 is the centroid's distance from the wall.
+/// Hat functions at the nearest row, exact for a domain that ends there; all kernels reduce to them
+/// at a wall. `reach` >= 0: distance of the centroid from the wall [cells].
 template <class Real>
 [[gnu::always_inline]] inline void clip_at_low_wall(Stencil<Real>& s,
                                                     const materials::MaskOf<Real>& where,
@@ -81,16 +82,16 @@ template <class Real>
     s.centre = select(where, (s.first + Real(1.0)) - reach, s.centre);
 }
 
-/// GIMP (Bardenhagen & Kober 2004): the hat function averaged over a domain of fixed half size l.
-/// Beside a wall the domain is clipped there, so that partition of unity and gradients of linear
-/// fields stay exact.
+/// GIMP (Bardenhagen & Kober 2004): the hat function averaged over a domain of constant half size
+/// l. Domains are clipped at a wall, which keeps partition of unity and gradients of linear fields
+/// exact.
 class GimpKernel {
   public:
     /// half_size: l [cells] in (0, 0.5].
     [[gnu::always_inline]] explicit GimpKernel(double half_size)
         : l_(half_size), half_over_l_(0.5 / half_size), quarter_over_l_(0.25 / half_size) {}
 
-    /// xi [cells] > 0 from the first (ghost) node row.
+    /// xi: position > 0 from the first (ghost) node row [cells].
     template <class Real>
     [[gnu::always_inline]] Stencil<Real> operator()(const Real& xi, const WallRows& walls) const {
         using namespace materials::lanes;
@@ -123,9 +124,9 @@ class GimpKernel {
     double quarter_over_l_;
 };
 
-/// Quadratic B-spline. Within half a cell of a wall the row beyond it is the linear continuation of
-/// the two before (v_-1 = 2 v_0 - v_1), which makes the weights the hat functions: no row outside
-/// is needed, value and slope go over smoothly, linear fields stay exact.
+/// Quadratic B-spline. Within half a cell of a wall, the row beyond the wall is replaced by the
+/// linear extrapolation v_-1 = 2 v_0 - v_1, which gives hat functions. Value and slope are
+/// continuous there, and linear fields stay exact.
 class BSplineKernel {
   public:
     template <class Real>

@@ -1,17 +1,17 @@
-// A call of a law that walks through sub-steps with error control: opened (reversal, elastic part),
-// walked, closed. Each law implements these steps in its own namespace:
+// The integration of a law in sub-steps with error control: open (reversal, elastic part), walk,
+// close. Each law implements these functions in its own namespace:
 //     open_call(law, old, d, task), load(task, lane, walk), after_unloading(law, lane, walk,
 //     task), ends(lane, walk, lost, options, task), store(law, lane, walk, task),
 //     finish_call(law, old, d, task), may_be_tried(d, options)
-// and its `Calls` names the types. Here is one point; side_by_side.hpp has several.
+// and its `Calls` names the types. This file integrates one point; side_by_side.hpp several.
 #pragma once
 
 namespace breach::materials {
 
-/// One lane's progress after `begin`: leaves, unloads or walks on.
+/// What a lane does after `begin`: continue its sub-step, begin again, or end.
 enum class Next { walk, again, leave };
 
-/// The new state after the strain increment d, which may be tried.
+/// The new state after the strain increment d; may_be_tried(d, options) must be true.
 template <class Calls>
 typename Calls::Update call_alone(const typename Calls::Ready& law,
                                   const typename Calls::State& old, const typename Calls::Strain& d,

@@ -1,5 +1,5 @@
-// Interface of a law in a loop over several points side by side (lanes.hpp): bare numbers and one formula
-// from the elastic trial stress to the stress. Includes neither Eigen nor containers, so that it can be
+// Interface of a law in a loop over several points side by side (lanes.hpp): constants and one
+// formula from elastic trial stress to stress. Includes neither Eigen nor containers: it is
 // compiled once per instruction set.
 #pragma once
 
@@ -19,7 +19,7 @@ struct StressOf {
     Real xx, yy, zz, xy;
 };
 
-/// Which strain accumulates and weakens the soil.
+/// Which strain drives softening.
 enum class Softens { never, with_plastic_strain, with_total_strain };
 
 /// Source of a law's strength: the law itself, or each point.
@@ -40,7 +40,7 @@ struct UpdateOf {
     Real opened;        ///< volume strain opened by the tension cut-off or at the apex [-]
 };
 
-/// Number by number: as a whole, GCC 12 copies such a struct through memory in halves of a register.
+/// Copies number by number: GCC 12 copies the whole struct through memory in halves of a register.
 template <class Real>
 [[gnu::always_inline]] inline UpdateOf<Real> copy_of(const UpdateOf<Real>& update) {
     const StressOf<Real>& sigma = update.sigma;
@@ -56,9 +56,9 @@ template <class Real>
     return {{trial.xx, trial.yy, trial.zz, trial.xy}, Real(0.0), Real(0.0), Real(0.0)};
 }
 
-/// The simplest law. It shows what each law must have: its `numbers`, whether it yields and softens, and
-/// for an instruction set (`Isa::lanes` points side by side) an InLoop, which is made once per call of a
-/// loop and gives every block its update at the memory epsilon_q.
+/// The simplest law, and an example of the members that a law needs: `numbers`, whether it yields
+/// and softens, and InLoop for an instruction set (`Isa::lanes` points side by side). A loop makes
+/// one InLoop per call; it updates one block of points at their softening variable epsilon_q.
 struct LinearElasticLanes {
     struct Numbers {};
     static constexpr bool yields = false;

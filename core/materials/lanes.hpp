@@ -1,6 +1,7 @@
-// One formula for one point or for several side by side: `double` and `Lanes<N>` offer the same few
-// operations, lane by lane and to the last bit, so that a batch answers exactly as single calls do.
-// exp, log, sine and cosine are our own because the C library has no such twins.
+// One formula for one point or several side by side: `double` and `Lanes<N>` have the same
+// operations with the same bits in each lane, so that a batch gives exactly the results of single
+// calls. exp, log, sine and cosine are our own because the C library has no vector versions with
+// the same bits.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +26,8 @@ struct Lanes {
 
     Lanes() = default;
     [[gnu::always_inline]] explicit Lanes(const Vector& vector) : v(vector) {}
-    /// The same number in every lane: a number less 0 is itself, while 0 + number has to be added
-    /// up, for -0 + 0 is 0.
+    /// The same number in every lane. `number - 0` compiles to a broadcast; `0 + number` to an
+    /// addition, because -0 + 0 is 0.
     [[gnu::always_inline]] Lanes(double number) : v(number - Vector{}) {}
 
     [[gnu::always_inline]] friend Lanes operator+(const Lanes& a, const Lanes& b) {
@@ -43,7 +44,7 @@ struct Lanes {
     }
     [[gnu::always_inline]] friend Lanes operator-(const Lanes& a) { return Lanes(-a.v); }
 
-    /// All ones in the lanes where it holds.
+    /// All bits of a lane are 1 where the condition is true.
     struct Mask {
         Bits m;
         [[gnu::always_inline]] friend Mask operator&(const Mask& a, const Mask& b) {
@@ -100,7 +101,7 @@ template <int N>
 }
 
 [[gnu::always_inline]] inline bool any(bool mask) { return mask; }
-/// In one instruction where there is one; GCC 12 takes the lanes one by one.
+/// Uses one instruction if there is one; GCC 12 would test lane by lane.
 template <class Mask>
 [[gnu::always_inline]] inline bool any(const Mask& mask) {
 #if defined(__AVX512DQ__)
@@ -174,7 +175,7 @@ template <class Real>
 /// Adding this leaves the nearest integer in the low bits of the mantissa.
 inline constexpr double to_integer = 0x1.8p52;
 
-/// e^x to about 2 units in the last place; x is taken as within [-700, 700].
+/// e^x to about 2 units in the last place; x is clamped to [-700, 700].
 template <class Real>
 [[gnu::always_inline]] inline Real exponential(const Real& argument) {
     const Real x = larger(smaller(argument, Real(700.0)), Real(-700.0));
@@ -184,7 +185,7 @@ template <class Real>
         (x - k * Real(6.93147180369123816490e-01)) - k * Real(1.90821492927058770002e-10);
     const Real r2 = r * r;
     const Real r4 = r2 * r2;
-    // Taylor's series, |r| <= ln(2) / 2, in short chains that the CPU can work on side by side.
+    // Taylor series for |r| <= ln(2) / 2, in short chains that the CPU can execute in parallel.
     const Real even =
         (Real(1.0) + r2 * Real(1.0 / 2)) +
         r4 * ((Real(1.0 / 24) + r2 * Real(1.0 / 720)) +
@@ -208,7 +209,7 @@ template <class Real>
     const Real s2 = s * s;
     const Real s4 = s2 * s2;
     const Real s8 = s4 * s4;
-    // s^2/3 + s^4/5 + ..., divided by s^2, in short chains.
+    // (s^2/3 + s^4/5 + ...) / s^2, in short chains.
     const Real series =
         ((Real(1.0 / 3) + s2 * Real(1.0 / 5)) + s4 * (Real(1.0 / 7) + s2 * Real(1.0 / 9))) +
         s8 * (((Real(1.0 / 11) + s2 * Real(1.0 / 13)) +
@@ -249,7 +250,7 @@ template <class Real>
                                                  r2 * (Real(-1.0 / 3628800) +
                                                        r2 * (Real(1.0 / 479001600) +
                                                              r2 * Real(-1.0 / 87178291200.0)))))));
-    // Quarter turns: an odd number swaps the two, the second bit changes the sign.
+    // Quarter turns: an odd number swaps sine and cosine, the second bit changes the sign.
     const auto quarters = bits_of(shifted);
     const Real odd = from_bits<Real>((quarters & 1) << 62);  // 0 or 2
     const auto swap = odd > Real(1.0);

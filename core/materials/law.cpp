@@ -49,7 +49,8 @@ Law with_tension_share(Law law, double share) {
     if (auto* cone = std::get_if<MohrCoulomb>(&law)) cone->tension_share = share;
     if (auto* cone = std::get_if<DruckerPrager>(&law)) {
         const double q = 2.0 * cone->c * std::cos(cone->phi) / (1.0 - std::sin(cone->phi));
-        cone->tension_cutoff = std::max(cone->tension_cutoff, share * q / 3.0);  // of the mean
+        // of the mean stress
+        cone->tension_cutoff = std::max(cone->tension_cutoff, share * q / 3.0);
     }
     return law;
 }

@@ -1,6 +1,6 @@
-// The list of all constitutive laws and the one way to ask them. Laws are pure: (parameters, state,
-// strain increment) -> (new state[, tangent]); no I/O, nothing hidden. Dispatch is per zone: visit
-// the Law once, make it `ready`, then loop over the zone's points with the concrete law.
+// The list of all constitutive laws and their common interface. Laws are pure functions
+// (parameters, state, strain increment) -> (new state[, tangent]). Dispatch once per zone: visit
+// the Law, make it `ready`, then loop over the zone's points with the concrete law.
 #pragma once
 
 #include <concepts>
@@ -30,14 +30,14 @@ template <class T>
 inline constexpr bool is_law = false;
 template <class... Each>
 inline constexpr bool is_law<std::variant<Each...>> = (answers_all<Each>() && ...);
-/// Variant of all given laws, without implicit conversion from any of them.
+/// A variant of laws. Does not convert a single law implicitly.
 template <class T>
 concept IsLaw = is_law<T>;
 static_assert(IsLaw<Law>,
               "a law does not answer all of traits.hpp, memory.hpp (if its points remember) and "
               "state_parameter.hpp (if it has one)");
 
-/// The queries of traits.hpp for any law of the list.
+/// The functions of traits.hpp for any law of the list.
 template <IsLaw L>
 Traits traits(const L& law) {
     return std::visit([](const auto& each) { return traits(each); }, law);
@@ -76,28 +76,27 @@ std::optional<LawLanes> for_particles(const L& law) {
     return std::visit([](const auto& each) { return for_particles(each); }, law);
 }
 
-/// Whether the MPM's particles can have this law.
+/// Whether material points of the MPM can have this law.
 inline bool is_for_particles(const Law& law) { return for_particles(law).has_value(); }
 
-/// Whether its strength is given by two entries, c and phi.
 inline bool has_c_and_phi(const Law& law) { return traits(law).c_and_phi; }
 
-/// "mohr_coulomb or drucker_prager": the scene's words for the laws that satisfy `does`, for messages.
-/// Calls `does` with laws whose numbers are all zero.
+/// "mohr_coulomb or drucker_prager": the scene's words for the laws that satisfy `does`, for
+/// messages. Calls `does` with laws whose parameters are all zero.
 std::string types_of_laws_that(bool (*does)(const Law&));
 
 template <class... Each>
 std::variant<ZoneMemory<Each>...> memory_of(const std::variant<Each...>*);
-/// What the points of a zone remember beside State, by their law.
+/// Memory of the points of a zone besides State, for each law.
 using LawMemory = decltype(memory_of(static_cast<const Law*>(nullptr)));
 
-/// Whether its points remember more than State.
+/// Whether the law's points have a memory besides State.
 template <IsLaw L>
 bool remembers(const L& law) {
     return std::visit([]<class Each>(const Each&) { return Remembers<Each>; }, law);
 }
 
-/// visit(law) with the law itself, if its points remember.
+/// Calls visit(law) with the concrete law if its points have a memory.
 template <IsLaw L, class Visit>
 void if_remembers(const L& law, const Visit& visit) {
     const auto ask = [&]<class Each>(const Each& each) {
@@ -106,7 +105,7 @@ void if_remembers(const L& law, const Visit& visit) {
     std::visit(ask, law);
 }
 
-/// visit(law, points) with the law itself and what its zone's points remember, if they do.
+/// Calls visit(law, points) with the concrete law and the memories of its zone, if it has them.
 template <IsLaw L, class Memory, class Visit>
 void with_memory(const L& law, Memory& memory, const Visit& visit) {
     if_remembers(law, [&]<class Each>(const Each& each) {
@@ -114,7 +113,7 @@ void with_memory(const L& law, Memory& memory, const Visit& visit) {
     });
 }
 
-/// visit(memory) of every point of a zone, where they remember.
+/// Calls visit(memory) for every point of a zone that has memories.
 template <class Memory, class Visit>
 void for_each_point(Memory& zone, const Visit& visit) {
     const auto go = [&](auto& memory) {
@@ -124,7 +123,6 @@ void for_each_point(Memory& zone, const Visit& visit) {
     std::visit(go, zone);
 }
 
-/// Empty memory for so many points of this law.
 template <IsLaw L>
 auto memory_for(const L& law, std::size_t points) {
     using AnyMemory = decltype(memory_of(static_cast<const L*>(nullptr)));
@@ -136,15 +134,16 @@ auto memory_for(const L& law, std::size_t points) {
     return std::visit(made, law);
 }
 
-/// Whether its points have strengths of their own.
+/// Whether its points can have individual strengths.
 inline bool has_strength_of_points(const Law& law) {
     const auto* mohr_coulomb = std::get_if<MohrCoulomb>(&law);
     return mohr_coulomb != nullptr && mohr_coulomb->strength_of == StrengthOf::point;
 }
-/// The law with the strength of one of its points, if it takes that; any other law unchanged.
+/// The law with the strength of one point, if its points can have individual strengths; else
+/// unchanged.
 Law with_strength(Law law, const StrengthOfPoint<double>& strength);
 
-/// visit(law) with the law itself, if its undrained strength follows from a state parameter.
+/// Calls visit(law) with the concrete law if it has a state parameter.
 template <class L, class Visit>
 requires IsLaw<std::remove_const_t<L>>
 void if_state_parameter(L& law, const Visit& visit) {
@@ -157,33 +156,34 @@ template <IsLaw L>
 bool has_state_parameter(const L& law) {
     return std::visit([]<class Each>(const Each&) { return HasStateParameter<Each>; }, law);
 }
-/// visit(law, points) with the law itself and its zone's points, if it has a state parameter.
+/// Calls visit(law, points) with the concrete law and its zone's memories, if it has a state
+/// parameter.
 template <IsLaw L, class Memory, class Visit>
 void with_state(const L& law, Memory& memory, const Visit& visit) {
     if_state_parameter(law, [&]<class Each>(const Each& each) {
         visit(each, std::get<ZoneMemory<Each>>(memory).points);
     });
 }
-/// With the additional softening S of a stage, where the law has a state parameter.
+/// Sets the additional softening S of a stage, if the law has a state parameter.
 template <IsLaw L>
 L with_S(L law, double S) {
     if_state_parameter(law, [&](auto& each) { set_s(each, S); });
     return law;
 }
 
-/// Its elasticity alone.
 inline Law elastic_part(const Law& law) { return LinearElastic{elasticity(law)}; }
-/// A strength that does not soften [Pa, rad]; psi: of dilatancy.
+/// A strength without softening [Pa, rad]; psi: dilatancy angle.
 struct Plastic {
     double c = 0.0, phi = 0.0, psi = 0.0, tension_cutoff = 0.0;
     StrengthOf strength_of = StrengthOf::law;
 };
-/// Its elasticity with that strength instead of its own.
+/// The law's elasticity with this strength.
 Law with_plasticity(const Law& law, const Plastic& strength);
 
-/// With another elasticity and, where it softens, the strains of softening multiplied.
+/// Replaces the elasticity and multiplies the softening strains.
 Law adapted(Law law, const mechanics::Elasticity& elasticity, double softening_strains);
-/// Carries at least this share of its unconfined compressive strength in tension, where it has one.
+/// Raises the tensile strength to this share of the unconfined compressive strength, if the law has
+/// one.
 Law with_tension_share(Law law, double share);
 
 }  // namespace breach::materials

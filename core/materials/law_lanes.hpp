@@ -1,5 +1,5 @@
-// The list of the laws that particles can have, for the MPM's loops (lane_law.hpp). The
-// loops depend on this list and on no single law.
+// The list of the laws of material points, for the MPM's loops (lane_law.hpp). The loops depend on
+// this list, never on a particular law.
 #pragma once
 
 #include "core/materials/drucker_prager/lanes.hpp"

@@ -13,7 +13,6 @@ struct LinearElastic {
 
 inline const LinearElastic& ready(const LinearElastic& law) { return law; }
 
-/// New state after the strain increment d_epsilon.
 Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon);
 /// The same, and the tangent d sigma / d epsilon [Pa].
 Update integrate(const LinearElastic& law, const State& old, const Voigt& d_epsilon,

@@ -1,5 +1,5 @@
-// The state of a material point and a law's result for a strain increment; the elastic half that
-// all laws share.
+// State of a material point, result of a law for a strain increment, and the elastic step of all
+// laws.
 #pragma once
 
 #include "core/materials/lane_law.hpp"
@@ -11,8 +11,8 @@ namespace breach::materials {
 using mechanics::Matrix4;
 using mechanics::Voigt;
 
-/// State of a point. epsilon_q accumulates sqrt(2/3 de:de) of the law's softening driver
-/// (plastic strain unless the law says total).
+/// State of a point. epsilon_q accumulates sqrt(2/3 de:de) of the strain that drives softening
+/// (plastic unless the law says total).
 struct State {
     Voigt sigma;             ///< effective stress [Pa]
     double epsilon_q = 0.0;  ///< accumulated equivalent deviatoric strain [-]
@@ -27,7 +27,7 @@ struct Update {
     Return kind;
 };
 
-/// Strength in force.
+/// Strength at a given softening.
 struct Strength {
     double c;        ///< [Pa]
     double tan_phi;  ///< [-]
@@ -52,8 +52,7 @@ inline Moduli make_moduli(const mechanics::Elasticity& elasticity) {
     return {G, K, K - 2.0 / 3.0 * G};
 }
 
-/// D with sigma = D epsilon [Pa]; to the last bit mechanics::elastic_stiffness of the elasticity
-/// that the moduli come from.
+/// D with sigma = D epsilon [Pa]; the same bits as mechanics::elastic_stiffness.
 inline Matrix4 elastic_stiffness(const Moduli& moduli) {
     Matrix4 D = Matrix4::Zero();
     D.topLeftCorner<3, 3>().setConstant(moduli.lambda);

@@ -1,6 +1,6 @@
-// Many points of one zone, several side by side: one point per lane of a vector register, and a
-// finished point makes room for the next. The same code is compiled once per instruction set and
-// chosen when the program runs. Functions that a law provides: calls.hpp.
+// Integrates many points of one zone, one per lane of a vector register; a finished point is
+// replaced by the next. Compiled once per instruction set, chosen at run time. A law provides the
+// functions of calls.hpp.
 #pragma once
 
 #include <array>
@@ -23,10 +23,10 @@ struct Job {
     std::span<const Voigt> d_epsilon;
     const typename Calls::Options& options;
     std::span<typename Calls::Update> updates;
-    std::size_t next = 0;  ///< first point not yet taken
+    std::size_t next = 0;  ///< first point not yet begun
 };
 
-/// One lane's point.
+/// The point in one lane.
 template <class Calls>
 struct Seat {
     typename Calls::Task task{};
@@ -34,14 +34,14 @@ struct Seat {
     bool busy = false;
 };
 
-/// Closes the point of a seat.
+/// Closes the point in a lane.
 template <class Calls>
 void leave(const Job<Calls>& job, Seat<Calls>& seat) {
     finish_call(job.law, job.old[seat.point], Calls::strain(job.d_epsilon[seat.point]), seat.task);
     seat.busy = false;
 }
 
-/// Opens points until one has plastic strain to walk through; elastic ones are done at once.
+/// Opens points until one needs plastic steps; elastic ones are complete at once.
 template <class Calls>
 void take_next(Job<Calls>& job, Seat<Calls>& seat) {
     seat.busy = false;
@@ -73,7 +73,7 @@ template <int N, class Calls>
     std::array<bool, N> moving{};
     for (Seat<Calls>& seat : seats) take_next(job, seat);
     if (!seats[0].busy) return;
-    // Empty seats repeat the first point: their numbers are valid and never read.
+    // Empty lanes repeat the first point: valid numbers that are never used.
     for (int i = 0; i < N; ++i) load(seats[seats[i].busy ? i : 0].task, i, walk);
 
     const auto refill = [&](int i) {
@@ -91,7 +91,7 @@ template <int N, class Calls>
                 if (!lanes::lane(unloads, i)) continue;
                 const Next next = after_unloading(job.law, i, walk, seats[i].task);
                 moving[i] = next == Next::walk;
-                // A lane that turns repeatedly without progress ends by its evaluations.
+                // Evaluations limit a lane that unloads repeatedly without progress.
                 const bool spent =
                     next == Next::again && ends(i, walk, false, job.options, seats[i].task);
                 if (spent) store(job.law, i, walk, seats[i].task);

@@ -1,6 +1,5 @@
-// Properties of a law for other folders. Every law of the list in law.hpp implements them in its
-// own header, or it does not compile. Other folders query the Law (law.hpp) and never test which
-// law it is.
+// Properties of a law for other folders. Every law implements them in its own header. Other folders
+// query the Law (law.hpp) and never test which law it is.
 #pragma once
 
 #include <concepts>
@@ -13,17 +12,18 @@
 namespace breach::materials {
 
 struct Traits {
-    const char* type;  ///< the scene's word for it, /materials/*/law/type
-    const char* name;  ///< for people
+    const char* type;  ///< value of /materials/*/law/type
+    const char* name;  ///< for display
     bool yields;       ///< has plastic flow
-    bool opens;        ///< opens in tension: that volume must close before pressure builds again
-    bool frictional;   ///< its strength depends on the effective stress
-    bool c_and_phi;    ///< its strength is given by two entries; see strength_entries
-    bool symmetric_tangent;     ///< the tangent that statics near collapse needs is symmetric
-    bool tells_plastic_strain;  ///< knows which part of a strain is plastic; else all of it counts
+    bool opens;       ///< opens cracks in tension, which must close before pressure builds up again
+    bool frictional;  ///< its strength depends on the effective stress
+    bool c_and_phi;   ///< its strength has the two entries c and phi; see strength_entries
+    bool symmetric_tangent;  ///< the tangent for statics near collapse is symmetric
+    /// distinguishes plastic from elastic strain; if not, all strain counts
+    bool tells_plastic_strain;
 };
 
-/// Where a law's strength can be changed; null where it has no such entry.
+/// Pointers to a law's strength parameters; null if it has none.
 struct StrengthEntries {
     double* c = nullptr;    ///< [Pa]
     double* phi = nullptr;  ///< [rad]
@@ -31,29 +31,27 @@ struct StrengthEntries {
 
 template <class... Each>
 std::variant<Each...> variant_of(LawList<Each...>);
-/// A law made ready for the MPM's loops; its place in the list is its index.
+/// A law for the MPM's loops; the variant index is its index in the list.
 using LawLanes = decltype(variant_of(LaneLaws{}));
 
-/// The interface.
 template <class Law>
 concept Answers = requires(const Law& law, Law& own, const State& state) {
-    /// Isotropic elasticity inside the yield surface, or before the law begins.
+    /// Isotropic elasticity inside the yield surface, and of elastic stages.
     { law.elasticity } -> std::convertible_to<mechanics::Elasticity>;
     { traits(law) } -> std::same_as<Traits>;
-    /// Peak strength at failure for limit equilibrium; nothing: it cannot fail.
+    /// Peak strength for limit equilibrium; none: the law does not fail.
     { limit_strength(law) } -> std::same_as<std::optional<Strength>>;
-    /// How it softens; null: it does not.
+    /// Null: no softening.
     { softening(law) } -> std::same_as<const Softening*>;
     { strength_entries(own) } -> std::same_as<StrengthEntries>;
-    /// Amount by which the stress lies outside the yield surface at this epsilon_q [Pa]; <= 0
-    /// inside. Minus infinity if the law accepts any stress from elsewhere.
+    /// How far the stress lies outside the yield surface at this epsilon_q [Pa]; <= 0 inside. Minus
+    /// infinity if the law accepts any stress.
     { yield_excess(law, state) } -> std::same_as<double>;
-    /// The stress put back on the yield surface by the law's own return, where it lies outside.
+    /// A stress outside the yield surface, returned to it by the law's own return mapping.
     { return_to_surface(law, state) } -> std::same_as<Voigt>;
-    /// The law for the MPM's loops; none: particles cannot have it.
+    /// The law for the MPM's loops; none: not for material points.
     { for_particles(law) } -> std::same_as<std::optional<LawLanes>>;
-    /// The law with everything resolved that is the same for all points: made before a loop, and
-    /// passed to `integrate` inside it.
+    /// Constants of the law for all points: computed before a loop and passed to `integrate`.
     ready(law);
 };
 

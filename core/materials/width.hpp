@@ -1,9 +1,9 @@
-// How many points the batch of a law takes side by side.
+// Number of points that a batch integrates side by side.
 #pragma once
 
 namespace breach::materials {
 
-/// Widest first. A width that this CPU lacks is replaced by the next one.
+/// Vector instruction set; one that the CPU lacks is replaced by the next.
 enum class Width { widest, avx512, avx2, portable };
 
 }  // namespace breach::materials

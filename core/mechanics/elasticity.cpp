@@ -10,9 +10,9 @@ double Elasticity::wave_speed(double rho) const { return std::sqrt(constrained_m
 Elasticity slowed(const Elasticity& elasticity, double rho, double limit) {
     if (elasticity.wave_speed(rho) <= limit) return elasticity;
     double G = elasticity.shear_modulus();
-    const double most = rho * limit * limit;  // of the constrained modulus
+    const double most = rho * limit * limit;  // largest constrained modulus
     constexpr double least_nu = 0.2;
-    constexpr double least_K = 2.0 * (1.0 + least_nu) / (3.0 * (1.0 - 2.0 * least_nu));  // in G
+    constexpr double least_K = 2.0 * (1.0 + least_nu) / (3.0 * (1.0 - 2.0 * least_nu));  // over G
     double K = std::min(elasticity.bulk_modulus(), std::max(most - 4.0 / 3.0 * G, least_K * G));
     const double factor = std::min(1.0, most / (K + 4.0 / 3.0 * G));
     K *= factor;

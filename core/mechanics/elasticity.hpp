@@ -18,15 +18,15 @@ struct Elasticity {
     double wave_speed(double rho) const;
 };
 
-/// The same soil with no compression wave faster than `limit` [m/s] at density rho: a lower bulk
-/// modulus, down to nu = 0.2; where that is not enough, both moduli.
+/// Softens the soil until its compression wave is at most `limit` [m/s] at density rho: lowers the
+/// bulk modulus, down to nu = 0.2; if that is not enough, both moduli.
 Elasticity slowed(const Elasticity& elasticity, double rho, double limit);
 
 /// Stiffness D with sigma = D epsilon, engineering shear strain [Pa].
 Matrix4 elastic_stiffness(const Elasticity& elasticity);
 /// D epsilon without forming D.
 Voigt elastic_stress(const Elasticity& elasticity, const Voigt& epsilon);
-/// Elastic strain that belongs to a stress: D^-1 sigma.
+/// Elastic strain D^-1 sigma.
 Voigt elastic_strain(const Elasticity& elasticity, const Voigt& sigma);
 /// Elastic energy density sigma : D^-1 sigma / 2 [J/m3].
 double elastic_energy_density(const Elasticity& elasticity, const Voigt& sigma);

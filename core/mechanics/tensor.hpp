@@ -1,5 +1,4 @@
-// Plane-strain tensors in Voigt order (xx, yy, zz, xy) and their invariants. No material behaviour
-// here.
+// Plane-strain tensors in Voigt order (xx, yy, zz, xy) and their invariants.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,27 +36,26 @@ Voigt rotated_strain(Voigt epsilon, double angle);
 /// 0.
 double rotation_angle(const Matrix2& F);
 
-/// Principal stresses in the plane and out of it, with the direction of the larger in-plane one.
+/// Principal stresses in plane strain; a: angle from x to the larger in-plane one.
 struct Principal {
     double major;   ///< larger in-plane principal stress [Pa]
     double minor;   ///< smaller in-plane principal stress [Pa]
     double normal;  ///< out-of-plane stress zz [Pa]
-    double cos_2a;  ///< cosine of twice the angle from x to the major direction
-    double sin_2a;  ///< sine of the same
+    double cos_2a;  ///< of the direction of `major`
+    double sin_2a;
 };
 
 Principal principal(const Voigt& sigma);
 Voigt from_principal(const Principal& principal);
 
-/// Smallest twice-area Jacobian over the four corners of a quad and at its centre, relative to a
-/// reference quad.
+/// Jacobian of a quad relative to its reference shape.
 struct JacobianRatio {
-    double centre;  ///< |J_t| / |J_0| at the centre: area change only, blind to shear
-    double least;   ///< least corner ratio: sees shear distortion; <= 0 means entangled
+    double centre;  ///< at the centre: change of area; does not detect shear
+    double least;   ///< smallest at a corner: detects shear; <= 0: entangled
 };
 
-/// Corner k uses the edges (k, k+1) and (k, k-1). Both quads counter-clockwise, columns are
-/// corners.
+/// The Jacobian at corner k is the cross product of the edges (k, k+1) and (k, k-1). Columns are
+/// corners, counter-clockwise.
 JacobianRatio jacobian_ratio(const Eigen::Matrix<double, 2, 4>& current,
                              const Eigen::Matrix<double, 2, 4>& reference);
 

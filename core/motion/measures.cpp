@@ -12,10 +12,10 @@ namespace {
 const std::vector<double> periods{0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3,
                                   0.4,  0.5,  0.6,  0.75, 1.0,   1.5, 2.0,  3.0, 4.0,  5.0};
 
-/// The response is looked at, at least so many times a period.
+/// Evaluations of the response per period, at least.
 constexpr double looks_per_period = 40.0;
 
-/// u'' + 2 xi omega u' + omega^2 u = -a over one step, from u and v; a goes straight from a_0 by
+/// u'' + 2 xi omega u' + omega^2 u = -a over one step from u and v; a is linear from a_0 with
 /// `slope`.
 struct Oscillator {
     double omega, damping;

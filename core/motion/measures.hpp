@@ -11,21 +11,20 @@ namespace breach::motion {
 
 inline constexpr double spectrum_damping = 0.05;  ///< of critical [-]
 
-/// Pseudo-acceleration omega^2 max |u| of an oscillator of this period [s] under the motion, by the
-/// exact solution for an acceleration that is straight between samples (Nigam & Jennings 1969).
-/// [m/s2]
+/// Pseudo-acceleration omega^2 max |u| of an oscillator with this period [s] [m/s2]; exact for an
+/// acceleration that is linear between samples (Nigam & Jennings 1969).
 double spectral_acceleration(const Series& acceleration, double period,
                              double damping = spectrum_damping);
 
 struct Measures {
     double pga;         ///< [m/s2]
     double pgv;         ///< [m/s]
-    double pgd;         ///< of the motion with its baseline corrected [m]
+    double pgd;         ///< after baseline correction [m]
     double arias;       ///< [m/s]
-    StrongPart strong;  ///< D5-95 is its duration
+    StrongPart strong;  ///< its duration is D5-95
     double cav;         ///< cumulative absolute velocity, integral of |a| [m/s]
     /// Modified acceleration spectrum intensity: integral of the 5 % pseudo-acceleration over
-    /// periods of 0.1 to 2 s, after Von Thun et al. (1988), who take 0.1 to 0.5 s [m/s]
+    /// periods of 0.1 to 2 s [m/s]; Von Thun et al. (1988) take 0.1 to 0.5 s.
     double masi;
     std::vector<double> periods;   ///< [s]
     std::vector<double> spectrum;  ///< 5 % pseudo-acceleration [m/s2]
@@ -34,7 +33,6 @@ struct Measures {
 Measures measures_of(const Series& acceleration);
 nlohmann::json as_json(const Measures& measures);
 
-/// An entry of as_json.
 struct NamedMeasure {
     const char* name;  ///< its key
     const char* title;

@@ -10,17 +10,17 @@ namespace breach::motion {
 
 namespace {
 
-/// Possible and plausible, from below and above.
+/// Limits in ascending order: possible, plausible, plausible, possible.
 struct Range {
     double least, low, high, most;
 };
-// The strongest horizontal records come to 2 g (and 4 g in three directions together) and 3 m/s.
+// The strongest horizontal records reach 2 g (4 g over three directions) and 3 m/s.
 constexpr Range acceleration{0.0, 0.005, 1.0, 3.0};  // [g]
 constexpr Range velocity{0.0, 0.002, 3.0, 10.0};     // [m/s]
 constexpr Range sampling{1e-5, 2e-4, 0.05, 0.5};     // [s]
 constexpr Range length{0.0, 1.0, 600.0, 1e5};        // [s]
 constexpr double rounding = 1e-6;                    // of values in a file
-constexpr double much_left = 0.05;                   // velocity at the end, of the peak velocity
+constexpr double much_left = 0.05;                   // final velocity over the peak velocity
 
 std::string text(double value, const char* unit = "") {
     char out[64];
@@ -28,7 +28,7 @@ std::string text(double value, const char* unit = "") {
     return out;
 }
 
-/// Derivative at the middle of each step, the largest.
+/// Largest derivative, at the middles of steps.
 double steepest(const Series& series) {
     double largest = 0.0;
     for (std::size_t i = 1; i < series.values.size(); ++i) {
@@ -41,7 +41,7 @@ class Finder {
   public:
     explicit Finder(std::string pointer) : pointer_(std::move(pointer)) {}
 
-    /// what: "a PGA of 1.96 g". slip(value) is the likely slip, with what to do; "" without one.
+    /// what: "a PGA of 1.96 g". slip(value): likely unit slip and remedy, or "".
     template <class Slip>
     void judge(double value, const Range& range, const std::string& what, Slip slip) {
         const bool possible = value >= range.least && value <= range.most * (1.0 + rounding);
@@ -58,7 +58,7 @@ class Finder {
                                 (meant.empty() ? "check the file's units and columns" : meant));
     }
 
-    /// One flag per code: a second finding becomes its second sentence.
+    /// One flag per code: a second finding is appended as a sentence.
     void flag(const char* code, const std::string& message) {
         const auto said = std::ranges::find(remarks.flags, code, &fault::Flag::code);
         if (said != remarks.flags.end()) {
@@ -189,7 +189,7 @@ std::vector<fault::Flag> warnings_about(const Recording& motion, const std::stri
 
 std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
                                               const std::string& pointer) {
-    constexpr double fine = 0.01;  // [s] resolves 10 Hz, all that moves a dam
+    constexpr double fine = 0.01;  // [s] resolves 10 Hz, above which a dam hardly responds
     const double samples = time_step / motion.dt;
     if (time_step <= fine || samples <= 2.0) return std::nullopt;
     return fault::Flag{"coarse_step", fault::Severity::warning,

@@ -1,5 +1,5 @@
-// Whether a motion is plausible: peak, time step and length against the largest ever recorded, with
-// the wrong unit that would explain it. Independent of scenes and file formats.
+// Plausibility of a motion: compares peak, time step and length with the largest ever recorded and
+// names the wrong unit that would explain an excess. Independent of scenes and file formats.
 #pragma once
 
 #include <optional>
@@ -12,10 +12,9 @@
 
 namespace breach::motion {
 
-/// Peaks of a motion, recorded as acceleration or velocity.
 struct Peaks {
-    double acceleration;  ///< PGA [m/s2]; of a velocity by differences
-    double velocity;      ///< PGV [m/s]; of an acceleration by the trapezoidal rule
+    double acceleration;  ///< PGA [m/s2]; from a velocity by differences
+    double velocity;      ///< PGV [m/s]; from an acceleration by the trapezoidal rule
 };
 Peaks peaks_of(const Recording& motion);
 
@@ -23,22 +22,22 @@ Peaks peaks_of(const Recording& motion);
 std::string summary_of(const Recording& motion);
 
 struct Remarks {
-    std::vector<fault::Fault> faults;  ///< no ground motion can be so strong
+    std::vector<fault::Fault> faults;  ///< stronger than any possible ground motion
     std::vector<fault::Flag> flags;    ///< "implausible", "drifting_motion"
 };
 
-/// For an acceleration or a velocity as it is applied: scaled, its baseline corrected. All findings
-/// point at `pointer`; a refused motion is not flagged as well.
+/// For an acceleration or a velocity as it is applied (scaled, baseline-corrected). All findings
+/// have this `pointer`; a refused motion is not flagged in addition.
 Remarks remarks_about(const Recording& motion, const std::string& pointer);
 
-/// A constant series is no record in any unit; zeros are a motion.
+/// Refuses a constant series in any unit; all zeros are allowed.
 std::optional<fault::Fault> fault_of_constant(const Recording& motion, const std::string& pointer);
 
-/// All of this for those who read a motion without refusing it: a fault becomes a questionable flag
-/// "impossible". None for a displacement.
+/// The same for readers that never refuse: a fault becomes a questionable flag "impossible". None
+/// for a displacement.
 std::vector<fault::Flag> warnings_about(const Recording& motion, const std::string& pointer);
 
-/// "coarse_step": steps of an analysis that skip samples of the motion.
+/// "coarse_step": time steps that skip samples of the motion.
 std::optional<fault::Flag> warning_about_step(const Series& motion, double time_step,
                                               const std::string& pointer);
 

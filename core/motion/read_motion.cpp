@@ -46,8 +46,8 @@ std::vector<std::string> words_of(std::string text) {
     return words;
 }
 
-/// Values of a file's lines, parted by blanks, tabs, semicolons or commas. A comma is a decimal comma
-/// where something else parts the values and the line has no decimal point.
+/// Values of a file's lines, separated by blanks, tabs, semicolons or commas. A comma is a decimal
+/// comma if something else separates the values and the line has no decimal point.
 class Values {
   public:
     std::vector<std::string> of(const std::string& line) {
@@ -73,7 +73,7 @@ class Values {
     bool decimal_commas_ = false;  ///< in an earlier line
 };
 
-/// Beyond it squares are no numbers any more, and nothing moves so.
+/// Limit of values: squares of larger ones overflow.
 constexpr double largest_number = 1e100;
 
 std::optional<double> number_from(std::string word) {
@@ -99,13 +99,13 @@ double needed_number(const std::string& word, const std::string& name, std::size
     return *value;
 }
 
-/// A table that puts its entries in quotes; other lines stay as they are.
+/// Removes the quotes around table entries; other lines stay unchanged.
 void without_quotes(std::string& line) {
     const std::string whole = trimmed(line);
     if (whole.size() > 1 && whole.front() == '"') std::erase(line, '"');
 }
 
-/// Lines with their numbers, without the mark of UTF-8 and the quotes around a table's entries.
+/// Numbered lines, without UTF-8 byte order mark and quotes.
 struct Lines {
     std::istream& in;
     const std::string& name;
@@ -133,7 +133,7 @@ struct PeerSize {
     double dt;
 };
 
-/// ".01SEC" is a number and the word behind it; other words stay whole.
+/// Splits ".01SEC" into number and word; other words stay whole.
 std::vector<std::string> parted_from_number(const std::string& word) {
     double value = 0.0;
     const auto end = std::from_chars(word.data(), word.data() + word.size(), value).ptr;
@@ -143,12 +143,12 @@ std::vector<std::string> parted_from_number(const std::string& word) {
     return parts ? std::vector{word.substr(0, word.size() - unit.size()), unit} : std::vector{word};
 }
 
-/// "NPTS= 8000, DT= .0050 SEC" or "4096 0.0100 NPTS, DT", the labels and numbers in their order.
+/// "NPTS= 8000, DT= .0050 SEC" or "4096 0.0100 NPTS, DT": labels and numbers in their order.
 struct SizeLine {
     std::vector<double> numbers;
     std::vector<std::string> labels;
-    std::vector<std::string> behind_number;  ///< the word that follows each, where one does
-    std::string behind_dt;                   ///< behind the label DT
+    std::vector<std::string> behind_number;  ///< word after each number, if any
+    std::string behind_dt;                   ///< word after the label DT
 
     explicit SizeLine(std::string line) {
         if (line.find('.') == std::string::npos)
@@ -165,7 +165,7 @@ struct SizeLine {
     bool is_one() const { return labels.size() >= 2 && labels[0] != labels[1]; }
 
   private:
-    /// Where the word behind this one goes.
+    /// Where to put the word after this one.
     std::string* take(std::string word, std::string* behind) {
         if (const auto value = number_from(word)) {
             numbers.push_back(*value);
@@ -186,7 +186,7 @@ bool means_seconds(const std::string& unit) {
            unit == "SECONDS";
 }
 
-/// What to write instead.
+/// Remedy for a time step.
 std::string in_seconds(double dt, const std::string& unit) {
     double seconds = 0.0;
     if (unit == "HZ") seconds = 1.0 / dt;
@@ -195,7 +195,7 @@ std::string in_seconds(double dt, const std::string& unit) {
     return seconds > 0.0 ? "DT= " + number_text(seconds) + " SEC" : "e.g. DT= .0100 SEC";
 }
 
-/// A number belongs to the label before it, or, when the line begins with numbers, to the label of
+/// A number belongs to the label before it, or, if the line begins with numbers, to the label of
 /// the same rank.
 PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t line) {
     const auto& [numbers, labels, behind_number, behind_dt] = size;
@@ -213,14 +213,14 @@ PeerSize peer_size(const SizeLine& size, const std::string& name, std::size_t li
     return {static_cast<std::size_t>(count), dt};
 }
 
-/// Samples with their times, as far as they are read.
+/// Samples read so far, with their times.
 struct Samples {
     std::vector<double> time, value;
     std::vector<std::size_t> line;
-    int decimals = 0;  ///< of the times, as many as the longest has
+    int decimals = 0;  ///< of the times: the largest number of decimals
 };
 
-/// Digits behind the decimal point of a number that was read.
+/// Digits after the decimal point of a number.
 int decimals_of(const std::string& word) {
     const std::size_t point = word.find('.'), power = word.find_first_of("eE");
     const std::size_t end = std::min(word.size(), power);
@@ -241,7 +241,7 @@ std::optional<double> step_within(const std::vector<double>& times, double low, 
     }
     if (least > most || least <= 0.0) return std::nullopt;
     const double middle = 0.5 * (least + most), whole = 1.0 / std::round(1.0 / middle);
-    return whole >= least && whole <= most ? whole : middle;  // 1/128 s is likelier than 0.0078124
+    return whole >= least && whole <= most ? whole : middle;  // prefers 1/128 s to 0.0078124
 }
 
 bool are_multiples(const std::vector<double>& times, double step, double near) {
@@ -252,13 +252,14 @@ bool are_multiples(const std::vector<double>& times, double step, double near) {
     return true;
 }
 
-/// The one time step of the samples; times may be rounded or cut off after their last digit.
+/// The common time step; times may be rounded or truncated.
 std::optional<double> time_step_of(const Samples& samples) {
     const std::vector<double>& times = samples.time;
     const double mean = times.back() / static_cast<double>(times.size() - 1);
     const double digit = std::pow(10.0, -samples.decimals);
     if (are_multiples(times, mean, 0.01 * mean)) return mean;
-    constexpr double coarse = 0.3;  // of a step: beyond, rounded times do not tell a missing sample
+    // of a step; with coarser rounding, a missing sample cannot be detected
+    constexpr double coarse = 0.3;
     constexpr double ties = 1.001;
     if (0.5 * digit <= coarse * mean)
         if (const auto step = step_within(times, -0.5 * ties * digit, 0.5 * ties * digit))
@@ -266,7 +267,7 @@ std::optional<double> time_step_of(const Samples& samples) {
     return digit <= coarse * mean ? step_within(times, -ties * digit, 1e-3 * digit) : std::nullopt;
 }
 
-/// Names the first step that differs from most of the others.
+/// Reports the first step that differs from most others.
 [[noreturn]] void reject_uneven(const Samples& samples, const std::string& name) {
     const std::vector<double>& times = samples.time;
     std::vector<double> steps(times.size() - 1);
@@ -324,7 +325,7 @@ void add_sample(Samples& samples, const std::vector<std::string>& words, const s
 
 constexpr std::size_t most_header_lines = 20;
 
-/// Of a header "time_s,acceleration_g".
+/// Unit in a header "time_s,acceleration_g".
 std::optional<Unit> unit_of_columns(const std::string& header) {
     const std::size_t parted = header.find_first_of(",;\t");
     if (parted == std::string::npos || !is_time_column(header.substr(0, parted)))
@@ -332,7 +333,7 @@ std::optional<Unit> unit_of_columns(const std::string& header) {
     return unit_of_column(header.substr(parted + 1));
 }
 
-/// What to write for a unit that is not read.
+/// Remedy for an unknown unit.
 std::string meant_unit(const std::string& header, const char* otherwise = "G") {
     const std::string text = ' ' + upper(header) + ' ';
     const auto has = [&](std::string_view part) { return text.find(part) != std::string::npos; };
@@ -352,7 +353,7 @@ std::string csv_remedy(const std::string& header) {
                           : "; the values times " + meant.substr(0, meant.find('*')) + " are in g");
 }
 
-/// Of a comment or a header above two columns. Two of them must not name different units.
+/// Reads the unit in a comment or header; two of them must not differ.
 void take_unit(std::optional<Unit>& unit, const std::string& text, const std::string& name,
                std::size_t line) {
     const auto columns = unit_of_columns(trimmed(text));
@@ -369,7 +370,7 @@ void take_unit(std::optional<Unit>& unit, const std::string& text, const std::st
     unit = named.unit;
 }
 
-/// "time acceleration(m/s2)": the first word is no number, and begins as none.
+/// "time acceleration(m/s2)": the first word does not begin like a number.
 bool is_header(const std::string& line) {
     const std::vector<std::string> words = words_of(line);
     return words.size() > 1 && std::isalpha(static_cast<unsigned char>(line.front())) != 0 &&
@@ -385,7 +386,7 @@ void take_unit_of_header(std::optional<Unit>& unit, const std::string& text,
                csv_remedy(text));
 }
 
-/// Publishers' forms that are not read, each by the words of one of its first lines.
+/// Refuses unsupported publishers' formats, each recognised by words in its first lines.
 void reject_other_forms(const std::string& line, const std::string& name, std::size_t number) {
     struct Other {
         std::string_view mark, also, form, convert;
@@ -414,7 +415,7 @@ void reject_other_forms(const std::string& line, const std::string& name, std::s
 
 enum class Form { peer, csv, two_columns };
 
-/// What the first lines look like; where they do not tell, the file's ending says it.
+/// Format by the first lines or, if they are unclear, by the file's extension.
 Form form_of(std::istream& in, const std::string& name, const std::string& ending) {
     Lines lines{in, name};
     std::string line;
@@ -509,7 +510,7 @@ Recording read_csv(std::istream& in, const std::string& name) {
 
 Recording read_motion(const std::filesystem::path& file) {
     std::ifstream in;
-    std::error_code error;  // a device or a pipe never ends
+    std::error_code error;  // excludes devices and pipes
     if (std::filesystem::is_regular_file(file, error)) in.open(file);
     if (!in.is_open()) throw fault::IoError("cannot open the motion " + file.string());
     const std::string name = file.string();

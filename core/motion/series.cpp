@@ -14,7 +14,7 @@ double Series::duration() const {
 double value_at(const Series& series, double t) {
     const double place = t / series.dt;
     const double last = static_cast<double>(series.values.size()) - 1.0;
-    constexpr double rounding = 1e-9;  // of a clock that has added up many steps
+    constexpr double rounding = 1e-9;  // round-off of a clock after many steps
     if (series.values.empty() || place < -rounding || place > last + rounding) return 0.0;
     const double low = std::clamp(std::floor(place), 0.0, std::max(0.0, last - 1.0));
     const auto i = static_cast<std::size_t>(low);
@@ -86,7 +86,7 @@ Series resampled(const Series& series, double dt) {
 
 namespace {
 
-/// Arias intensity that has arrived at each sample [m/s].
+/// Cumulative Arias intensity at each sample [m/s].
 Series arrived(const Series& acceleration) {
     Series square = acceleration;
     constexpr double factor = 0.5 * std::numbers::pi / standard_gravity;
@@ -145,7 +145,7 @@ Series base_corrected(Series acceleration) {
     const std::size_t count = acceleration.values.size();
     if (count < 3) return acceleration;
     const Baseline left = baseline(acceleration);
-    // What 1 and t leave behind under the same integration rule.
+    // Final velocity and displacement of a = 1 and a = t with the same integration rule.
     Series constant{acceleration.dt, std::vector<double>(count, 1.0)}, ramp = constant;
     for (std::size_t i = 0; i < count; ++i) {
         ramp.values[i] = acceleration.dt * static_cast<double>(i);

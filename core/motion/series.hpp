@@ -1,4 +1,4 @@
-// Earthquake motions as equally spaced samples in SI, and their measures. Independent of file
+// Earthquake motions as equally spaced samples in SI, and operations on them. Independent of file
 // formats (read_motion.hpp) and meshes.
 #pragma once
 
@@ -6,40 +6,37 @@
 
 namespace breach::motion {
 
-/// Standard gravity, the unit in which records are given [m/s2].
+/// Standard gravity [m/s2], the unit g of records.
 inline constexpr double standard_gravity = 9.80665;
 
-/// Samples at 0, dt, 2 dt, ...; straight lines between them, zero outside.
+/// Samples at 0, dt, 2 dt, ...; linear between them, zero outside.
 struct Series {
     double dt = 0.0;             ///< [s], > 0
     std::vector<double> values;  ///< [m/s2], [m/s] or [m]
 
-    double duration() const;  ///< of the samples [s]
+    double duration() const;
 };
 
-/// Value at time t [s] by linear interpolation, for analyses with any time
-/// step.
+/// Value at time t [s] by linear interpolation.
 double value_at(const Series& series, double t);
 
 /// Largest absolute value.
 double peak(const Series& series);
 
-/// All values times the factor that brings the peak to `wanted`. A motion that is zero throughout
-/// stays zero.
+/// All values times the factor that gives the peak `wanted`. Zeros stay zero.
 Series scaled_to_peak(Series series, double wanted);
 
-/// Integral over time by the trapezoidal rule, zero at the first sample: velocity of an
-/// acceleration.
+/// Integral over time by the trapezoidal rule, zero at the first sample.
 Series integral(const Series& series);
 
-/// Differences over time, one-sided at the ends: acceleration of a velocity.
+/// Time derivative by differences, one-sided at the ends.
 Series derivative(const Series& series);
 
 /// Values at ascending times, as equally spaced samples from 0 to the last time.
 Series equally_spaced(const std::vector<double>& times, const std::vector<double>& values,
                       double dt);
 
-/// The same motion with another time step: linear interpolation; the last sample lies at or just
+/// The same motion with another time step, by linear interpolation; the last sample is at or just
 /// before the old end.
 Series resampled(const Series& series, double dt);
 
@@ -61,7 +58,7 @@ struct Band {
 };
 Band band(const Series& motion);
 
-/// Residual motion when the ground should be at rest again: zero for a base-corrected motion.
+/// Residual motion at the end: zero for a base-corrected motion.
 struct Baseline {
     double last_velocity;      ///< [m/s]
     double last_displacement;  ///< [m]
@@ -69,8 +66,7 @@ struct Baseline {
 };
 Baseline baseline(const Series& acceleration);
 
-/// The acceleration minus the straight line c_0 + c_1 t that makes velocity and displacement end at
-/// zero.
+/// The acceleration minus the line c_0 + c_1 t that makes the final velocity and displacement zero.
 Series base_corrected(Series acceleration);
 
 }  // namespace breach::motion

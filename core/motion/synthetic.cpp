@@ -17,10 +17,10 @@ using std::numbers::pi;
 constexpr int harmonics = 400;
 constexpr double accepted = 0.01;  // relative error of each target
 
-/// What is varied, as logarithms.
+/// Varied quantities; the search changes their logarithms.
 struct Shape {
     double frequency = 1.5;   ///< of the ground filter [Hz]
-    double duration = 10.0;   ///< for which the envelope holds [s]
+    double duration = 10.0;   ///< constant part of the envelope [s]
     double peakedness = 1.0;  ///< exponent m [-]
 };
 
@@ -34,8 +34,8 @@ double envelope(double t, double hold) {
     return std::exp(-3.0 * (t - rise - hold) / hold);
 }
 
-/// Amplitude of ground acceleration at frequency ratio r = f / f_g with 60 % damping, without what
-/// is much slower (r << 1 would only drift).
+/// Amplitude of ground acceleration at the frequency ratio r = f / f_g with 60 % damping, without
+/// low frequencies (r << 1), which would only drift.
 double amplitude(double r) {
     constexpr double zeta = 0.6;
     const double low_cut = std::pow(r, 4) / (std::pow(r, 4) + std::pow(0.15, 4));
@@ -43,8 +43,8 @@ double amplitude(double r) {
     return low_cut * std::sqrt((1.0 + square) / ((1.0 - r * r) * (1.0 - r * r) + square));
 }
 
-/// Stationary noise times its envelope at unit peak, before peakedness. Frequencies are spread
-/// geometrically over 0.1 to 8 times the filter's, so that a shift of the filter stretches time.
+/// Stationary noise times its envelope, with unit peak. Frequencies are spaced geometrically from
+/// 0.1 to 8 times the filter's, so that another filter frequency only scales time.
 Series noise(const Target& target, const Shape& shape, std::uint64_t seed) {
     std::mt19937_64 bits(seed);
     const auto count = static_cast<std::size_t>(std::llround(target.length / target.dt)) + 1;
@@ -56,7 +56,7 @@ Series noise(const Target& target, const Shape& shape, std::uint64_t seed) {
         const double place = r * std::pow(ratio, uniform(bits));
         const double a = amplitude(place) * std::sqrt(place * (ratio - 1.0));
         const double omega = 2.0 * pi * place * shape.frequency;
-        if (omega * target.dt > 0.8 * pi) continue;  // aliased to a slower one
+        if (omega * target.dt > 0.8 * pi) continue;  // aliased
         for (std::size_t i = 0; i < count; ++i) {
             series.values[i] += a * std::cos(omega * target.dt * static_cast<double>(i) + phase);
         }
@@ -74,7 +74,7 @@ Series shaped(Series unit, double peakedness, const Target& target) {
     return scaled_to_peak(base_corrected(std::move(unit)), target.peak_acceleration);
 }
 
-/// Reached over wanted: peak velocity, strong duration, Arias intensity.
+/// Obtained over target: peak velocity, strong duration, Arias intensity.
 std::array<double, 3> ratios(const Series& a, const Target& target) {
     return {peak(integral(a)) / target.peak_velocity,
             strong_part(a).duration() / target.strong_duration,
@@ -87,7 +87,7 @@ double worst(const std::array<double, 3>& ratio) {
     return largest;
 }
 
-/// The exponent that gives the wanted Arias intensity at the wanted peak: a larger one leaves less.
+/// The exponent m that gives the target Arias intensity at the target peak; a larger m lowers it.
 double fitting_peakedness(const Series& unit, const Target& target) {
     double low = 0.3, high = 4.0;
     for (int halving = 0; halving < 24; ++halving) {
@@ -100,11 +100,11 @@ double fitting_peakedness(const Series& unit, const Target& target) {
 
 struct Attempt {
     Series motion;
-    double error;  ///< largest relative one
+    double error;  ///< largest relative error
 };
 
-/// Fixed-point search from one draw of phases. It can circle where the peak velocity jumps from one
-/// cycle to another.
+/// Fixed-point search for one set of random phases. It may oscillate if the peak velocity moves to
+/// another cycle.
 Attempt search(const Target& target, std::uint64_t seed) {
     Shape shape;
     shape.duration = 0.8 * target.strong_duration;
@@ -117,7 +117,8 @@ Attempt search(const Target& target, std::uint64_t seed) {
         const auto [velocity, duration, arias] = ratios(attempt.motion, target);
         attempt.error = worst({velocity, duration, arias});
         if (attempt.error <= accepted) break;
-        // Velocity goes with 1 / frequency; half the way, as the peak may jump to another cycle.
+        // Velocity is proportional to 1 / frequency. Half a step, as the peak may move to another
+        // cycle.
         shape.frequency *= std::sqrt(velocity);
         shape.duration /= std::sqrt(duration);
     }

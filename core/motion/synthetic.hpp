@@ -1,5 +1,4 @@
-// A synthetic motion with given peak values, duration and Arias intensity: the same on every
-// machine.
+// A synthetic motion with given peaks, duration and Arias intensity; the same on every machine.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +17,10 @@ struct Target {
     std::uint64_t seed;
 };
 
-/// Harmonics of random phase with a Kanai-Tajimi spectrum (Kanai 1957, Tajimi 1960) under an
-/// envelope that rises, holds and dies away; their dominant frequency, the envelope's length and
-/// the peakedness |a|^m are found so that all four targets are met within 1 %. Base-corrected: ends
-/// at rest. Throws BadInput when the targets cannot be met together.
+/// Harmonics of random phase with a Kanai-Tajimi spectrum (Kanai 1957, Tajimi 1960), under an
+/// envelope that rises, stays constant and decays. Finds the dominant frequency, the envelope's
+/// length and the exponent m in |a|^m so that all four targets are met within 1 %.
+/// Baseline-corrected. Throws BadInput if the targets contradict each other.
 Series synthetic_motion(const Target& target);
 
 }  // namespace breach::motion

@@ -17,8 +17,8 @@ namespace {
 
 using Spelling = std::pair<std::string_view, std::string_view>;
 
-/// Applied in this order to a header in upper case, so that CM/SEC**2 and CM PER S PER S become
-/// CM/S2 and CM/S/S.
+/// Applied in this order to an upper-case header: CM/SEC**2 and CM PER S PER S become CM/S2 and
+/// CM/S/S.
 constexpr Spelling spellings[] = {
     {"\t", " "},          {"²", "2"},      {"×", "*"},       {"**", ""},      {"^", ""},
     {" SQUARED", "2"},    {" PER ", "/"},  {" TIMES ", "*"}, {" X ", "*"},    {" DIVIDED BY ", "/"},
@@ -36,7 +36,7 @@ std::string spelled(std::string text) {
     return text;
 }
 
-/// Words of a spelled text: blanks and brackets part them, and signs of punctuation at their end.
+/// Words of a normalised text, split at blanks, brackets and trailing punctuation.
 std::vector<std::string> tokens_of(std::string text) {
     std::ranges::replace_if(
         text,
@@ -59,7 +59,7 @@ std::optional<double> positive(std::string_view text) {
     return value;
 }
 
-/// "G", "CM/S/S", "M/S2"; a length alone is a displacement.
+/// "G", "CM/S/S", "M/S2"; a length alone means displacement.
 std::optional<Unit> plain_unit(std::string_view token) {
     if (token == "G" || token == "GS") return Unit{Quantity::acceleration, standard_gravity};
     if (token == "GAL") return Unit{Quantity::acceleration, 0.01};
@@ -76,7 +76,7 @@ std::optional<Unit> plain_unit(std::string_view token) {
     return std::nullopt;
 }
 
-/// A plain unit with a number before or behind it: "0.01*G", "G/10", "CM/S/S*1000".
+/// A unit with a factor: "0.01*G", "G/10", "CM/S/S*1000".
 std::optional<Unit> unit_of(std::string_view token) {
     if (const auto plain = plain_unit(token)) return plain;
     const std::size_t last = token.find_last_of("*/");
@@ -98,14 +98,14 @@ std::optional<Unit> unit_of(std::string_view token) {
     return unit;
 }
 
-/// "TIME", "SERIES", what goes on with the sentence; "10", "X" or "S" would go on with the unit.
+/// Ordinary words ("TIME", "SERIES"), which end a unit; "10", "X" or "S" would continue it.
 bool is_word(const std::string& token) {
     const auto letters = std::ranges::count_if(
         token, [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; });
     return std::isalpha(static_cast<unsigned char>(token.front())) != 0 && letters > 1;
 }
 
-/// The text behind UNITS OF, up to the end of its sentence.
+/// Text after UNITS OF, up to the end of its sentence.
 std::optional<std::string> phrase_of_units(const std::string& text) {
     const auto is_letter = [&](std::size_t i) {
         return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
@@ -136,7 +136,7 @@ bool begins_number(const std::string& token) {
     return std::isdigit(static_cast<unsigned char>(token.front())) != 0 || token.front() == '.';
 }
 
-/// What the words of a header name.
+/// Whether a word names this quantity.
 bool names(const std::string& token, Quantity quantity) {
     switch (quantity) {
         case Quantity::acceleration:
@@ -159,7 +159,7 @@ bool is_one_of(std::string_view word, const std::string_view (&list)[Count]) {
     return std::ranges::find(list, word) != std::end(list);
 }
 
-/// Words that a header may have beside a unit. None of them changes its size.
+/// Words that may accompany a unit without changing its size.
 bool may_stand_beside(const std::string& token) {
     constexpr std::string_view words[] = {
         "TIME",     "SERIES",    "HISTORY",   "HISTORIES",   "RECORD",   "RECORDED",  "DATA",
@@ -171,7 +171,7 @@ bool may_stand_beside(const std::string& token) {
     return names_any(token) || is_one_of(token, words);
 }
 
-/// "HUNDREDTHS", "SCALED BY 10": words of a header that give its unit another size.
+/// "HUNDREDTHS", "SCALED BY 10": words that change the unit's size.
 bool scales(const std::vector<std::string>& tokens, std::size_t i) {
     constexpr std::string_view beginnings[] = {"TENTH", "HUNDREDTH", "THOUSANDTH", "MILLI",
                                                "MICRO", "SCAL",      "MULTIPL",    "FACTOR",
@@ -187,7 +187,7 @@ bool any_scales(const std::vector<std::string>& tokens) {
     return false;
 }
 
-/// The unit with which a phrase begins; what follows must not belong to it.
+/// The unit at the beginning of a phrase; the next word must not continue it.
 std::optional<Unit> first_unit(std::vector<std::string> tokens) {
     if (tokens.size() > 1 && begins_number(tokens[0])) {
         tokens[1] = tokens[0] + "*" + tokens[1];
@@ -237,7 +237,7 @@ std::optional<Unit> unit_in_header(const std::string& header) {
 
 namespace {
 
-/// The words of a column's name: what it holds, and its unit.
+/// Splits a column's name into quantity and unit.
 std::pair<std::string, std::string> column_words(const std::string& name) {
     std::string text = spelled(name);
     std::ranges::replace(text, '_', ' ');
@@ -258,13 +258,13 @@ std::optional<Unit> unit_of_column(const std::string& name) {
 
 namespace {
 
-/// A word of a comment; of brackets, their content.
+/// A word of a comment; for brackets, their content.
 struct Word {
     std::string text;
     char bracket = 0;
 };
 
-/// Of one clause of a comment, spelled.
+/// Words of one clause, normalised.
 std::vector<Word> words_of_clause(const std::string& clause) {
     std::vector<Word> words;
     std::string plain;
@@ -288,7 +288,7 @@ std::vector<Word> words_of_clause(const std::string& clause) {
     return words;
 }
 
-/// Parted by semicolons and by commas and full stops that are in no number.
+/// Splits at semicolons, and at commas and full stops outside numbers.
 std::vector<std::string> clauses_of(const std::string& text) {
     std::vector<std::string> clauses(1);
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -319,7 +319,7 @@ bool is_direction(const std::string& word) {
     return is_one_of(word, directions);
 }
 
-/// Words that look like a unit: of those that follow IN or stand in round brackets, others are prose.
+/// Words that look like a unit; others after IN or in round brackets are prose.
 bool looks_like_unit(const std::string& word) {
     constexpr std::string_view units[] = {"COUNTS", "COUNT", "DIGITS",  "MG",  "UG",    "SI",
                                           "KINE",   "KINES", "VOLT",    "V",   "VOLTS", "MV",
@@ -328,7 +328,7 @@ bool looks_like_unit(const std::string& word) {
            any_scales({word});
 }
 
-/// What one comment says of the units of its file's columns.
+/// Unit information in one comment about the file's columns.
 class Comment {
   public:
     void read(const std::string& clause) {

@@ -1,5 +1,5 @@
-// Nelder & Mead (1965): minimises a function of a few variables without derivatives. One simplex
-// and its moves; the caller decides when to stop, to restart or to keep to a box.
+// Nelder & Mead (1965): minimises a function of a few variables without derivatives. Provides the
+// simplex and its moves; the caller decides when to stop, restart or clip to a box.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,14 @@
 
 namespace breach::numerics {
 
-/// Place: an array or a vector of coordinates.
+/// Place: an array or vector of coordinates.
 template <class Place>
 struct Corner {
     Place at;
     double value;
 };
 
-/// Corners, the lowest first.
+/// Corners, sorted by ascending value.
 template <class Place>
 class Simplex {
   public:
@@ -24,7 +24,7 @@ class Simplex {
 
     const Corner<Place>& lowest() const { return corners_.front(); }
 
-    /// Largest distance of a coordinate from the lowest corner's.
+    /// Largest coordinate difference from the lowest corner.
     double extent() const {
         double extent = 0.0;
         for (const auto& each : corners_) {
@@ -35,7 +35,7 @@ class Simplex {
         return extent;
     }
 
-    /// One move of the worst corner, or a shrinking of all. corner(place) gives the corner there.
+    /// Moves the worst corner, or shrinks all. corner(place) evaluates a corner there.
     template <class CornerAt>
     void move(const CornerAt& corner) {
         const Place centre = centre_of_the_better();

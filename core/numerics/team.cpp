@@ -11,8 +11,8 @@ constexpr std::uint32_t members_mask = 0xffff;
 constexpr std::uint32_t open = 0x10000;
 constexpr std::uint32_t one_round = 0x20000;
 
-/// Looks before a sleep, each yielding the core: some 0.1 ms, about what waking a sleeper costs and as
-/// long as the work between two loops.
+/// Polls before a thread sleeps, yielding the core: about 0.1 ms, which waking it would cost, and
+/// as long as the work between two loops.
 constexpr int looks_before_sleep = 300;
 
 std::uint32_t round_of(std::uint32_t state) { return state / one_round; }

@@ -1,8 +1,8 @@
-// Threads that share the tasks of a loop. Each begins with a part of its own, the same in every loop of as
-// many tasks, so that its data stay in its core's cache; a thread that has finished helps the others from
-// their end. Between loops the threads poll for the next one for a while, yielding the core, and then
-// sleep. No thread waits for one that wakes late: the caller does its tasks. Which thread runs a task is
-// random, so tasks must not depend on it.
+// Threads that share the tasks of a loop. Each starts with its own part, the same in every loop of
+// equal length, so that its data stay in its core's cache; a thread that has finished takes tasks
+// from the end of other parts. Between loops the threads poll for a while, then sleep. The caller
+// takes the tasks of a thread that wakes late. Which thread runs a task is random: tasks must not
+// depend on it.
 #pragma once
 
 #include <atomic>
@@ -18,7 +18,7 @@ namespace breach::numerics {
 
 class Team {
   public:
-    /// `threads` >= 1, the caller's included.
+    /// `threads` >= 1, including the caller.
     explicit Team(int threads);
     ~Team();
     Team(const Team&) = delete;
@@ -26,8 +26,8 @@ class Team {
 
     std::size_t threads() const { return members_.size() + 1; }
 
-    /// Calls work(task) for task = 0 .. tasks - 1, each once, and returns when all are done. Rethrows
-    /// the first exception; tasks not yet taken by then may be left out.
+    /// Calls work(task) for task = 0 .. tasks - 1, each once, and returns when all are done.
+    /// Rethrows the first exception; tasks not begun by then may be skipped.
     template <class Work>
     void share(std::size_t tasks, const Work& work) {
         if (members_.empty() || tasks < 2) {
@@ -44,7 +44,7 @@ class Team {
     using Call = void (*)(const void*, std::size_t);
     enum class End { front, back };
 
-    /// Tasks not yet taken, [begin, end) in one word; on a cache line of its own.
+    /// Remaining tasks [begin, end) in one word, on its own cache line.
     class alignas(64) Range {
       public:
         void set(std::size_t begin, std::size_t end);
@@ -61,7 +61,7 @@ class Team {
     Call call_ = nullptr;
     const void* work_ = nullptr;
     std::vector<Range> ranges_;  ///< the caller's, then the members'
-    /// Number of the round, whether it is open, and how many members are at work in it.
+    /// Number of the round, whether it is open, and how many members work in it.
     std::atomic<std::uint32_t> state_{0};
     std::atomic<bool> closing_{false};
     std::mutex failing_;

@@ -1,5 +1,5 @@
-// The four phases, each defined once: its program, its part of the scene, and its names for people.
-// Services, dashboard and report use this table.
+// The four phases: program, part of the scene, names for display. Services, dashboard and report
+// use this table.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 namespace breach::phases {
 
 struct Phase {
-    const char* program;   ///< the executable; its name in records, results and the API
-    const char* part;      ///< its part of the scene, and the first word of its tasks' labels
+    const char* program;   ///< the executable; also its name in records, results and the API
+    const char* part;      ///< its part of the scene, and the prefix of its tasks' labels
     const char* one;       ///< "the FEM"
-    const char* analyses;  ///< several of them
-    const char* results;   ///< several results
+    const char* analyses;  ///< plural of the analysis
+    const char* results;   ///< plural of the result
     const char* frames;    ///< what its snapshots show: "mesh", "particles"
-    bool has_default_part = false;  ///< a scene that lacks the part is completed with it
+    bool has_default_part = false;  ///< a scene without this part gets it by default
 };
 
 inline constexpr Phase lem{
@@ -26,10 +26,9 @@ inline constexpr Phase transfer{
     "transfer_tool", "transfer", "the transfer", "transfers", "transfers", "particles", true};
 inline constexpr Phase mpm{"mpm_solver", "mpm", "the runout", "runouts", "runouts", "particles"};
 
-/// In the order in which their results build on each other.
+/// In the order of their dependence.
 inline constexpr std::array all{lem, fem, transfer, mpm};
 
-/// The phase of this program; null: none.
 constexpr const Phase* named(std::string_view program) {
     const auto found = std::ranges::find(all, program, &Phase::program);
     return found == all.end() ? nullptr : &*found;

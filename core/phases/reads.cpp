@@ -13,8 +13,8 @@ namespace {
 
 enum class Regions { whole, names_and_materials };
 enum class Materials {
-    of_regions,  ///< those that a region is made of
-    all,         ///< also those that soil becomes in the transfer
+    of_regions,  ///< materials of the regions
+    all,         ///< also those of soil after the transfer
 };
 
 struct Reading {
@@ -62,8 +62,8 @@ bool is(const Phase& phase, const Phase& other) {
     return std::string_view(phase.program) == other.program;
 }
 
-/// Without a FEM the MPM fills the section itself, as its ground and water lie. Strengths that
-/// depend on stress are set by the water of the limit equilibrium.
+/// Without a FEM the MPM fills the section, with the ground and water in the scene. Strengths that
+/// depend on stress use the water of /lem.
 Reading reading_of(const Phase& phase, const json& scene) {
     Reading reading = readings.at(phase.program);
     const bool fills = is(phase, mpm) && !scene.contains("fem");
@@ -84,7 +84,7 @@ void copy(const std::vector<std::string>& parts, const json& scene, json& known)
     }
 }
 
-/// The phases that its input comes from.
+/// The phases that provide its input.
 std::vector<Phase> before(const Phase& phase, const json& scene) {
     if (is(phase, transfer)) return {fem};
     if (is(phase, mpm) && scene.contains("fem")) return {fem, transfer};

@@ -1,6 +1,5 @@
-// The parts of a scene that each phase reads, each defined once. They form the key of its cached
-// result, and a phase is given no others, so that a result cannot depend on an entry that its key
-// lacks.
+// The parts of a scene that each phase reads: the key of its cached result. A phase gets no other
+// parts, so that its result cannot depend on an entry outside the key.
 //
 //     lem_tool       /gravity /materials /section /lem
 //     fem_solver     /gravity /thickness /materials /section /fem    (with all snapshot times: the
@@ -11,7 +10,7 @@
 //                    (the shapes come with the particles); without a FEM /transfer and all of
 //                    /section
 //
-// Where a strength depends on stress, the last two read /lem for its water.
+// If a strength depends on stress, the last two read /lem for its water.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -20,11 +19,11 @@
 
 namespace breach::phases {
 
-/// The part of a completed scene that a phase reads beside its input file.
+/// The part of a completed scene that a phase reads besides its input file.
 nlohmann::json part_read_by(const Phase& phase, const nlohmann::json& scene);
 
-/// A scene with only what this phase and those before it read: everything its result depends on;
-/// for the transfer the whole of /mpm, without which its grid would be faulty.
+/// The scene reduced to what this phase and those before it read: all that its result depends on.
+/// For the transfer it includes all of /mpm, because a part of its grid alone would be invalid.
 nlohmann::json scene_known_to(const Phase& phase, const nlohmann::json& scene);
 
 }  // namespace breach::phases

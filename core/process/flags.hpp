@@ -1,4 +1,4 @@
-// Flags in a result and a checkpoint.
+// Flags as JSON, for results and checkpoints.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

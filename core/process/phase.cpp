@@ -30,11 +30,10 @@ struct Arguments {
     std::filesystem::path scene;
     SessionSettings settings;
     Question question = Question::none;
-    bool measure = false;  ///< with the plan: what a step costs
+    bool measure = false;  ///< with the plan: cost of a step
 };
 
-/// The parsed arguments, or the exit code when there is nothing to run (help, version, wrong
-/// usage).
+/// Parsed arguments, or the exit code if nothing is to run (help, version, wrong usage).
 struct ParsedArguments {
     std::optional<Arguments> arguments;
     ExitCode code = ExitCode::done;
@@ -45,7 +44,7 @@ ParsedArguments usage_fault(const std::string& message) {
     return {std::nullopt, ExitCode::usage};
 }
 
-/// For people and for the service: "fem_solver 0.1.0", and on a line of its own "numerics 3".
+/// "fem_solver 0.1.0", and on a second line "numerics 3" for the service.
 std::string version_of(const Phase& phase) {
     std::string text = phase.name + " " + version();
     if (phase.numerics > 0) text += "\nnumerics " + std::to_string(phase.numerics);
@@ -137,7 +136,7 @@ json as_json(const exchange::Provenance& p) {
             {"cpu_seconds", p.spent.cpu}};
 }
 
-/// A number, a word, yes or no; what is longer is not repeated.
+/// A number, a word, yes or no; none if it is long.
 std::optional<std::string> short_text(const json& value) {
     constexpr std::size_t longest = 60;
     if (value.is_structured()) return std::nullopt;
@@ -163,8 +162,7 @@ fault::Fault changed_entry(const json& change, const json& before) {
             "resume with --set " + pointer + "=" + *was + afresh};
 }
 
-/// A run goes on with the scene that it began with. Said entry by entry, before anything in its
-/// folder is touched.
+/// Refuses to resume with another scene; lists the changed entries before changing the folder.
 void refuse_another_scene(const SessionSettings& settings, const scene::Scene& scene) {
     constexpr std::size_t most_told = 20;
     const auto checkpoint = settings.output / phases::files::checkpoint;
@@ -172,7 +170,7 @@ void refuse_another_scene(const SessionSettings& settings, const scene::Scene& s
     if (settings.start == Start::fresh || !std::filesystem::exists(checkpoint)) return;
     std::ifstream stream(kept);
     const json before = json::parse(stream, nullptr, false);
-    if (before.is_discarded()) return;  // the checkpoint itself knows whose it is
+    if (before.is_discarded()) return;  // the checkpoint has its own check
     std::vector<fault::Fault> faults;
     for (const json& change : json::diff(before, json::parse(scene.completed))) {
         faults.push_back(changed_entry(change, before));
@@ -189,11 +187,11 @@ void make_output_folder(const std::filesystem::path& folder, Start start) {
         throw fault::IoError(folder.string() + ": is not writable");
     std::filesystem::remove(folder / phases::files::fault, error);
     std::filesystem::remove(folder / phases::files::result,
-                            error);  // an old result must not pass for a new one
+                            error);  // an old result must not be mistaken for the new one
     if (start == Start::fresh) std::filesystem::remove(folder / phases::files::checkpoint, error);
 }
 
-/// What of a run is known when it breaks down: fault.json has it as result.json would.
+/// Facts of a run for result.json, or for fault.json if it fails.
 json known_of(Session& session, const Plan& plan) {
     json known = session.result();
     known["phase"] = session.settings().phase;
@@ -236,7 +234,7 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     return ExitCode::done;
 }
 
-/// A folder of its own for a trial; it goes away with everything in it.
+/// Temporary folder of a trial.
 class ShortLived {
   public:
     ShortLived() {
@@ -268,7 +266,7 @@ Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene
     return phase.measure(session);
 }
 
-/// What the transfer reads of /mpm.
+/// The part of /mpm that the transfer reads.
 scene::Mpm grid_alone(const scene::Mpm& mpm) {
     scene::Mpm grid{};
     grid.cell_size = mpm.cell_size;
@@ -283,8 +281,8 @@ scene::Mpm grid_alone(const scene::Mpm& mpm) {
     return grid;
 }
 
-/// The scene without what a phase does not read, so that no result can depend on it. Provenance
-/// keeps the text of the whole.
+/// The scene reduced to what a phase reads, so that no result can depend on the rest. Provenance
+/// has the whole text.
 scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
                            const std::filesystem::path& file) {
     const phases::Phase* named = phases::named(phase.name);
@@ -294,7 +292,7 @@ scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
                              file.string(), file.parent_path(), {});
     if (!known.faults.empty()) throw fault::BadInput(file.string(), std::move(known.faults));
     known.scene.completed = scene.completed;
-    if (phase.name == phases::transfer.program) {  // its scene's motion need not be here
+    if (phase.name == phases::transfer.program) {  // its scene's motion file may be absent
         if (known.scene.mpm) known.scene.mpm = grid_alone(*known.scene.mpm);
         return std::move(known.scene);
     }
@@ -320,9 +318,8 @@ ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     return ExitCode::done;
 }
 
-/// Says what went wrong to people (stderr), to the scheduler (fault.json) and to a listener
-/// (--progress json). `known`: facts and provenance as far as the phase came; empty before it
-/// began.
+/// Reports an error on stderr, in fault.json (for the scheduler) and as an event (--progress json).
+/// `known`: facts and provenance so far; empty if the phase did not start.
 ExitCode report(const Arguments& arguments, const json& known, ExitCode code,
                 const std::string& summary, const std::vector<fault::Fault>& faults) {
     std::cerr << arguments.settings.phase << ": " << summary << "\n";

@@ -1,5 +1,4 @@
-// The frame of every phase: one main function for all executables. Owns arguments, log, progress, signals
-// and exit codes.
+// Common main function of all phases: arguments, log, progress, signals and exit codes.
 #pragma once
 
 #include <filesystem>
@@ -15,24 +14,24 @@
 
 namespace breach::process {
 
-/// How many --input files a phase takes.
+/// Number of --input files of a phase.
 struct InputRule {
     int least;
     int most;
     std::string what;  ///< "a FEM snapshot (.vtkhdf)"
 };
 
-/// A flag that only this phase knows; SessionSettings::switches has it when it was given.
+/// A flag of this phase alone; if given, it is in SessionSettings::switches.
 struct Switch {
     std::string name;       ///< "--profile"
     std::string purpose;    ///< one line for --help
-    std::string sets = {};  ///< "/json/pointer=value" that it stands for, after every --set
+    std::string sets = {};  ///< equivalent "/json/pointer=value", applied after every --set
 };
 
-/// How a phase ended without a fault.
+/// End of a phase without fault.
 enum class Outcome {
     done,
-    stopped,  ///< the session asked to stop; a checkpoint was saved
+    stopped,  ///< stop requested; a checkpoint is saved
 };
 
 struct Phase {
@@ -41,15 +40,14 @@ struct Phase {
     InputRule inputs;
     std::function<Plan(const scene::Scene&)> plan;
     std::function<Outcome(Session&)> run;
-    /// Reads the document that the phase works from; not every phase works from a scene.
+    /// Reads the input document, for most phases a scene.
     std::function<scene::Scene(const std::filesystem::path&, const std::vector<std::string>&)>
         read = check::checked_scene;
     std::vector<Switch> switches = {};
-    /// Raise it when the phase's results change for the same input: cached results with another
-    /// number are not reused. --version prints it. 0: its results are never reused.
+    /// Raise it when results change for the same input: results cached with another number are not
+    /// reused. --version prints it. 0: never reuse.
     int numerics = 0;
-    /// Takes a few steps in the session's folder, which is removed after it. Empty: the phase has
-    /// no steps, and no --measure.
+    /// Takes a few steps in the session's folder, which is removed afterwards. Empty: no --measure.
     std::function<Cost(Session&)> measure = {};
 };
 

@@ -1,5 +1,4 @@
-// Which features a scene uses: each line of a plan names a feature, whether it is on, why, and the
-// scene entry that decides it.
+// The plan: for each feature whether it is on, why, and the scene entry that decides it.
 #pragma once
 
 #include <string>
@@ -18,7 +17,7 @@ struct PlanLine {
 
 using Plan = std::vector<PlanLine>;
 
-/// The line with the reason that applies.
+/// A plan line with the reason for the decision.
 struct Reasons {
     std::string on, left_out;
 };
@@ -26,15 +25,14 @@ PlanLine line_of(const std::string& feature, Use use, const Reasons& reasons,
                  const std::string& pointer);
 inline Use use_if(bool on) { return on ? Use::on : Use::left_out; }
 
-/// A decision with its line in the plan. Made once: the phase uses the value, the plan prints the
-/// line.
+/// A decision and its line in the plan: the phase uses the value, the plan prints the line.
 template <class Value>
 struct Decided {
     Value value;
     PlanLine line;
 };
 
-/// Aligned text for people.
+/// Aligned text.
 std::string as_text(const Plan& plan);
 
 }  // namespace breach::process

@@ -1,5 +1,5 @@
-// The frames of one run as ParaView opens them at once, with their times: a small JSON file beside
-// them (its "file series", version 1.0).
+// List of a run's frames with their times, which ParaView opens as one: a small JSON file beside
+// them ("file series", version 1.0).
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@ namespace breach::process {
 
 class Series {
   public:
-    /// Empty: frames that an earlier run left in the folder do not belong to this one.
+    /// Starts empty: frames of an earlier run in the folder are not included.
     explicit Series(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// For a resumed run: with those of its frames that are from before `time` [s].
+    /// For a resumed run: includes its frames up to `time` [s].
     static Series going_on(std::filesystem::path folder, const std::string& prefix, double time);
 
-    /// Publishes phases::files::series with this frame at the end; one of the same name is replaced.
-    /// Throws IoError.
+    /// Adds a frame, or replaces that of the same name, and publishes phases::files::series. Throws
+    /// IoError.
     void add(const std::string& name, double time);
 
   private:

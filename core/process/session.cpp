@@ -34,8 +34,8 @@ void draw_bar(double fraction, const std::string& message) {
     std::fflush(stderr);
 }
 
-/// A phase answers for what it reads. The results of the others do not change with its part of the
-/// scene; variants of a study share them, and must not share its flags.
+/// Whether a warning is about a part that this phase reads. Variants of a study share the results
+/// of other phases and must not share this scene's flags about them.
 bool concerns(const std::string& phase, const std::string& pointer) {
     const std::string_view part = std::string_view(pointer).substr(0, pointer.find('/', 1));
     for (const phases::Phase& each : phases::all)
@@ -55,7 +55,8 @@ Session::Session(SessionSettings settings, scene::Scene scene)
     }
     const auto file = output(phases::files::telemetry);
     if (settings_.start == Start::resume && std::filesystem::exists(file)) {
-        truncate_telemetry(std::numeric_limits<std::int64_t>::max());  // but for a torn last line
+        // except for an incomplete last line
+        truncate_telemetry(std::numeric_limits<std::int64_t>::max());
     } else {
         telemetry_.open(file, std::ios::trunc);
     }
@@ -92,7 +93,7 @@ exchange::Spent Session::spent() const {
 }
 
 std::optional<double> Session::peak_memory() const {
-    // Not getrusage: its ru_maxrss of a process begins with that of the one which started it.
+    // Not getrusage: ru_maxrss starts with the value of the parent process.
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);) {
         constexpr std::string_view high_water = "VmHWM:";

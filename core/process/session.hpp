@@ -1,5 +1,4 @@
-// One execution of a phase as the phase sees it: what to read, where to write, how to report, when
-// to stop.
+// One execution of a phase: input, output folder, reporting, request to stop.
 #pragma once
 
 #include <chrono>
@@ -27,7 +26,7 @@ struct SessionSettings {
     std::filesystem::path output;
     std::vector<std::filesystem::path> inputs;
     std::vector<std::string> overrides;
-    std::set<std::string> switches;  ///< of the phase's own, those that were given: "--profile"
+    std::set<std::string> switches;  ///< given flags of the phase itself: "--profile"
     Start start = Start::fresh;
     int threads = 1;
     ProgressStyle progress = ProgressStyle::none;
@@ -49,39 +48,37 @@ class Session {
     exchange::Provenance provenance() const;
     double wall_seconds() const;  ///< of this process
     double cpu_seconds() const;   ///< of this process
-    /// By all processes of the run: this one and those before it that it continues.
+    /// Time of all processes of the run: this one and those that it continues.
     exchange::Spent spent() const;
-    /// Call when the run continues from earlier results.
+    /// Call if the run continues from earlier results.
     void went_on_after(const exchange::Spent& earlier) { earlier_ = earlier; }
-    /// Peak physical memory of the process [MB]; nothing: the system does not report
-    /// it.
+    /// Peak physical memory of the process [MB]; none if the system does not report it.
     std::optional<double> peak_memory() const;
 
-    /// Reports the progress. fraction in [0, 1]; cheap, throttled to a few per second.
+    /// fraction in [0, 1]. Cheap: throttled to a few reports per second.
     void progress(double fraction, const std::string& message);
 
-    /// Appends one JSON line to telemetry.jsonl, flushed. A resumed session first drops the lines
-    /// past its checkpoint with truncate_telemetry.
+    /// Appends one JSON line to telemetry.jsonl and flushes. A resumed session first drops the
+    /// lines after its checkpoint with truncate_telemetry.
     void telemetry(const nlohmann::json& line);
-    /// Keeps the first `lines` whole lines; returns how many are kept.
+    /// Keeps the first `lines` complete lines; returns how many it kept.
     std::int64_t truncate_telemetry(std::int64_t lines);
     std::int64_t telemetry_lines() const { return telemetry_lines_; }
 
-    /// Announces a new file (a snapshot) in the progress output:
-    /// {"event":"artifact",...}.
+    /// Reports a new file (a snapshot) in the progress output: {"event":"artifact",...}.
     void announce(const std::filesystem::path& file, const nlohmann::json& what);
-    /// Announces a frame that now exists and adds it to the folder's series. name: prefix, time and
-    /// extension, as phases::files spells it; time [s], ascending.
+    /// Reports a new frame and adds it to the folder's series. name: as phases::files composes it;
+    /// time [s], ascending.
     void announce_frame(const std::string& name, const std::string& prefix, double time);
 
     /// True after SIGINT or SIGTERM: save a checkpoint and return Outcome::stopped.
     bool stop_requested() const;
 
-    /// The entries of result.json; written by run_phase when the phase ends well.
+    /// Entries of result.json; run_phase writes it when the phase succeeds.
     nlohmann::json& result() { return result_; }
 
-    /// Adds a flag to the result: to result.json, the log and every display of the result. The scene's warnings are included
-    /// from the start, except those about other phases' parts; a flag with the same code is replaced.
+    /// Adds a flag to result.json and the log. The scene's warnings about this phase's parts are
+    /// included from the start; a flag with the same code is replaced.
     void flag(fault::Flag flag);
     const std::vector<fault::Flag>& flags() const { return flags_; }
 

@@ -6,7 +6,7 @@ namespace breach::process {
 
 namespace {
 
-// Written by the handler: a signal handler may touch nothing else.
+// A signal handler may only write this.
 volatile std::sig_atomic_t received = 0;
 
 void note(int signal) { received = signal; }

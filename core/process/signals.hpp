@@ -5,8 +5,8 @@
 
 namespace breach::process {
 
-/// From now on SIGINT and SIGTERM only set a flag; SIGPIPE is ignored (a lost reader appears as a
-/// write error).
+/// From now on SIGINT and SIGTERM set a flag; SIGPIPE is ignored (a closed pipe appears as a write
+/// error).
 void watch_signals();
 bool stop_was_requested();
 /// 130 after SIGINT, 143 after SIGTERM.

@@ -11,8 +11,8 @@ namespace {
 constexpr double level_tolerance = 1e-6;  // [m]
 constexpr double usual_gravity = 9.81;    // for a ratio only
 
-/// Shear strength that is left after softening, at a depth below the top of dry soil [Pa];
-/// infinite: it cannot fail. Water is left out: this tells firm from weak, no more.
+/// Residual shear strength at a depth below the top of dry soil [Pa]; infinite: it cannot fail.
+/// Dry, because it only distinguishes firm from weak soil.
 double residual_strength(const Material& material, const materials::Place& place) {
     if (material.strength) {
         const auto of = materials::strength_of_point(*material.strength, place,
@@ -26,7 +26,7 @@ double residual_strength(const Material& material, const materials::Place& place
     return softening->c_residual + place.sigma_v0 * softening->tan_phi_residual;
 }
 
-/// A soil that points of a drawn region can be, and where.
+/// A soil of material points in a region, and its outline.
 struct Drawn {
     Soil soil;
     const Polygon& polygon;
@@ -59,7 +59,7 @@ bool is_firm_under(const Scene& scene, const Soil& bed, const Drawn& cover, cons
     return std::isfinite(weak) && residual_strength(below, where) >= firm_strength_ratio * weak;
 }
 
-/// A region that lies on this edge of a soil and is weak against it.
+/// A region on this edge of a soil that is weak compared with it.
 std::optional<std::size_t> weak_cover(const Scene& scene, const std::vector<Drawn>& drawn,
                                       const Soil& bed, const Vec2& from, const Vec2& to) {
     constexpr int samples = 16;
@@ -91,7 +91,7 @@ std::vector<Bed> beds_of(const Scene& scene) {
         for (std::size_t k = 0; k < polygon.size(); ++k) {
             const Vec2& from = polygon[k];
             const Vec2& to = polygon[(k + 1) % polygon.size()];
-            const Vec2 along = to - from;  // counter-clockwise: tops run to the left
+            const Vec2 along = to - from;  // counter-clockwise: top edges run to the left
             if (along.x() >= 0.0 || std::abs(along.y()) > -along.x()) continue;
             const auto cover = weak_cover(scene, drawn, soil, from, to);
             if (!cover) continue;

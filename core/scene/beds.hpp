@@ -1,7 +1,6 @@
-// Firm soil below weaker soil, and the place of its top in the MPM's grid. A cell has one
-// velocity gradient for all soil in it: firm soil does not yield, and holds sliding soil in
-// the same cells back (docs/verification/mpm_convergence.md, "Firm soil beside soil that
-// slides").
+// Beds: firm soil below weaker soil, and their tops in the MPM's grid. A cell has one velocity
+// gradient for all its soil, so firm soil that does not yield restrains sliding soil in the same
+// cell (docs/verification/mpm_convergence.md, "Firm soil beside soil that slides").
 #pragma once
 
 #include <cstdint>
@@ -12,27 +11,28 @@
 
 namespace breach::scene {
 
-/// Firm soil never yields, or has this many times the residual strength of the soil on it.
+/// Soil is firm if it never yields, or if its strength is this multiple of the residual strength
+/// above it.
 constexpr double firm_strength_ratio = 2.0;
 
 struct Bed {
     std::size_t region;           ///< index into the section's regions
     std::size_t material;         ///< of its points: index into materials
-    std::size_t above;            ///< a region that lies on it
-    std::optional<double> level;  ///< of its top [m]; none: its top slopes
+    std::size_t above;            ///< a region directly above it
+    std::optional<double> level;  ///< of its top [m]; none: the top slopes
 };
 
-/// One bed for every level that is a top of firm soil, and one for all tops that slope (up to 45
-/// degrees). Regions without a polygon are left out.
+/// One bed for each level top of firm soil, and one for all sloping tops (up to 45 degrees).
+/// Ignores regions without a polygon.
 std::vector<Bed> beds_of(const Scene& scene);
 
-/// From the MPM's floor up to a level [cells].
+/// Height of a level above the MPM's floor [cells].
 double cells_up_to(const Mpm& mpm, double level);
-/// The line of the grid at a level, to a hundredth of a cell, counted from the floor.
+/// Number of the grid line at a level, counted from the floor; tolerance 0.01 cells.
 std::optional<std::int32_t> line_at(const Mpm& mpm, double level);
 
-/// The number of rows of cells between the floor and the highest ground of a material, when this is
-/// a level bed on a line of the grid: the domains of its points can end there, too.
+/// Rows of cells between the floor and the highest ground of a material, if that is the level top
+/// of a bed on a grid line: the domains of its points can then be clipped there.
 std::optional<std::int32_t> rows_below_bed(const Scene& scene, std::size_t material);
 
 }  // namespace breach::scene

@@ -11,7 +11,7 @@ inline void check_ascending(Reader& reader, const std::array<double, 2>& range,
         reader.add(pointer, "is not ascending", "write [from, to] with from < to");
 }
 
-/// For lists whose entries are valid one by one but may be in the wrong order.
+/// Checks the order of a list whose entries are valid individually.
 template <class List, class Before>
 void check_order(Reader& reader, const List& list, Before before, const std::string& pointer,
                  const std::string& remedy) {
@@ -22,7 +22,7 @@ void check_order(Reader& reader, const List& list, Before before, const std::str
     }
 }
 
-/// Points from left to right, no two above each other.
+/// Points from left to right with ascending x.
 inline std::vector<Vec2> line_from(Reader& reader, const nlohmann::json& points,
                                    const std::string& pointer) {
     std::vector<Vec2> line;

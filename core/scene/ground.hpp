@@ -1,5 +1,5 @@
-// Position of a place in the undeformed section, as strength profiles need it, the same for every
-// phase. Vertical columns: no arching, no seepage except that in the lines.
+// Depth, elevation and vertical effective stress at a place of the undeformed section, for strength
+// profiles of every phase. Vertical columns: no arching, no seepage apart from the drawn lines.
 #pragma once
 
 #include "core/materials/strength/profile.hpp"
@@ -7,14 +7,12 @@
 
 namespace breach::scene {
 
-/// Vertical stresses of the section as drawn, or of its present part. The total stress is the weight of
-/// soil and free water above. The pore pressure comes from the line of the place's region in /lem; if the
-/// scene's /lem has none, it is hydrostatic below /fem/water's line, else below the transfer's phreatic
-/// line.
+/// Vertical stresses of the section as drawn, or of its present part. Total stress: weight of the
+/// soil and free water above. Pore pressure: from the region's water line in /lem; if /lem has
+/// none, hydrostatic below the line of /fem/water, else below the transfer's phreatic line.
 class Ground {
   public:
-    /// gone: [regions] those that stages have removed or not yet placed, which have no weight and
-    /// are not ground; empty: all are present.
+    /// gone: [regions] removed or not yet placed: no weight, no ground. Empty: all are present.
     explicit Ground(const Scene& scene, const std::vector<bool>& gone = {});
 
     /// A place [m] in a region (index into the section's).
@@ -25,19 +23,19 @@ class Ground {
         std::vector<Vec2> points;
         double gamma;  ///< [N/m3]
         PhreaticCorrection correction;
-        bool stands_free;  ///< above the ground it is free water
+        bool stands_free;  ///< above the ground the line is the surface of free water
     };
     struct Layer {
         Polygon polygon;
         double gamma;              ///< [N/m3]
-        std::optional<Line> line;  ///< whose water fills it
-        double r_u = 0.0;          ///< where no water reaches [-]
+        std::optional<Line> line;  ///< water line of the region
+        double r_u = 0.0;          ///< pore pressure ratio where the line gives no pressure [-]
         bool is_gone = false;
     };
     double pressure(const Line& line, const Vec2& place, double ground) const;
 
     std::vector<Layer> layers_;       ///< by region
-    std::optional<Line> free_water_;  ///< weighs where it stands above the ground
+    std::optional<Line> free_water_;  ///< line whose water above the ground has weight
 };
 
 }  // namespace breach::scene

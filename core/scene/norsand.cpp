@@ -42,7 +42,7 @@ std::string three_digits(double value) {
     return text;
 }
 
-/// Every key or none, of two lines one.
+/// All keys of a critical state line or none; exactly one of the two lines.
 std::vector<Fault> check_line(const json& law, const std::string& pointer) {
     const bool semi_log = has_any(law, {"Gamma", "lambda"});
     const bool curved = has_any(law, {"C_a", "C_b", "C_c"});
@@ -63,7 +63,7 @@ std::vector<Fault> check_line(const json& law, const std::string& pointer) {
     return faults;
 }
 
-/// A Gamma for another unit of stress shows in void ratios that no soil has.
+/// A Gamma for another stress unit gives impossible void ratios.
 std::vector<Fault> check_void_ratios(const norsand::Ready& law, double e_max,
                                      const std::string& pointer) {
     constexpr double p = 100e3;
@@ -150,13 +150,13 @@ std::optional<materials::Table> profile_from(const json& law) {
         profile.at("points").get<std::vector<std::array<double, 2>>>()};
 }
 
-/// Level ground with this K_0 at 100 kPa of mean stress [Pa, tension positive].
+/// Stress of level ground with this K_0 at p' = 100 kPa [Pa, tension positive].
 mechanics::Voigt level_ground(double K_0) {
     const double sigma_v = 300e3 / (1.0 + 2.0 * K_0);
     return {-K_0 * sigma_v, -sigma_v, -K_0 * sigma_v, 0.0};
 }
 
-/// What level ground of a law is like that begins so; `loose` is where its state stands.
+/// Faults of level ground with this initial state; `loose`: entry to name if it is too loose.
 std::vector<Fault> check_start(const materials::NorSand& made, double K_0, const std::string& loose,
                                const std::string& pointer) {
     const norsand::Beginning begun = beginning(made, level_ground(K_0));

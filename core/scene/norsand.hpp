@@ -1,4 +1,4 @@
-// NorSand in documents: the only place that knows its keys, their units and their contradictions.
+// NorSand in JSON documents: keys, units and contradictions, defined only here.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,26 +11,25 @@
 
 namespace breach::scene {
 
-/// Parameters of a law entry that its schema found sound and `check_norsand` has passed. S is left
-/// 0: it belongs to a stage.
+/// Parameters from a law entry that passed the schema and `check_norsand`. S is 0: stages set it.
 materials::norsand::Parameters norsand_parameters(const nlohmann::json& law);
 
 materials::norsand::Options norsand_options(const nlohmann::json& law);
 
-/// Initial state of a point, from an entry or from the law that it falls back on.
+/// Initial state of a point, from an entry or, by default, from the law.
 struct NorSandStart {
-    std::optional<double> psi_0;  ///< state parameter [-]; one of the two
+    std::optional<double> psi_0;  ///< state parameter [-]; give one of psi_0 and e_0
     std::optional<double> e_0;    ///< void ratio [-]
-    double R;                     ///< overconsolidation [-]
+    double R;                     ///< overconsolidation ratio [-]
 };
 NorSandStart norsand_start(const nlohmann::json& entry, const nlohmann::json& law);
 
-/// Contradictions in a law entry that its schema accepted, `pointer` before each place. Also checks
-/// whether the critical state line can be meant for 1 kPa.
+/// Contradictions in a law entry that passed the schema; `pointer` is its place. Also reports a
+/// critical state line that cannot be meant for 1 kPa.
 std::vector<fault::Fault> check_norsand(const nlohmann::json& law, const std::string& pointer);
 
-/// The same for a material's law in a scene, with the initial state: psi_0 or e_0, and a K_0 that
-/// the law can carry.
+/// The same for a material's law in a scene, with its initial state: psi_0 or e_0, and a K_0 that
+/// the law allows.
 std::vector<fault::Fault> check_norsand_in_scene(const nlohmann::json& law,
                                                  const std::string& pointer);
 

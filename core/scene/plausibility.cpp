@@ -26,7 +26,7 @@ struct Warner {
 
     double height() const { return extent.high.y() - extent.low.y(); }
     double width() const { return extent.high.x() - extent.low.x(); }
-    /// One flag per entry: what is said of it already gets a second sentence.
+    /// One flag per entry: a second warning is appended as a sentence.
     void warn(const std::string& pointer, const std::string& message) {
         const auto said = std::ranges::find(scene.warnings, pointer, &fault::Flag::pointer);
         if (said != scene.warnings.end() && said->code == code) {
@@ -37,7 +37,7 @@ struct Warner {
     }
 };
 
-/// The highest dams have 300 m, the highest mountains 9 km; a section is some kilometres long.
+/// The highest dams have 300 m, the highest mountains 9 km; sections have a few kilometres.
 void warn_about_section(Warner& d) {
     constexpr double least = 0.1, high = 1500.0, most = 9000.0, longest = 50000.0;
     const char* pointer = "/section/regions";
@@ -54,8 +54,8 @@ void warn_about_section(Warner& d) {
     }
 }
 
-/// Free water lies level: a line that slopes above the ground loads the face with water that is not
-/// there, which hides what it lifts inside.
+/// Free water is level. A sloping line above the ground loads the face with water that does not
+/// exist, which hides the uplift inside.
 void warn_about_slope_of_free_water(Warner& d, const std::vector<Vec2>& line,
                                     const std::string& pointer) {
     std::vector<double> places;
@@ -80,8 +80,8 @@ void warn_about_slope_of_free_water(Warner& d, const std::vector<Vec2>& line,
                         "there; let the line end on the ground, or run along it");
 }
 
-/// Water above the highest ground drowns the whole section: a lake's floor may lie so, but free
-/// water lies level.
+/// Warns of water above the highest ground, which drowns the whole section: possible for a lake
+/// bed, if the water is level.
 void warn_about_water(Warner& d, const std::vector<Vec2>& line, const std::string& pointer) {
     if (line.empty() || !d.reader.sound(pointer)) return;
     const double left = d.extent.low.x(), right = d.extent.high.x();
@@ -112,7 +112,7 @@ void warn_about_water(Warner& d, const std::vector<Vec2>& line, const std::strin
     }
 }
 
-/// The largest distance of two water tables within the section, and at which x [m].
+/// Largest distance of two water tables within the section, and its x [m].
 std::pair<double, double> farthest_apart(const Warner& d, const std::vector<Vec2>& a,
                                          const std::vector<Vec2>& b) {
     std::pair<double, double> farthest{0.0, d.extent.low.x()};
@@ -127,7 +127,7 @@ std::pair<double, double> farthest_apart(const Warner& d, const std::vector<Vec2
     return farthest;
 }
 
-/// One water table, drawn in three places for three phases. Stages of the FEM may move it: any of theirs will do.
+/// Compares the water table of three phases; any stage of the FEM may match.
 void warn_about_tables(Warner& d) {
     struct Table {
         std::string pointer;
@@ -159,14 +159,14 @@ void warn_about_tables(Warner& d) {
     }
 }
 
-/// The step that was meant, when it looks like milliseconds.
+/// The intended time step, if it looks like milliseconds.
 std::string meant_step(double step, double duration) {
     const double meant = 1e-3 * step;
     if (meant > 0.05 || meant > 0.1 * duration) return "give a step well below it";
     return plain_number(step) + " looks like ms: write " + seconds(meant);
 }
 
-/// T = 4 H / V_s, H the section's height, V_s of its softest soil; 0 without soil.
+/// T = 4 H / V_s with the section's height H and V_s of its softest soil; 0 without soil.
 double natural_period(const Warner& d) {
     double slowest = infinity;
     for (const Region& region : d.scene.section.regions) {
@@ -180,7 +180,7 @@ double natural_period(const Warner& d) {
 
 void warn_about_steps(Warner& d) {
     const Fem& fem = *d.scene.fem;
-    constexpr double hopeless = 0.5;  // [s]: the motion's shortest periods that matter are 0.1 s
+    constexpr double hopeless = 0.5;  // [s]: the shortest relevant periods are 0.1 s
     const double period = natural_period(d);
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const Stage& stage = fem.stages[i];
@@ -204,7 +204,7 @@ void warn_about_steps(Warner& d) {
     }
 }
 
-/// Elements or cells that no machine holds, or that are larger than what they divide.
+/// Warns of more elements or cells than memory holds, or larger than what they divide.
 void warn_about_size(Warner& d, double size, double area, const std::string& pointer,
                      const char* what) {
     constexpr double many = 3e6, most = 3e8;
@@ -269,11 +269,10 @@ double foot_above(const Scene& scene, double level) {
     return foot;
 }
 
-/// Runout is counted downstream (+x) from the toe: soil that lies beyond it from the beginning has
-/// run out before anything has moved.
+/// Runout is measured downstream (+x) from the toe: soil beyond it at the start counts as runout.
 void warn_about_toe(Warner& d) {
     constexpr double some = 0.02,
-                     most = 0.5;  // of the soil that counts; the runout is of 1 % of it
+                     most = 0.5;  // of the mobile soil; the runout is that of 1 %
     const Runout& runout = d.scene.mpm->runout;
     double all = 0.0, beyond = 0.0, end = -infinity;
     for (const Region& region : d.scene.section.regions) {
@@ -306,7 +305,7 @@ void warn_about_toe(Warner& d) {
     }
 }
 
-/// Where there are zones of friction, what lies between them and beside them is smooth: hardly meant.
+/// Between and beside zones of friction the floor is smooth: probably unintended.
 void warn_about_floor(Warner& d) {
     const Mpm& mpm = *d.scene.mpm;
     const char* pointer = "/mpm/floor/friction";
@@ -333,7 +332,7 @@ void warn_about_together(Reader& reader, Scene& scene) {
         d.warn("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
     }
     if (scene.fem) warn_about_steps(d);
-    if (d.height() > 0.0) {  // a region is sound
+    if (d.height() > 0.0) {  // some region is valid
         warn_about_section(d);
         if (scene.lem && scene.lem->water) {
             warn_about_water(d, scene.lem->water->line, "/lem/water/line");

@@ -1,4 +1,4 @@
-// What fem_solver does with the scene: /fem.
+// Reads /fem.
 #include <algorithm>
 #include <functional>
 #include <numbers>
@@ -37,7 +37,7 @@ Stage stage_from(const json& stage) {
             .least_time_step = stage.at("least_time_step")};
 }
 
-/// Index of `name` among the named; as many as there are, and a fault: there is none.
+/// Index of `name` in the list; adds a fault and returns the list's size if it is missing.
 template <class Named>
 std::size_t named_at(Reader& reader, const std::vector<Named>& all, const std::string& name,
                      const std::string& pointer, const std::string& list) {
@@ -68,7 +68,7 @@ std::vector<PressureBoundary> boundaries_from(const json& boundaries) {
     return result;
 }
 
-/// One number for the stage, or numbers by region or material; a region's own goes first.
+/// One number for the stage, or by region or material; a region's number takes precedence.
 void read_softening(Reader& reader, const Scene& scene, const json& entry,
                     const std::string& pointer, Stage& stage) {
     if (!entry.contains("S")) return;
@@ -98,7 +98,7 @@ void read_softening(Reader& reader, const Scene& scene, const json& entry,
     }
 }
 
-/// What a stage does to edges of the soil.
+/// Reads a stage's pressures and displacements.
 void read_edges(Reader& reader, const json& entry, const std::string& pointer, Stage& stage) {
     for (const json& each : entry.value("displace", json::array())) {
         const std::string here =
@@ -124,7 +124,7 @@ void read_edges(Reader& reader, const json& entry, const std::string& pointer, S
              1e3 * Vec2(each.at("right_kN"), -each.at("down_kN").get<double>())});
 }
 
-/// What a stage does to the body, its supports and its loads.
+/// Reads a stage's changes of regions, supports and loads.
 void read_changes(Reader& reader, const Scene& scene, const std::vector<Support>& supports,
                   const json& entry, const std::string& pointer, Stage& stage) {
     const auto names = [&](const char* key, const auto& all, const char* list) {
@@ -199,7 +199,7 @@ FreeField free_field_from(const json& field) {
             word_at<FreeFieldSides>(field, "sides")};
 }
 
-/// Water, base, motion, columns and loads: what shakes and what presses.
+/// Reads water, base, motion, free-field columns and loads.
 void read_surroundings(Reader& reader, const std::filesystem::path& folder, const json& fem,
                        Fem& result) {
     if (fem.contains("water")) result.water = water_from(reader, fem.at("water"));
@@ -290,7 +290,7 @@ std::optional<LiquefactionWatch> liquefaction_from(Reader& reader, const Scene& 
     return result;
 }
 
-/// Rayleigh's ratio at a frequency is beta pi f.
+/// The ratio at the frequency f is beta pi f.
 void read_damping(Reader& reader, const json& damping, Fem& fem) {
     if (fem.rayleigh_stiffness > 0.0)
         reader.add("/fem/damping", "and /fem/rayleigh_stiffness are the same damping twice",

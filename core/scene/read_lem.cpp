@@ -1,4 +1,4 @@
-// What lem_tool does with the scene: /lem.
+// Reads /lem.
 #include <algorithm>
 
 #include "core/scene/checks.hpp"
@@ -62,7 +62,7 @@ Water water_from(Reader& reader, const Scene& scene, const json& water,
     return result;
 }
 
-/// A region has one phreatic line.
+/// Refuses several phreatic lines for a region.
 void check_lines(Reader& reader, const Lem& lem) {
     std::vector<std::size_t> named;
     const auto check = [&](const Water& water, const std::string& pointer) {
@@ -124,7 +124,7 @@ NonCircular non_circular_from(Reader& reader, const json& part) {
     return result;
 }
 
-/// Where the entry of /lem/<list> keeps the parts of its strength.
+/// JSON pointers to the parts of a strength in /lem/<list>.
 struct StrengthKeys {
     const char* list;
     const char* constant;
@@ -142,7 +142,7 @@ std::optional<std::array<double, 2>> levels_from(Reader& reader, const json& ent
     return levels;
 }
 
-/// A strength by state needs a law with a state parameter, and stands alone.
+/// Strength by state needs a law with a state parameter and excludes other strengths.
 void check_by_state(Reader& reader, const Scene& scene, std::size_t region,
                     const UndrainedStrength& strength, const std::string& pointer) {
     if (!strength.on_path) return;
@@ -189,7 +189,7 @@ std::size_t layers_liquefied(Reader& reader, const json& part, const Lem& lem,
     return count;
 }
 
-/// What `of` counts: see RandomVariable.
+/// Index for RandomVariable::of.
 std::optional<std::size_t> varied(Reader& reader, const Scene& scene, const Lem& lem,
                                   Parameter parameter, const json& name,
                                   const std::string& pointer) {
@@ -253,7 +253,7 @@ void read_variations(Reader& reader, const Scene& scene, const json& lem, Lem& r
     result.probability = std::move(probability);
 }
 
-/// Entry and exit may also be points.
+/// Entry and exit may be points: from = to.
 void check_end_range(Reader& reader, const std::array<double, 2>& range,
                      const std::string& pointer) {
     if (range[0] > range[1]) reader.add(pointer, "is not ascending", "write [from, to]");

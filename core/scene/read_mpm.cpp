@@ -1,4 +1,4 @@
-// What mpm_solver does with the scene: /mpm.
+// Reads /mpm.
 #include <algorithm>
 #include <cmath>
 
@@ -14,8 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-/// Ground where debris falls on other soil: more than a tenth of it above 30 degrees. Less of it is
-/// a step, as between the ground and the base of a dam's foundation.
+/// Whether more than a tenth of the terrain is steeper than 30 degrees: debris then falls on other
+/// soil. A smaller share is a single step, as at the base of a dam.
 bool is_steep(const std::vector<mechanics::Vec2>& terrain) {
     constexpr double tan_30 = 0.5774;
     return geometry::share_steeper_than(tan_30, terrain) > 0.1;
@@ -42,7 +42,7 @@ void check_grid(Reader& reader, const Mpm& mpm) {
     }
 }
 
-/// Nodes below the terrain carry it, so a row of them must lie there everywhere.
+/// Terrain needs a row of nodes below it everywhere: they apply its contact.
 void check_terrain(Reader& reader, const Mpm& mpm) {
     const double lowest = mpm.floor.level + mpm.cell_size;
     for (std::size_t i = 0; i < mpm.terrain.size(); ++i) {
@@ -56,8 +56,8 @@ void check_terrain(Reader& reader, const Mpm& mpm) {
     const auto not_ahead = [](const Vec2& a, const Vec2& b) { return a.x() >= b.x(); };
     if (mpm.terrain.empty() ||
         std::ranges::adjacent_find(mpm.terrain, not_ahead) != mpm.terrain.end())
-        return;                            // the line's reader says so
-    for (const double x : mpm.domain_x) {  // beyond its ends it goes on as straight as it came
+        return;                            // reported by the line's reader
+    for (const double x : mpm.domain_x) {  // beyond its ends it continues straight
         const double y = geometry::straight_level_at(mpm.terrain, x);
         if (y >= lowest - 1e-9) continue;
         reader.add(
@@ -70,7 +70,7 @@ void check_terrain(Reader& reader, const Mpm& mpm) {
     }
 }
 
-/// Of places that have names (gauges, sections): inside the grid, no name twice.
+/// Named places (gauges, sections) must be inside the grid, with unique names.
 template <class Place>
 void check_places(Reader& reader, const Mpm& mpm, const std::vector<Place>& places,
                   const std::string& list, const std::string& kind) {
@@ -104,8 +104,7 @@ void read_sections(Reader& reader, const json& mpm, Mpm& result) {
                "write [low, best, high] with low <= best <= high, or one number");
 }
 
-/// What the FEM of this scene does not write, no runout can be shaken by. A scene without a FEM is
-/// judged by the file that it is given.
+/// Shaking needs the base motion of the scene's FEM. Without a FEM, the input file decides.
 void check_shaking(Reader& reader, const Mpm& mpm) {
     const json& document = reader.document();
     if (mpm.shaking == Shaking::off || !document.contains("fem")) return;
@@ -121,7 +120,7 @@ bool is_in_grid(const Box& box, const Mpm& mpm) {
            box.low.y() >= mpm.floor.level - 1e-9 && box.high.y() <= mpm.domain_y[1] + 1e-9;
 }
 
-/// The change that would bring the whole section into the grid; empty: none of them does.
+/// The correction that would bring the whole section into the grid; empty: none.
 std::string slip_of_drawing(const Section& section, const Mpm& mpm) {
     Polygon all;
     for (const Region& each : section.regions)
@@ -173,7 +172,7 @@ double number_or(const json& entry, double automatic) {
     return entry.is_string() ? automatic : entry.get<double>();
 }
 
-/// A scene without gravity has no time scale of its own: it gets that of the earth's.
+/// Without gravity a scene has no time scale: uses that of the earth.
 double gravity_of(const Reader& reader) {
     constexpr double of_the_earth = 9.81;
     if (!reader.sound("/gravity")) return of_the_earth;
@@ -181,9 +180,9 @@ double gravity_of(const Reader& reader) {
     return g > 0.0 ? g : of_the_earth;
 }
 
-/// Scales: T = sqrt(H / g), H the height of the mobile soil. A granular column collapses within
-/// 3 T, so a front that is still for as long is no pause within the collapse; 5 T leave time for a
-/// slow start. 3 T and H / 400 together are a front slower than sqrt(g H) / 1200 (1.4 cm/s for 30 m).
+/// Scaled with T = sqrt(H / g), H the height of the mobile soil. A granular column collapses within
+/// 3 T, so a front that is still for 3 T does not pause within the collapse; 5 T allow a slow
+/// start. 3 T and H / 400 mean a front slower than sqrt(g H) / 1200 (1.4 cm/s for 30 m).
 Rest rest_from(const json& mpm, double H, double g) {
     const double T = std::sqrt(H / g);
     return {.change = number_or(mpm.at("rest_change"), H / 400.0),

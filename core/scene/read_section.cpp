@@ -1,4 +1,4 @@
-// Materials and the cross-section.
+// Reads materials and the cross-section.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -67,7 +67,7 @@ mechanics::Elasticity elasticity_from(const json& law) {
     return {1e6 * law.at("E_MPa").get<double>(), law.at("nu")};
 }
 
-/// Strength entries that laws with cohesion and friction share.
+/// Strength entries of laws with cohesion and friction.
 struct CohesionAndFriction {
     double c, phi, psi;
 };
@@ -85,8 +85,8 @@ CohesionAndFriction cohesion_and_friction_from(Reader& reader, const json& law,
 
 using Profile = std::optional<materials::StrengthProfile>;
 
-/// A law that leaves its strength to the profile. Its own numbers are those of a place 10 m deep
-/// under 100 kPa: exact where the profile is the same everywhere.
+/// Law with the strength of a profile. Its own c and phi are those at a depth of 10 m under 100
+/// kPa: exact if the profile is constant.
 materials::MohrCoulomb mohr_coulomb_of(const materials::StrengthProfile& profile, const json& law) {
     const materials::PointStrength strength =
         materials::strength_of_point(profile, {10.0, 0.0, 1e5}, materials::Liquefaction::before);
@@ -205,8 +205,7 @@ std::array<std::size_t, 4> corners_from(Reader& reader, const json& mesh, const 
         }
         corners[k] = static_cast<std::size_t>(found - polygon.begin());
     }
-    // Counter-clockwise order, however the scene lists them: the second divisions entry follows the
-    // corners.
+    // Makes the corners counter-clockwise; both swaps keep the sides to which `divisions` refer.
     std::size_t ascents = 0;
     for (std::size_t k = 0; k < 4; ++k) ascents += corners[k] < corners[(k + 1) % 4] ? 1 : 0;
     if (ascents == 1) {
@@ -221,8 +220,7 @@ std::array<std::size_t, 4> corners_from(Reader& reader, const json& mesh, const 
     return corners;
 }
 
-/// The corners of a quadrilateral as the scene wrote it, so that `divisions` mean what the author
-/// sees.
+/// The corners of a quadrilateral in the scene's order, to which `divisions` refer.
 std::array<std::size_t, 4> written_order(const json& ring, const Polygon& polygon) {
     std::array<std::size_t, 4> corners{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -247,7 +245,7 @@ MeshGrading grading_from(const json& mesh) {
     return grading;
 }
 
-/// The region's own edge length, or the section's; 0 when there is neither.
+/// The region's edge length, or the section's; 0 without either.
 double element_size_from(const Reader& reader, const json& mesh) {
     if (mesh.contains("element_size")) return mesh.at("element_size");
     const json::json_pointer of_section("/section/element_size");

@@ -1,4 +1,4 @@
-// The strength profile of a material: /materials/*/strength.
+// Reads strength profiles, /materials/*/strength.
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Points of a table, their numbers in SI by these factors.
+/// Points of a table, converted to SI by these factors.
 std::vector<std::array<double, 2>> points_from(Reader& reader, const json& points, double place,
                                                double value, const std::string& pointer) {
     std::vector<std::array<double, 2>> result;
@@ -96,7 +96,7 @@ materials::SofteningStrains strains_from(Reader& reader, const json& softening,
     return strains;
 }
 
-/// The material whose strength is meant; empty where that is a fault.
+/// The material that defines the strength; empty after a fault.
 std::string owner_of(Reader& reader, const std::string& name) {
     const json& all = reader.document().at("materials");
     const json& strength = all.at(name).at("strength");
@@ -126,7 +126,7 @@ std::optional<StrengthProfile> strength_from(Reader& reader, const std::string& 
     if (owner.empty()) return std::nullopt;
     const std::string pointer = "/materials/" + owner + "/strength";
     const json& strength = reader.document().at(json::json_pointer(pointer));
-    // report a fault of the owner once, at the owner
+    // Report a fault of the owner once, at the owner.
     Reader elsewhere(reader.document(), {});
     Reader& told = owner == name ? reader : elsewhere;
     StrengthProfile profile{curve_from(told, strength.at("peak"), pointer + "/peak")};

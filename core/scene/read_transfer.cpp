@@ -1,4 +1,4 @@
-// What transfer_tool does with the scene: /transfer, and the soils that come of it.
+// Reads /transfer and the soils that it creates.
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +23,7 @@ std::optional<std::size_t> named(Reader& reader, const List& list, const std::st
     return std::nullopt;
 }
 
-/// A material that points can have.
+/// A material for material points.
 std::optional<std::size_t> point_material(Reader& reader, const Scene& scene,
                                           const std::string& name, const std::string& pointer) {
     const auto material = named(reader, scene.materials, name, pointer, "/materials");
@@ -56,9 +56,9 @@ void read_mapping(Reader& reader, const Scene& scene, const json& transfer, Tran
     }
 }
 
-/// s_r = coefficient (sigma'_v0 / standard atmosphere)^exponent in the middle of each layer.
+/// s_r = coefficient (sigma'_v0 / standard atmosphere)^exponent, at the middle of each layer.
 struct StrengthFunction {
-    std::size_t like;    ///< material that everything else is taken from
+    std::size_t like;    ///< material for all other properties
     double coefficient;  ///< [Pa]
     double exponent;
 };
@@ -95,7 +95,7 @@ std::string layer_name(const Material& like, std::size_t layer) {
     return like.name + std::string("_") + std::to_string(layer + 1);
 }
 
-/// The material of one layer by the function; the residual cohesion keeps its share of the peak.
+/// Creates a layer's material from the function; the residual cohesion keeps its ratio to the peak.
 std::size_t made_material(Scene& scene, const StrengthFunction& s_r, std::size_t layer,
                           const std::array<double, 2>& sigma_v0) {
     Material made = scene.materials[s_r.like];
@@ -111,7 +111,7 @@ std::size_t made_material(Scene& scene, const StrengthFunction& s_r, std::size_t
     return scene.materials.size() - 1;
 }
 
-/// Where each layer's material comes from: its own entry, or the function.
+/// Material of a layer: its own entry, or from the function.
 std::optional<std::size_t> layer_material(Reader& reader, Scene& scene, const json& layer,
                                           const std::optional<StrengthFunction>& s_r, std::size_t i,
                                           const std::array<double, 2>& sigma_v0) {
@@ -132,7 +132,7 @@ std::optional<std::size_t> layer_material(Reader& reader, Scene& scene, const js
     return std::nullopt;
 }
 
-/// Without layers every soil that can liquefy needs a profile that says how strong it is then.
+/// Without layers, every soil that can liquefy needs a profile with a residual strength.
 void check_residuals(Reader& reader, const Scene& scene, const json& liquefied,
                      const Transfer& transfer, const LiquefiedZone& zone) {
     if (liquefied.contains("residual_strength")) {

@@ -1,5 +1,4 @@
-// Inside core/scene only: the completed document, the faults found so far, and which parts of it
-// can be trusted.
+// Inside core/scene only: the completed document, the faults so far, and which parts are valid.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -23,8 +22,8 @@ class Reader {
     void add(std::string pointer, std::string cause, std::string remedy) {
         faults_.push_back({std::move(pointer), std::move(cause), std::move(remedy)});
     }
-    /// Adds a warning to every fault at an entry of the same object, or below it, as its possible
-    /// reason. Objects at the root are too wide for that.
+    /// Adds a warning, as a possible reason, to every fault in or below the same object, unless
+    /// that is a top-level object.
     void explain(const fault::Flag& warn) {
         const std::string object = warn.pointer.substr(0, warn.pointer.rfind('/'));
         if (object.find('/', 1) == std::string::npos) return;
@@ -35,8 +34,8 @@ class Reader {
         }
     }
 
-    /// True when the entry exists and the schema found nothing wrong at it or below it, so that it
-    /// may be read even though other parts of the scene are faulty.
+    /// True if the entry exists and the schema found no fault at it or below it. Such an entry may
+    /// be read although other parts of the scene are faulty.
     bool sound(const std::string& pointer) const {
         if (!document_.contains(nlohmann::json::json_pointer(pointer))) return false;
         for (const fault::Fault& each : faults_) {
@@ -60,11 +59,10 @@ inline std::array<double, 2> range_from(const nlohmann::json& value) {
     return {value.at(0).get<double>(), value.at(1).get<double>()};
 }
 
-/// The strength profile of /materials/<name>; nothing where it has none, or a faulty one.
+/// The strength profile of /materials/<name>; none if it is absent or faulty.
 std::optional<materials::StrengthProfile> strength_from(Reader& reader, const std::string& name);
 
-/// Materials and section. Each checks what the schema cannot express, and fills the valid parts of
-/// `scene`.
+/// Each checks what the schema cannot express and fills the valid parts of `scene`.
 void read_materials(Reader& reader, Scene& scene);
 void read_section(Reader& reader, Scene& scene);
 void read_lem(Reader& reader, Scene& scene);

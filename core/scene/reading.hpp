@@ -1,5 +1,4 @@
-// A scene as far as it can be read, so that later checks can add their faults to one complete
-// list.
+// Reads the valid parts of a faulty scene, so that later checks can add their faults to one list.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,21 +7,20 @@
 
 namespace breach::scene {
 
-/// With faults, `scene` holds its valid parts: a part with a fault of its own is absent, an invalid
-/// polygon is empty, a region with an unknown material names materials.size().
+/// With faults, `scene` has its valid parts only: a faulty part is absent, an invalid polygon is
+/// empty, a region with an unknown material has the index materials.size().
 struct Reading {
     Scene scene;
     std::vector<fault::Fault> faults;
-    nlohmann::json completed;  ///< with every default filled in; of use only without faults
+    nlohmann::json completed;  ///< with all defaults; use only without faults
 };
 
-/// As parse_scene, but faults come back beside what could be read. Throws BadInput only where the
-/// text is no JSON object.
+/// As parse_scene, but returns the faults. Throws BadInput only if the text is no JSON object.
 Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder = ".",
                   const std::vector<std::string>& overrides = {});
 
-/// The same of a document that was parsed already; throws where it is no object.
+/// The same for a parsed document.
 Reading read_document(nlohmann::json document, const std::string& name,
                       const std::filesystem::path& folder,
                       const std::vector<std::string>& overrides);

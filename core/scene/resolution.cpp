@@ -18,7 +18,7 @@ namespace {
 
 std::string text_of(double value) { return words::text_of(value, 3); }
 
-/// A number below a limit must not be rounded up to it.
+/// Never rounds up a number below a limit.
 std::string rounded_down(double value) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
     return text_of(std::floor(value / unit) * unit);
@@ -41,8 +41,8 @@ bool as_strong(const Material& a, const Material& b) {
     return numbers(*here) == numbers(*there);
 }
 
-/// Mobile regions as strong as this one that it touches, directly or through others: wet and dry
-/// soil of a dam. Their borders stop no band of shear.
+/// Mobile regions of the same strength that this one touches, directly or through others (wet and
+/// dry soil of a dam): shear bands cross their borders.
 std::vector<Polygon> attached_to(const Region& region, const Scene& scene) {
     std::vector<const Region*> mass{&region};
     for (std::size_t done = 0; done < mass.size(); ++done) {
@@ -59,14 +59,14 @@ std::vector<Polygon> attached_to(const Region& region, const Scene& scene) {
     return attached;
 }
 
-/// Something that cells have to resolve.
+/// A length that cells must resolve.
 struct Across {
     std::string what;  ///< "the thickness of region \"dam\""
     double length;     ///< [m]
 };
 
-/// Of every mobile region, with mobile regions of the same strength that touch it, and of the slope from
-/// the toe to the highest mobile soil, the one with the fewest cells; nothing: all have those wanted.
+/// The place with the fewest cells: a mobile region with touching ones of the same strength, or the
+/// slope from the toe to the highest mobile soil. None: all have enough.
 std::optional<Across> coarsest_place(const Scene& scene) {
     const Mpm& mpm = *scene.mpm;
     Across coarsest{"", cells_wanted * mpm.cell_size};
@@ -83,7 +83,7 @@ std::optional<Across> coarsest_place(const Scene& scene) {
     return coarsest.what.empty() ? std::nullopt : std::optional(coarsest);
 }
 
-/// Finer than anybody waits for: a slip of the unit, as a rule.
+/// Flags far too fine cells, usually a wrong unit.
 void judge_fine_cells(const Scene& scene, Resolved& resolved) {
     const double area = area_of_section(scene);
     const double h = scene.mpm->cell_size, cells = area / (h * h);
@@ -124,14 +124,14 @@ void judge_cells(const Scene& scene, Resolved& resolved) {
          "/mpm/cell_size"});
 }
 
-/// Under this stress [Pa].
+/// At this normal stress [Pa].
 bool is_weaker(const Material& a, const Material& b, double stress) {
     const auto one = materials::limit_strength(a.law), other = materials::limit_strength(b.law);
     return one && other &&
            one->c + stress * one->tan_phi < 0.95 * (other->c + stress * other->tan_phi);
 }
 
-/// Layers that do not count for the runout, on which it may slide all the same.
+/// Flags immobile weak layers, on which the mobile soil may slide.
 void judge_weak_layers(const Scene& scene, Resolved& resolved) {
     const double h = scene.mpm->cell_size, H = mobile_height(scene, *scene.mpm);
     for (const Region& layer : scene.section.regions) {
@@ -206,14 +206,14 @@ void judge_lack_of_length(const Material& soil, Resolved& resolved) {
          "/materials/" + soil.name});
 }
 
-/// A region whose soil breaks along bands.
+/// A region whose soil fails in shear bands.
 struct BandAcross {
     const Material* soil;
     const Region* region;
     double thickness;  ///< [m]
 };
 
-/// Of the region that has the least room for its bands.
+/// Flags the region with the least space for its shear bands.
 void judge_widest_band(const Scene& scene, const std::vector<Soil>& soils, Resolved& resolved) {
     std::optional<BandAcross> widest;
     double share = widest_band_share;
@@ -250,7 +250,7 @@ void judge_bands(const Scene& scene, Resolved& resolved) {
     judge_widest_band(scene, soils, resolved);
 }
 
-/// Cells that divide the height up to a bed: just below the scene's own size, and just above it.
+/// Cell sizes that divide the height of a bed: just below and just above the scene's.
 std::string cells_dividing(const Mpm& mpm, double height) {
     const double rows = height / mpm.cell_size;
     std::string sizes = words::text_of(height / std::ceil(rows)) + " m";
@@ -258,7 +258,7 @@ std::string cells_dividing(const Mpm& mpm, double height) {
     return sizes;
 }
 
-/// A floor below terrain carries nothing: it may lie lower, with lines of the grid through a level.
+/// The floor below terrain has no contact: it may be lower, to put a grid line at a level.
 std::string floor_with_a_line_at(const Mpm& mpm, double level) {
     const double h = mpm.cell_size;
     const double floor = level - h * std::ceil(cells_up_to(mpm, level));
@@ -274,7 +274,7 @@ struct CutBed {
     std::string remedy;
 };
 
-/// How a bed shares cells with what lies on it; nothing where its points' domains end at its top.
+/// How a bed shares cells with the soil on it; none if its points' domains end at its top.
 std::optional<CutBed> cut_of(const Scene& scene, const Bed& bed) {
     const Mpm& mpm = *scene.mpm;
     if (!bed.level)
@@ -298,7 +298,7 @@ std::optional<CutBed> cut_of(const Scene& scene, const Bed& bed) {
                       "and the domain"};
 }
 
-/// Soil that is to move on firm soil that is not.
+/// Flags mobile soil on beds of firm soil.
 void judge_beds(const Scene& scene, Resolved& resolved) {
     for (const Bed& bed : beds_of(scene)) {
         const Region& below = scene.section.regions[bed.region];
@@ -316,7 +316,8 @@ void judge_beds(const Scene& scene, Resolved& resolved) {
     }
 }
 
-/// Elements across a block are as many as its divisions say; sizes are met by two or more.
+/// Flags a region with fewer than two elements across. A block meshed by element_size has at least
+/// two.
 void judge_elements(const Region& region, const std::string& pointer, Resolved& resolved) {
     const auto [along, up] = region.divisions;
     const bool divided = region.mesh == RegionMesh::block && along > 0;

@@ -7,7 +7,7 @@
 
 namespace breach::materials::pm4sand {
 
-/// Which answer is wanted: the corrected scheme's, or that of OpenSees.
+/// Scheme by the key "compat".
 static constexpr auto words_of(Scheme) {
     using enum Scheme;
     return words::in_order<Scheme>({{reference, "opensees"}, {adaptive, "corrected"}});

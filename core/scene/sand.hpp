@@ -1,4 +1,4 @@
-// PM4Sand in documents: the only place that knows its keys, their units and what follows from D_R.
+// PM4Sand in JSON documents: keys, units and the entries derived from D_R, defined only here.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +16,7 @@ materials::pm4sand::Options sand_options(const nlohmann::json& law);
 /// The parameters with the document's keys and units.
 nlohmann::json sand_as_json(const materials::pm4sand::Parameters& parameters);
 
-/// Fills in the entries of a PM4Sand law that follow from D_R; does not change other laws.
+/// Fills in the entries of a PM4Sand law that follow from D_R; ignores other laws.
 void complete_sand(nlohmann::json& law);
 
 }  // namespace breach::scene

@@ -29,8 +29,8 @@ const Part& part_of(const std::optional<Part>& part, const Scene& scene, const c
                             "add it to the scene (see workflows/schema/scene.schema.json)"}});
 }
 
-/// 2.0 is 2: scenes that are equal have equal texts, whoever wrote them (a browser leaves the point
-/// out), so they share their results and their checkpoints.
+/// Writes 2.0 as 2: equal scenes have equal texts (browsers omit the point), and so share results
+/// and checkpoints.
 void write_whole_numbers_without_point(json& value) {
     constexpr double every_one_below = 9007199254740992.0;  // 2^53
     if (value.is_structured()) {
@@ -86,7 +86,7 @@ Reading read_document(json document, const std::string& name, const std::filesys
     warn_about_together(reader, scene);
     Resolved resolved = resolution_of(scene);
     for (Fault& each : resolved.faults) {
-        if (!reader.sound(each.pointer)) continue;  // a slip of the unit: said already
+        if (!reader.sound(each.pointer)) continue;  // wrong unit, already reported
         reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
     }
     std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));

@@ -1,5 +1,5 @@
-// The scene: one physical problem, read from JSON, checked whole, held as plain structs in SI and
-// radians. Every field's meaning, unit, range and default is in workflows/schema/scene.schema.json.
+// The scene: one physical problem, read from JSON, checked, in SI units and radians. Meaning, unit,
+// range and default of every field: workflows/schema/scene.schema.json.
 #pragma once
 
 #include <array>
@@ -24,44 +24,44 @@ using geometry::Box;
 using geometry::Polygon;
 using mechanics::Vec2;
 
-/// Strength at failure.
 struct LimitStrength {
     double c;    ///< [Pa]
     double phi;  ///< [rad]
 };
 
-/// Width of a shear band under nonlocal softening, in nonlocal lengths, for any cells [-].
+/// Width of a shear band with nonlocal softening over the nonlocal length, independent of the cells
+/// [-].
 constexpr double band_in_nonlocal_lengths = 2.5;
 
 struct Material {
     std::string name;
     double density;  ///< [kg/m3]
     materials::Law law;
-    double viscosity = 0.0;  ///< Newtonian stress beside the law's, 2 eta dev D [Pa s]
-    /// mpm: its softening strains are averaged over this length [m]
+    double viscosity = 0.0;  ///< adds the Newtonian stress 2 eta dev(D) [Pa s]
+    /// mpm: averaging length of the softening strains [m]
     std::optional<double> nonlocal_length{};
     std::optional<double> void_ratio{};                   ///< fem with water [-]
     std::optional<std::array<double, 2>> permeability{};  ///< hydraulic conductivity, x, y [m/s]
-    std::optional<LimitStrength> limit_strength{};        ///< lem: instead of the law's
-    /// For every phase that has no entry of its own for this soil
+    std::optional<LimitStrength> limit_strength{};        ///< lem: replaces the law's strength
+    /// for every phase without an entry of its own
     std::optional<materials::StrengthProfile> strength{};
 };
 
-/// lem: limit_strength, or a law with c_kPa and phi_deg, comes before the profile.
+/// In the lem, limit_strength or a law with c_kPa and phi_deg takes precedence over the profile.
 inline bool lem_takes_profile(const Material& material) {
     const bool law_has_own = materials::traits(material.law).c_and_phi &&
                              !materials::has_strength_of_points(material.law);
     return material.strength && !material.limit_strength && !law_has_own;
 }
 
-/// How a region is meshed: a block mapped between four of its vertices, or unstructured quads.
+/// Mesh of a region: a block mapped between four of its vertices, or unstructured quads.
 enum class RegionMesh { block, unstructured };
 
-/// Structured strips at the far ends of a region, their columns widening away from the rest.
+/// Structured strips at both ends of a region; their columns widen outwards.
 struct MeshGrading {
     std::optional<double> left_of;   ///< x where the left strip ends [m]
     std::optional<double> right_of;  ///< x where the right strip begins [m]
-    double largest = 0.0;            ///< width of the farthest column [m]
+    double largest = 0.0;            ///< width of the outermost column [m]
     bool any() const { return left_of || right_of; }
 };
 
@@ -71,16 +71,15 @@ struct Region {
     Polygon polygon;       ///< counter-clockwise, first vertex not repeated
     RegionMesh mesh = RegionMesh::block;
     std::array<std::size_t, 4> corners{};  ///< block: indices into polygon, counter-clockwise
-    std::array<int, 2> divisions{};  ///< block: elements along corner 0-1 and along corner 1-2; 0:
-                                     ///< from element_size
-    double element_size = 0.0;       ///< wanted edge length [m]
+    /// block: elements along sides 0-1 and 1-2 of the corners; 0: from element_size
+    std::array<int, 2> divisions{};
+    double element_size = 0.0;  ///< wanted edge length [m]
     MeshGrading grading{};
 };
 
 struct Section {
     std::vector<Region> regions;
 
-    /// For the queries of core/geometry/section.hpp.
     operator geometry::Outlines() const { return geometry::outlines_of(regions, &Region::polygon); }
 };
 
@@ -96,50 +95,52 @@ struct SlipSearch {
     std::array<double, 2> exit;   ///< x range of the lower end [m]
     int entry_points;
     int exit_points;
-    int depths;                            ///< circles per pair of ends, from shallow to deep
-    double minimum_depth;                  ///< least depth of sliding mass below ground [m]
-    std::optional<double> lowest_level{};  ///< no surface reaches below [m]
+    int depths;                            ///< number of circles per pair of ends
+    double minimum_depth;                  ///< least depth of the sliding mass below ground [m]
+    std::optional<double> lowest_level{};  ///< surfaces stay above it [m]
 };
 
-/// Vertical crack at the upper end of every surface: as deep as `depth`, or down to `level`.
+/// Vertical crack at the upper end of every surface, down to `depth` or `level`.
 struct TensionCrack {
-    std::optional<double> depth;  ///< below ground [m]
-    std::optional<double> level;  ///< y of its foot [m]
-    double filled;                ///< share of its height under water [-]
+    std::optional<double> depth;  ///< of the crack [m]
+    std::optional<double> level;  ///< y of its tip [m]
+    double filled;                ///< share of its height filled with water [-]
 };
 
-/// Slices to which the limit on m_alpha applies, and how a given circle below it is treated.
+/// Slices to which the limit of m_alpha applies, and the treatment of a given circle with a smaller
+/// value.
 enum class MAlphaSlices { frictional, all };
 enum class SmallMAlpha { answered, refused };
 
-/// m_alpha = cos a + sin a tan phi / F of a slice must not be below `least`.
+/// Lower limit of m_alpha = cos a + sin a tan phi / F of a slice.
 struct MAlphaLimit {
     double least = 0.2;  ///< Whitman & Bailey (1967) [-]
     MAlphaSlices slices = MAlphaSlices::frictional;
     SmallMAlpha given_circle = SmallMAlpha::answered;
 };
 
-/// Surfaces of straight pieces, by Spencer's method.
+/// Polygonal slip surfaces, analysed by Spencer's method.
 struct NonCircular {
     std::vector<Vec2> given;  ///< ascending in x; empty: none [m]
-    int vertices;             ///< of the optimised surface; 0: nothing is optimised
+    int vertices;             ///< of the optimised surface; 0: no optimisation
 };
 
-/// u below the phreatic line: gamma_w times the depth, or that times cos^2 of its inclination.
+/// Pore pressure below the phreatic line: gamma_w times the depth, or times cos^2 of the line's
+/// inclination too.
 enum class PhreaticCorrection { none, cos2 };
 
-/// Hydrostatic water below (and, where it lies above ground, free water above) a line.
+/// Hydrostatic water below a line; free water where the line is above ground.
 struct Water {
     std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
     double density;          ///< [kg/m3]
     PhreaticCorrection correction;
-    std::vector<std::size_t> regions;  ///< whose pores it fills, indices into the section's; empty:
-                                       ///< all that no other line names
+    /// regions it fills, indices into the section's; empty: all without another line
+    std::vector<std::size_t> regions;
 };
 
 struct PorePressureRatio {
     std::size_t region;  ///< index into the section's regions
-    double r_u;          ///< u over the vertical total stress of the soil [-]
+    double r_u;          ///< u over the vertical total stress [-]
 };
 
 /// Vertical pressure on the ground for x in [from, to].
@@ -149,7 +150,7 @@ struct Surcharge {
     double pressure;  ///< [Pa]
 };
 
-/// Force on the ground per metre of slope.
+/// Force on the ground, per metre of thickness.
 struct LineLoad {
     double x;      ///< [m]
     double down;   ///< [N/m]
@@ -161,26 +162,27 @@ struct UndrainedStrength {
     double constant;      ///< [Pa]
     double coefficient;   ///< [Pa]
     double exponent;      ///< [-]
-    double factor = 1.0;  ///< on the profile's or the law's where the entry takes that [-]
-    std::optional<materials::OnPath> on_path{};  ///< instead, the material's law says it
+    double factor = 1.0;  ///< multiplies the strength of the profile or law [-]
+    std::optional<materials::OnPath> on_path{};  ///< strength by the material's law instead
     std::shared_ptr<const materials::UndrainedByPlace>
-        by_state{};  ///< from the law, where it is needed
+        by_state{};  ///< filled in if the law gives the strength
 
-    /// Has no strength of its own: the residual strength of the material's profile applies, if any.
+    /// True without a strength of its own: the residual strength of the material's profile applies,
+    /// if any.
     bool is_of_profile() const { return constant == 0.0 && coefficient == 0.0 && !on_path; }
 };
 
 struct UndrainedRegion {
     std::size_t region;  ///< index into the section's regions
     UndrainedStrength strength;
-    std::optional<std::array<double, 2>> levels{};  ///< of the part concerned, low to high [m]
+    std::optional<std::array<double, 2>> levels{};  ///< only between these levels, low to high [m]
 };
 
-/// Which surface the variations of a parameter are analysed on.
+/// Slip surface for varied parameters: fixed, or searched again.
 enum class VariedSurface { fixed, searched };
 
 struct Sensitivity {
-    double change;  ///< share of each strength parameter [-]
+    double change;  ///< relative change of each strength parameter [-]
     VariedSurface surface;
     std::size_t layers_liquefied;
 };
@@ -195,7 +197,7 @@ enum class Parameter {
 };
 enum class Distribution { normal, lognormal };
 
-/// `of` counts the materials, or the entries of Lem::undrained or Lem::liquefaction.
+/// `of`: index into the materials, Lem::undrained or Lem::liquefaction.
 struct RandomVariable {
     Parameter parameter;
     std::size_t of;
@@ -216,18 +218,20 @@ struct Lem {
     std::optional<SlipSearch> search;
     int slices;
     std::optional<Water> water;
-    std::vector<Water> piezometric_lines;  ///< pore pressure of their regions; never free water
+    std::vector<Water> piezometric_lines;  ///< pore pressure of their regions, without free water
     std::vector<PorePressureRatio> pore_pressure_ratios;
-    double seismic_coefficient;  ///< k_h, towards the slide [-]
+    double seismic_coefficient;  ///< k_h, towards the sliding direction [-]
     std::vector<Surcharge> surcharge;
     std::vector<LineLoad> line_loads;
-    std::vector<Vec2> floor;  ///< ascending in x, level beyond its ends; empty: none [m]
+    /// no surface reaches below; ascending in x, level beyond its ends; empty: none [m]
+    std::vector<Vec2> floor;
     std::optional<TensionCrack> tension_crack;
     MAlphaLimit m_alpha;
     std::optional<NonCircular> non_circular;
     std::vector<UndrainedRegion> undrained;
-    std::vector<UndrainedRegion> liquefaction;  ///< from the top down, one more per stage
-    /// Regions whose weight came too fast to consolidate the soil below: sigma'_v0 is without it
+    std::vector<UndrainedRegion> liquefaction;  ///< from the top down; each stage adds one
+    /// Regions that were placed too fast for the soil below to consolidate: sigma'_v0 excludes
+    /// their weight.
     std::vector<std::size_t> unconsolidated;
     std::optional<Sensitivity> sensitivity;
     std::optional<Probability> probability;
@@ -237,19 +241,19 @@ struct Lem {
 
 enum class Kinematics { small_strain, updated_lagrangian };
 
-/// bbar: 2 x 2 Gauss points, mean dilatation. ssp: one point, stabilised.
+/// bbar: 2 x 2 Gauss points, mean dilatation. ssp: one point with hourglass stabilisation.
 enum class ElementKind { bbar, ssp };
-/// Modulus of the ssp quad's stabilisation: the soil's current one, or always the elastic one.
+/// Modulus of the ssp quad's stabilisation: the current or the elastic one.
 enum class HourglassKind { current, elastic };
-/// Effect of a folded corner on an analysis: it ends, or notes an event. Small strain computes on
-/// the undeformed mesh and can continue.
+/// At a folded corner the analysis stops, or continues and records an event. Continuing needs small
+/// strain, which computes on the undeformed mesh.
 enum class AtEntanglement { stop, go_on };
 
 struct MeshSource {
-    std::optional<std::filesystem::path> msh_file;  ///< absolute; otherwise meshed from the regions
+    std::optional<std::filesystem::path> msh_file;  ///< absolute; none: meshed from the regions
 };
 
-/// Nodes on the segment from-to are held in x, y or both.
+/// Nodes on the segment are fixed in x, y or both.
 struct Support {
     std::string name;
     Vec2 from;
@@ -260,18 +264,18 @@ struct Support {
 
 enum class StageKind { static_equilibrium, dynamic };
 enum class StageLaws { elastic, scene };
-/// free_drainage: 1 m/s everywhere; scene: the materials' own.
+/// free_drainage: 1 m/s everywhere; scene: the materials' permeability.
 enum class StagePermeability { free_drainage, scene };
 
-/// Nodes on the segment have the pressure of water standing at `level`; without one p = 0.
+/// Nodes on the segment have the hydrostatic pressure below `level`; without a level p = 0.
 struct PressureBoundary {
     std::string name;
     Vec2 from;
     Vec2 to;
-    std::optional<double> level;  ///< [m]
+    std::optional<double> level;
 };
 
-/// Nodes on the segment are held in the given directions, and moved so far over a stage.
+/// Nodes on the segment are fixed in the given directions and moved by these amounts over a stage.
 struct Displacement {
     std::string name;
     Vec2 from;
@@ -288,18 +292,18 @@ struct EdgePressure {
     double pressure;  ///< into the soil [Pa]
 };
 
-/// A force on the node next to a place.
+/// A force on the node nearest to a place.
 struct NodeForce {
     std::string name;
     Vec2 at;
-    double within;  ///< farthest that the node may be from the place [m]
+    double within;  ///< largest distance of that node [m]
     Vec2 force;     ///< per metre of thickness [N/m]
 };
 
-/// Creep of a region: strain without stress, at constant volume in the plane.
+/// Creep of a region: strain at constant stress and constant in-plane volume.
 struct Creep {
     std::size_t region;
-    double epsilon_q;  ///< sqrt(2/3 e:e), along the present deviator in the plane [-]
+    double epsilon_q;  ///< sqrt(2/3 e:e), along the present in-plane deviator [-]
 };
 
 struct Stage {
@@ -307,32 +311,32 @@ struct Stage {
     StageKind kind;
     StageLaws laws;
     StagePermeability permeability = StagePermeability::scene;
-    int load_steps = 1;            ///< static: equal parts of gravity
+    int load_steps = 1;            ///< static: number of equal gravity increments
     double duration = 0.0;         ///< dynamic [s]
-    double time_step = 0.0;        ///< dynamic, largest [s]
-    double least_time_step = 0.0;  ///< dynamic: below this the run ends [s]
-    std::optional<double> S{};     ///< additional softening, where the stage says [-]
-    /// [regions] the same of a region alone, drained or not; empty: of none
+    double time_step = 0.0;        ///< dynamic: largest [s]
+    double least_time_step = 0.0;  ///< dynamic: a smaller step ends the run [s]
+    std::optional<double> S{};     ///< additional softening, if the stage sets it [-]
+    /// [regions] the same by region, drained or not; empty: no region
     std::vector<std::optional<double>> S_of_region{};
-    std::vector<std::size_t> activates{};  ///< regions that are there from this stage on
-    std::vector<std::size_t> removes{};    ///< regions that are gone from this stage on
-    std::vector<std::size_t> releases{};   ///< supports that are removed
-    /// From this stage on, instead of the earlier surcharges
+    std::vector<std::size_t> activates{};  ///< regions placed in this stage
+    std::vector<std::size_t> removes{};    ///< regions removed in this stage
+    std::vector<std::size_t> releases{};   ///< supports removed in this stage
+    /// From this stage on, replaces the earlier surcharges.
     std::optional<std::vector<Surcharge>> surcharge{};
-    /// static: from this stage on, instead of the one before; ascending in x [m]
+    /// static: from this stage on, replaces the earlier line; ascending in x [m]
     std::optional<std::vector<Vec2>> phreatic_line{};
-    /// static: from this stage on, instead of those before
+    /// static: from this stage on, replaces the earlier boundaries
     std::optional<std::vector<PressureBoundary>> water_boundaries{};
-    /// static: regions whose water does not flow in this stage
+    /// static: regions without pore water flow in this stage
     std::vector<std::size_t> undrained{};
-    /// From this stage on, instead of the earlier one
+    /// From this stage on, replaces the earlier value.
     std::optional<double> seismic_coefficient{};  ///< horizontal body force over weight [-]
     std::optional<std::vector<EdgePressure>> pressures{};
     std::optional<std::vector<NodeForce>> forces{};
-    std::vector<Displacement> displacements{};  ///< static: held from this stage on
-    std::vector<Creep> creep{};                 ///< static: over the stage
-    double ramp = 0.0;              ///< dynamic: unbalanced forces are applied over this time [s]
-    bool goes_on_at_limit = false;  ///< static: a limit point ends the stage, not the run
+    std::vector<Displacement> displacements{};  ///< static: kept from this stage on
+    std::vector<Creep> creep{};                 ///< static: during this stage
+    double ramp = 0.0;              ///< dynamic: time over which unbalanced forces are applied [s]
+    bool goes_on_at_limit = false;  ///< static: a limit point ends the stage instead of the run
 
     bool moves_the_water() const { return phreatic_line || water_boundaries; }
     bool changes_the_body() const {
@@ -342,11 +346,11 @@ struct Stage {
     }
 };
 
-/// Soil above the phreatic line: p = 0 at its nodes, or no pore water at all.
+/// Soil above the phreatic line: p = 0 at its nodes, or no pore water.
 enum class AboveWater { drained, dry };
 
-/// How the ssp quad integrates storage and conduction: at one point, which is blind to a pressure
-/// that alternates from node to node, or fully.
+/// Integration of storage and conduction in the ssp quad: full, or at one point, which does not
+/// resist a pressure that alternates from node to node.
 enum class PressureIntegration { full, one_point };
 
 /// Pore water below a phreatic line.
@@ -355,15 +359,15 @@ struct GroundWater {
     double density;          ///< [kg/m3]
     double bulk_modulus;     ///< K_f [Pa]
     AboveWater above;
-    double pressure_stabilisation;  ///< alpha over h^2 / (K + 4G/3) [-]
+    double pressure_stabilisation;  ///< alpha in alpha h^2 / (K + 4G/3) [-]
     PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
-    std::string boundaries_at = "/fem/water/boundaries";  ///< their entry in the scene
+    std::string boundaries_at = "/fem/water/boundaries";  ///< scene entry of the boundaries
 };
 
-/// Type of a motion from below: of the rock's free surface (twice the up-going wave), or that wave.
+/// Input motion: of the rock outcrop (twice the upgoing wave), or the upgoing wave.
 enum class MotionAt { outcrop, upgoing };
-/// tied: the base moves as one in x.
+/// tied: all base nodes have the same x displacement.
 enum class BaseNodes { tied, free };
 
 /// Elastic half-space below the mesh.
@@ -386,17 +390,17 @@ enum class FreeFieldSides { left, right, both };
 
 struct FreeField {
     double width;             ///< [m]
-    double thickness_factor;  ///< over the section's thickness [-]
+    double thickness_factor;  ///< multiplies the section's thickness [-]
     FreeFieldSides sides;
 };
 
-/// How deep liquefaction reaches: the deepest node with r_u above the threshold.
+/// Depth of liquefaction: the deepest node with r_u above the threshold.
 struct LiquefactionWatch {
-    std::vector<std::size_t> regions;  ///< whose nodes count
-    std::array<double, 2> x;           ///< between these [m]
-    double level;                      ///< where depth is zero [m]
+    std::vector<std::size_t> regions;  ///< of the nodes
+    std::array<double, 2> x;           ///< range of the nodes [m]
+    double level;                      ///< y of zero depth [m]
     double r_u;                        ///< threshold [-]
-    double least_stress;  ///< nodes with less sigma'_v0 have no ratio [Pa, compression positive]
+    double least_stress;  ///< no r_u at nodes with less sigma'_v0 [Pa, compression positive]
 };
 
 struct Fem {
@@ -411,27 +415,28 @@ struct Fem {
     std::optional<BaseMotion> motion;
     std::optional<FreeField> free_field;
     std::vector<Surcharge> surcharge;
-    double largest_step_error;  ///< 0: steps follow the iterations alone [m]
+    double largest_step_error;  ///< 0: the Newton iterations alone control the time step [m]
     double newmark_beta;
     double newmark_gamma;
     double rayleigh_mass;                       ///< alpha [1/s]
     double rayleigh_stiffness;                  ///< beta [s]
-    std::optional<double> damping_frequency{};  ///< at which the ratio was given [Hz]
+    std::optional<double> damping_frequency{};  ///< frequency of the given damping ratio [Hz]
     double force_tolerance;                     ///< residual norm over reference force norm [-]
     int largest_iterations;
-    double least_jacobian_ratio;  ///< entangled below this [-]
+    double least_jacobian_ratio;  ///< a smaller ratio counts as entangled [-]
     AtEntanglement at_entanglement;
-    Vec2 crest;               ///< monitored point; nearest node is used [m]
-    double strain_threshold;  ///< averages are over elements with epsilon_q above this [-]
+    Vec2 crest;               ///< monitored point: the nearest node [m]
+    double strain_threshold;  ///< averages include elements with a larger epsilon_q [-]
     std::optional<LiquefactionWatch> liquefaction;
-    double failure_strain;               ///< bands of elements above this are failure surfaces [-]
-    double failure_separation;           ///< places of the ground closer than this are one [m]
-    std::vector<double> snapshot_times;  ///< ascending; steps are cut to meet them [s]
-    double snapshot_interval;            ///< no step is cut for these; 0: none [s]
+    /// connected elements with a larger epsilon_q are a failure surface [-]
+    double failure_strain;
+    double failure_separation;  ///< surfaces that reach the ground closer together count as one [m]
+    std::vector<double> snapshot_times;  ///< ascending; time steps end on them [s]
+    double snapshot_interval;            ///< time steps do not end on these; 0: none [s]
     double telemetry_interval;           ///< [s]
-    std::optional<double> strength_interval;  ///< of undrained strength by state; none: never [s]
+    /// of undrained strength by state; none: not computed [s]
+    std::optional<double> strength_interval;
 
-    /// Whether a stage changes the body, its supports, its loads or its water.
     bool changes_the_body() const {
         for (const Stage& stage : stages)
             if (stage.changes_the_body()) return true;
@@ -442,7 +447,7 @@ struct Fem {
             if (stage.moves_the_water()) return true;
         return false;
     }
-    /// The water with the phreatic line and the boundaries that are in force in a stage.
+    /// The water with the phreatic line and boundaries of a stage.
     std::optional<GroundWater> water_in(std::size_t stage) const {
         std::optional<GroundWater> now = water;
         for (std::size_t s = 0; now && s <= stage; ++s) {
@@ -453,7 +458,7 @@ struct Fem {
         }
         return now;
     }
-    /// Regions [regions of the section] that are absent in a stage: yet to be placed, or removed.
+    /// [regions] absent in a stage: not yet placed, or removed.
     std::vector<bool> regions_gone(std::size_t regions, std::size_t stage) const {
         std::vector<bool> gone(regions, false);
         for (const Stage& each : stages)
@@ -474,62 +479,64 @@ struct Fem {
 enum class Interpolation { local, paper };
 enum class SofteningStart { carried, zero };
 
-/// The r_u that makes a node liquefied: the largest since the shaking began, or that of t_T.
+/// r_u that decides whether a node is liquefied: the largest since the shaking began, or that at
+/// t_T.
 enum class LiquefiedWhen { ever, at_transfer };
-/// Treatment of an element that the FEM has turned inside out.
+/// Treatment of an element that is inside out in the FEM.
 enum class Entangled { refuse, rebuild };
-/// Stress for frictional laws: the effective stress, with the pore pressure beside it, or the total
-/// one. All other laws (phi = 0, elastic) get the total stress.
+/// Stress of points with frictional laws: effective with a separate pore pressure, or total. All
+/// other laws (phi = 0, elastic) get the total stress.
 enum class TransferredStress { total, effective };
 
-/// Soil of a region that becomes another material in the MPM.
+/// Soil of a region that gets another material in the MPM.
 struct SoilMapping {
     std::size_t region;                      ///< index into the section's regions
     std::size_t material;                    ///< index into Scene::materials
-    std::optional<std::size_t> saturated{};  ///< the material below the phreatic line instead
+    std::optional<std::size_t> saturated{};  ///< material below the phreatic line
 };
 
-/// Liquefied soil with initial vertical effective stress in [from, to).
+/// Liquefied soil with initial vertical effective stress sigma'_v0 in [from, to).
 struct LiquefiedLayer {
     double from;  ///< [Pa]
     double to;    ///< [Pa]
     std::size_t material;
 };
 
-/// Soil above the line counts as liquefied at this transfer, and so does the soil left of it above
-/// its left end.
+/// At this transfer time, soil above the line is liquefied, and soil left of the line above the
+/// level of its left end.
 struct LiquefiedLine {
     double transfer_time;        ///< [s]
     std::array<Vec2, 2> points;  ///< from left to right [m]
 };
 
 struct LiquefiedZone {
-    std::vector<std::size_t> regions;  ///< whose soil can liquefy
+    std::vector<std::size_t> regions;  ///< with liquefiable soil
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
     LiquefiedWhen when;
-    /// From 0, without gaps; the last also holds what is beyond. Empty: soil keeps its material,
-    /// with the residual strength of that material's profile
+    /// From 0, without gaps; the last layer includes higher stresses. Empty: soil keeps its
+    /// material, with the residual strength of that material's profile.
     std::vector<LiquefiedLayer> layers;
-    double narrowest_wall = 0.0;  ///< a narrower wall of unliquefied soil liquefies, too [m]
+    /// unliquefied soil between liquefied soil liquefies if it is narrower [m]
+    double narrowest_wall = 0.0;
     std::vector<LiquefiedLine> lines{};
 };
 
-/// Which transfer times the advice is about; expressions of core/criteria over FEM telemetry.
+/// Recommended transfer times; expressions of core/criteria over FEM telemetry.
 struct AdviceWindow {
-    std::string lower;  ///< the failure has developed
-    std::string upper;  ///< the mesh is too distorted
+    std::string lower;  ///< condition: the failure has developed
+    std::string upper;  ///< condition: the mesh is too distorted
     double hold;        ///< [s]
     std::string pick;   ///< "midpoint", "first" or "last_before"
 };
 
 enum class BaseDisplacement { kept, subtracted };
-/// sigma_zz of the points: from the FEM, or zero, as a transfer of three components leaves it.
+/// sigma_zz of the points: from the FEM, or zero as in a transfer of three stress components.
 enum class OutOfPlaneStress { carried, zero };
 
 struct Transfer {
     int points_per_direction;
-    std::optional<int> points_per_cell{};  ///< that every filled cell of the MPM must get
-    /// Moves the points along xi and eta: 0 Gauss, +-1 a point on the panel's border [-]
+    std::optional<int> points_per_cell{};  ///< in every filled cell of the MPM
+    /// Moves the points along xi and eta: 0 Gauss points, +-1 to the panel's border [-]
     std::array<double, 2> point_shift{};
     Interpolation interpolation;
     int neighbours;
@@ -541,11 +548,11 @@ struct Transfer {
     SofteningStart softening_start;
     BaseDisplacement base_displacement = BaseDisplacement::kept;
     OutOfPlaneStress sigma_zz = OutOfPlaneStress::carried;
-    std::optional<std::array<double, 2>> keep_x{};  ///< points outside are left out [m]
-    bool round_trip = false;                        ///< measure points back to the mesh
-    double largest_mass_loss;                       ///< relative; more fails the transfer
-    double largest_momentum_loss;                   ///< relative
-    double largest_kinetic_energy_loss = 0.005;     ///< relative
+    std::optional<std::array<double, 2>> keep_x{};  ///< only points in this range of x [m]
+    bool round_trip = false;       ///< measure the error of mapping the points back to the mesh
+    double largest_mass_loss;      ///< relative; a larger loss fails the transfer
+    double largest_momentum_loss;  ///< relative
+    double largest_kinetic_energy_loss = 0.005;  ///< relative
     std::optional<AdviceWindow> window{};
 };
 
@@ -553,21 +560,21 @@ struct Transfer {
 
 using Kernel = grid::KernelKind;
 using grid::UpdateOrder;
-/// automatic: on where the law is plastic or nu > 0.45.
+/// automatic: on if the law is plastic or nu > 0.45.
 enum class AntiLocking { on, off, automatic };
 enum class Wall { roller, fixed, open };
 
-/// How the ground moves during the runout.
+/// Motion of the ground during the runout.
 enum class Shaking {
-    off,      ///< not at all: the earthquake ends with the transfer
-    goes_on,  ///< as the base of the FEM's free-field columns does; the grid moves with it
+    off,      ///< none: the earthquake ends with the transfer
+    goes_on,  ///< that of the base of the FEM's free-field columns; the grid moves with it
 };
 
-/// Stress of points that fill the section: none, or the weight of the soil above, sigma_h = K_0
-/// sigma_v with K_0 = nu / (1 - nu).
+/// Initial stress if points fill the section: none, or from the overburden, sigma_h = K_0 sigma_v
+/// with K_0 = nu / (1 - nu).
 enum class FillStress { none, overburden };
 
-/// Coulomb friction of the floor, or of the terrain, for x in [from, to].
+/// Coulomb friction on floor or terrain for x in [from, to].
 struct FrictionZone {
     double from;
     double to;
@@ -579,8 +586,7 @@ struct Floor {
     std::vector<FrictionZone> friction;  ///< ascending in x, empty: fixed (no slip)
 };
 
-/// Pushes overlapping soil apart: the volume rate of a point gets -rate max(0, fill - 1 -
-/// tolerance).
+/// Separates overlapping soil: adds the volume rate -rate max(0, fill - 1 - tolerance) to a point.
 struct OverlapCorrection {
     double rate = 0.0;       ///< 0: none [1/s]
     double tolerance = 0.1;  ///< [-]
@@ -588,31 +594,31 @@ struct OverlapCorrection {
 
 struct Runout {
     Vec2 toe;
-    std::vector<std::string> regions;  ///< mobile regions that count; empty: all
-    double front_depth = 1.0;          ///< the front is the farthest place with this depth [m]
+    std::vector<std::string> regions;  ///< mobile regions; empty: all
+    double front_depth = 1.0;          ///< the front is the farthest place with this flow depth [m]
 };
 
 /// A place where flow depth and velocity are recorded.
 struct Gauge {
     std::string name;
     double x;              ///< [m]
-    double arrival_depth;  ///< the flow has arrived when it is this deep [m]
+    double arrival_depth;  ///< flow depth at arrival [m]
 };
 
-/// A place through which soil leaves the model: its hydrograph is recorded.
+/// A place through which soil leaves the model; its hydrograph is recorded.
 struct FlowSection {
     std::string name;
     double x;  ///< [m]
 };
 
-/// Width of the breach across the section that is modelled [m].
+/// Width of the breach, normal to the section [m].
 struct BreachWidth {
     double low;
     double best;
     double high;
 };
 
-/// Fields of a point beside position and region, by their names in the exchange files.
+/// Fields of a point besides position and region, by their names in the exchange files.
 enum class PointField {
     velocity,
     velocity_gradient,
@@ -627,18 +633,18 @@ enum class PointField {
 };
 
 struct Output {
-    std::vector<PointField> fields{};  ///< of the points, in every frame
+    std::vector<PointField> fields{};  ///< of the points, in frames
 };
 
-/// When the mobile soil is at rest. Limits that depend on the scene's size are resolved.
+/// Criterion of rest for the mobile soil. Limits that depend on the scene's size are resolved.
 struct Rest {
-    double change;                 ///< the front moved no more than this over the window [m]
+    double change;                 ///< largest movement of the front over the window [m]
     double window;                 ///< [s]
-    double earliest;               ///< never before [s]
-    double speed;                  ///< slower soil counts as still [m/s]
-    double body_share = 0.005;     ///< of the mobile mass: connected bodies that may move [-]
-    double kinetic_share = 0.005;  ///< of the energy released: largest kinetic energy [-]
-    double peak_share = 0.05;      ///< of the largest kinetic energy so far [-]
+    double earliest;               ///< no rest before [s]
+    double speed;                  ///< slower soil is at rest [m/s]
+    double body_share = 0.005;     ///< largest moving connected body, over the mobile mass [-]
+    double kinetic_share = 0.005;  ///< largest kinetic energy, over the energy released [-]
+    double peak_share = 0.05;      ///< largest kinetic energy, over its maximum so far [-]
 };
 
 struct Mpm {
@@ -649,43 +655,45 @@ struct Mpm {
     Wall left;
     Wall right;
     Floor floor;
-    /// Ascending in x, straight beyond its ends; empty: the floor [m]
+    /// Ascending in x, linear beyond its ends; empty: the floor [m]
     std::vector<Vec2> terrain{};
     Kernel kernel;
-    double gimp_half_size;  ///< fraction of the cell [-]
+    double gimp_half_size;  ///< over the cell size [-]
     UpdateOrder order;
     double blending_rate;  ///< affine PIC rate beta [1/s]
-    /// Share of critical damping of soil that does not yield, at the mobile height's frequency [-]
+    /// Damping of soil that does not yield, over critical, at the frequency of the mobile height
+    /// [-]
     double damping_ratio = 0.0;
-    /// Least tensile strength over the unconfined compressive strength in force [-]
+    /// Least tensile strength over the present unconfined compressive strength [-]
     double tension_share = 0.0;
     AntiLocking anti_locking;
     bool gap_closure;
-    /// Limits open volume to the room between the neighbours; by default on where more than a tenth
-    /// of the terrain is steeper than 30 degrees and debris falls on other soil
+    /// Limits crack volume to the space between neighbouring points. By default on if more than a
+    /// tenth of the terrain is steeper than 30 degrees and debris falls on other soil.
     bool gap_room = false;
     OverlapCorrection overlap_correction{};
-    /// Softening strains are those of cells this long [m]
+    /// Cell size for which the softening strains are given [m]
     std::optional<double> softening_length{};
-    double stiffness_scale;                    ///< factor on E, reported [-]
-    std::optional<double> wave_speed_limit{};  ///< of compression, soil is softer for it [m/s]
-    std::optional<double> time_step;           ///< fixed [s]; otherwise by CFL
-    double cfl;                                ///< [-]
-    double duration;                           ///< longest [s]
-    bool until_rest = false;                   ///< asked for: `duration` is the bound on it
+    double stiffness_scale;  ///< multiplies E; in the results [-]
+    /// of compression waves: soil is softened to it [m/s]
+    std::optional<double> wave_speed_limit{};
+    std::optional<double> time_step;  ///< fixed [s]; otherwise by CFL
+    double cfl;                       ///< [-]
+    double duration;                  ///< largest [s]
+    bool until_rest = false;          ///< end the run at rest, at the latest after `duration`
     Rest rest;
     Runout runout;
     std::vector<Gauge> gauges{};
-    double arrival_depth = 0.1;  ///< of the envelope: the flow has arrived when it is this deep [m]
+    double arrival_depth = 0.1;  ///< envelope: flow depth at arrival [m]
     std::vector<FlowSection> sections{};
     std::optional<BreachWidth> breach_width{};
     double snapshot_interval;  ///< [s]
     Output output{};
-    double telemetry_interval;   ///< [s]
-    double checkpoint_interval;  ///< wall clock [s]
-    double largest_energy_gain;  ///< relative to the energy released; more ends the run [-]
-    int fill_points;             ///< points per cell and direction when no particles are given
-    std::array<double, 2> fill_shift{};  ///< moves the squares of the filling, in squares [-]
+    double telemetry_interval;           ///< [s]
+    double checkpoint_interval;          ///< wall clock [s]
+    double largest_energy_gain;          ///< over the energy released; more ends the run [-]
+    int fill_points;                     ///< per cell and direction, if no particles are given
+    std::array<double, 2> fill_shift{};  ///< moves the filling grid of points, in its spacings [-]
     FillStress fill_stress = FillStress::none;
     Shaking shaking = Shaking::off;
 };
@@ -701,32 +709,31 @@ struct Scene {
     std::optional<Fem> fem;
     std::optional<Transfer> transfer;
     std::optional<Mpm> mpm;
-    std::string completed;              ///< the JSON text with every default filled in, keys sorted
-    std::vector<fault::Flag> warnings;  ///< entries that are possible and hardly meant
+    std::string completed;              ///< JSON text with all defaults, keys sorted
+    std::vector<fault::Flag> warnings;  ///< possible but probably unintended entries
 };
 
-/// Soil of a material point: of a region, of one material.
+/// Soil of material points: region and material.
 struct Soil {
     std::size_t region;    ///< index into the section's regions
     std::size_t material;  ///< index into materials
     bool operator==(const Soil&) const = default;
 };
 
-/// All soils of this scene's points. The first ones are the section's regions, in their order, each
-/// of the material that the MPM gives it; then the parts that /transfer separates: saturated parts,
-/// liquefied layers.
+/// All soils of this scene's points: first the section's regions, in their order, with their MPM
+/// material; then the parts that /transfer separates (saturated parts, liquefied layers).
 std::vector<Soil> soils_of(const Scene& scene);
 
 /// Reads and checks a scene; `overrides` are "/json/pointer=value". Throws BadInput with every
 /// fault, IoError if the file cannot be read.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The same from text; relative paths in it are taken from `folder`, `name` is used in messages.
+/// The same from text. Relative paths start at `folder`; messages use `name`.
 Scene parse_scene(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder = ".",
                   const std::vector<std::string>& overrides = {});
 
-/// Throws BadInput when the scene has no part for this phase ("/mpm" missing).
+/// Throws BadInput if the scene lacks this phase ("/mpm" missing).
 const Fem& fem_of(const Scene& scene);
 const Lem& lem_of(const Scene& scene);
 const Transfer& transfer_of(const Scene& scene);

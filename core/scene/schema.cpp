@@ -36,7 +36,7 @@ std::string escaped(const std::string& token) {
     return out;
 }
 
-/// Pointers to entries, as faults and overrides have them, are put together from names as they are.
+/// Faults and overrides join names to JSON pointers without escapes.
 bool can_be_pointed_at(const std::string& key) { return key.find_first_of("/~") == key.npos; }
 
 std::string listed(const json& values) {
@@ -64,7 +64,7 @@ const json* entry_of(const json& object, const char* key) {
     return found == object.end() ? nullptr : &*found;
 }
 
-/// The schemas have few patterns, and documents many strings that must match them.
+/// Cache: the schemas have few patterns, documents many strings.
 const std::regex& compiled(const std::string& pattern) {
     thread_local std::map<std::string, std::regex> known;
     const auto found = known.find(pattern);
@@ -76,7 +76,7 @@ const std::regex& compiled(const std::string& pattern) {
                      .first->second;
 }
 
-/// Walks document and schema together; fills defaults in, collects faults and warnings.
+/// Traverses document and schema together; fills in defaults, collects faults and warnings.
 class Walker {
   public:
     explicit Walker(const json& root) : root_(root) {}
@@ -106,7 +106,7 @@ class Walker {
     }
 
     std::vector<Fault> faults;
-    std::vector<Flag> warnings;  ///< numbers that are possible and hardly meant
+    std::vector<Flag> warnings;  ///< possible but implausible numbers
 
   private:
     const json& resolved(const json& schema) const {
@@ -124,7 +124,7 @@ class Walker {
         return text.size() <= 60 ? text : text.substr(0, 57) + "...";
     }
 
-    /// " [unit]: description" as far as the schema says.
+    /// " [unit]: description", if the schema has them.
     static std::string meaning(const json& schema) {
         std::string text;
         if (schema.contains("unit") && schema.at("unit") != "1") {
@@ -248,8 +248,7 @@ class Walker {
         return "remove it; known keys here: " + all;
     }
 
-    /// The alternative that the value means: by its "type" where the alternatives have one, else by
-    /// its JSON type.
+    /// Chooses the alternative for a value by its "type" entry, or by its JSON type.
     const json* choose(const json& value, const json& alternatives, const std::string& pointer) {
         std::string known;
         for (const json& each : alternatives) {
@@ -284,7 +283,6 @@ class Walker {
     const json& root_;
 };
 
-/// JSON is UTF-8 text.
 void check_encoding(std::string_view text, const std::string& file) {
     if (const std::string encoding = words::wide_encoding(text); !encoding.empty())
         throw fault::BadInput(file, {{"", "is " + encoding + " text, and JSON is UTF-8",
@@ -301,7 +299,7 @@ void check_encoding(std::string_view text, const std::string& file) {
                                   words::as_utf8_remedy("ISO-8859-1")}});
 }
 
-/// What the parser says, without the piece of a character at which it stopped.
+/// The parser's message, without an incomplete character at its end.
 std::string words_of(const json::exception& error) {
     std::string text = error.what();
     for (std::size_t at = 0; (at = words::first_not_utf8(text)) != std::string::npos;)
@@ -367,7 +365,7 @@ std::optional<Fault> missing_parent(const json& document, const std::string& poi
                                                   std::to_string(size - 1)),
                              "name one that exists, or append one as a whole: " + path + "/-=..."};
             }
-            if (place == size) return std::nullopt;  // one more, perhaps entry by entry
+            if (place == size) return std::nullopt;  // appends one entry
             at = &(*at)[place];
         } else if (at->is_object()) {
             const auto found = at->find(token);

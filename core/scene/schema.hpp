@@ -1,6 +1,6 @@
-// A JSON document against its schema: parsed strictly, checked whole, completed with the schema's
-// defaults. The schema language is the part of JSON Schema 2020-12 that our schemas use, plus the
-// annotations "unit", "x-plausible" and "x-slips" (slips.hpp).
+// Checks a JSON document against its schema: strict parsing, all faults, defaults filled in.
+// Supports the part of JSON Schema 2020-12 that our schemas use, and the annotations "unit",
+// "x-plausible" and "x-slips" (slips.hpp).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -18,13 +18,13 @@ const nlohmann::json& scene_schema();
 const nlohmann::json& study_schema();
 const nlohmann::json& element_test_schema();
 
-/// Text -> JSON. Refuses duplicate keys, keys with / or ~ (which JSON pointers
-/// escape), comments, numbers out of range, nesting deeper than 64. Throws
-/// BadInput.
+/// Parses JSON. Refuses duplicate keys, keys with / or ~ (which JSON pointers escape), comments,
+/// numbers out of range, nesting deeper than 64. Throws BadInput.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
-/// The fault of a pointer into a material or into an entry of a list that the document does not have. What is new as a whole
-/// ("/materials/new", the place behind a list's end) has none; nor do unknown keys, which complete_and_check refuses.
+/// Fault of a pointer into a material or list entry that the document lacks. None for a new whole
+/// entry ("/materials/new", one past a list's end) and for unknown keys, which complete_and_check
+/// reports.
 std::optional<fault::Fault> missing_parent(const nlohmann::json& document,
                                            const std::string& pointer);
 
@@ -32,8 +32,8 @@ std::optional<fault::Fault> missing_parent(const nlohmann::json& document,
 /// found.
 std::vector<fault::Fault> apply_override(nlohmann::json& document, const std::string& assignment);
 
-/// Adds the schema's defaults to `document` in place and returns every fault: pointer, cause,
-/// remedy. `warnings` get the numbers that are possible and not plausible, as flags "implausible".
+/// Adds the schema's defaults to `document` and returns all faults. `warnings` get possible but
+/// implausible numbers, as flags "implausible".
 std::vector<fault::Fault> complete_and_check(nlohmann::json& document, const nlohmann::json& schema,
                                              std::vector<fault::Flag>& warnings);
 std::vector<fault::Fault> complete_and_check(nlohmann::json& document,

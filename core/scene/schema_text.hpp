@@ -1,5 +1,4 @@
-// The schemas as written, with their entries in the order for display. schema.hpp does the
-// checking.
+// The schemas' text, with entries in display order.
 #pragma once
 
 #include <string>

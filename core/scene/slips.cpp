@@ -22,7 +22,7 @@ std::string unit_of(const json& entry) {
     return unit == "1" ? "" : " " + unit;
 }
 
-/// The slips that an entry of this unit is prone to.
+/// Typical unit slips of an entry.
 const json& slips_for(const json& entry, const json& root) {
     static const json none = json::array();
     if (entry.contains(slips_key)) return entry.at(slips_key);
@@ -31,13 +31,13 @@ const json& slips_for(const json& entry, const json& root) {
     return known ? root.at(slips_key).at(unit) : none;
 }
 
-/// The value in the entry's unit, had it been given in the slip's.
+/// The value in the entry's unit if it was given in the slip's unit.
 double converted(double value, const json& slip) {
     if (slip.contains("tangent_of")) return std::tan(value * slip.at("tangent_of").get<double>());
     return value * slip.at("factor").get<double>();
 }
 
-/// Four digits are what a converted number is good for.
+/// Four digits, as accurate as a converted number.
 double rounded(double value) {
     if (value == 0.0 || !std::isfinite(value)) return value;
     const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);

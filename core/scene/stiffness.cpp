@@ -11,7 +11,7 @@ namespace {
 
 constexpr double waves_per_flow = 10.0;
 
-/// The materials that points can be; those that the scene lacks are left out.
+/// Materials of points; ignores missing ones.
 std::vector<const Material*> materials_of_points(const Scene& scene) {
     std::vector<const Material*> materials;
     for (const Soil& soil : soils_of(scene))

@@ -1,5 +1,5 @@
-// The words of the scene's entries with a fixed choice, as readers, results and plans use them. The
-// schema lists the same words (tests/unit/scene/words_test.cpp).
+// Words of the scene's enums, for readers, results and plans. The schema lists the same words
+// (tests/unit/scene/words_test.cpp).
 #pragma once
 
 #include "core/scene/scene.hpp"

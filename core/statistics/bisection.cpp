@@ -23,10 +23,10 @@ std::vector<std::size_t> missing_seeds(std::size_t count, Runouts runouts, int s
 struct Search {
     std::size_t on;
     std::optional<std::size_t> off;
-    std::optional<std::size_t> halve;  ///< not run yet, between the two
+    std::optional<std::size_t> halve;  ///< between the two, not run yet
 };
 
-/// Walks from the largest outwards in `direction` over what is known.
+/// Walks from the largest runout outwards through the known runouts.
 Search edge_from(std::size_t top, int direction, Runouts runouts, double level) {
     Search edge{top, std::nullopt, std::nullopt};
     const auto count = static_cast<std::ptrdiff_t>(runouts.size());

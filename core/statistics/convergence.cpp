@@ -22,11 +22,11 @@ static constexpr auto words_of(Course) {
 namespace {
 
 constexpr double highest_order = 20.0;
-constexpr double factor_of_safety = 1.25;        // Roache's for three grids
-constexpr double factor_of_safety_of_two = 3.0;  // and for two
-constexpr double told = 0.95;                    // of pairs that noise alone makes, both sides
+constexpr double factor_of_safety = 1.25;        // Roache, three grids
+constexpr double factor_of_safety_of_two = 3.0;  // Roache, two grids
+constexpr double told = 0.95;                    // two-sided confidence level
 
-/// change_coarse / change_fine of value = limit + C size^p: rises with p.
+/// change_coarse / change_fine for value = limit + C size^p; increases with p.
 double ratio_of_changes(double p, double ratio_coarse, double ratio_fine) {
     return std::pow(ratio_fine, p) * std::expm1(p * std::log(ratio_coarse)) /
            std::expm1(p * std::log(ratio_fine));
@@ -56,7 +56,7 @@ std::optional<double> observed_order(double ratio_coarse, double ratio_fine, dou
                                      double change_fine) {
     const double wanted = change_coarse / change_fine;
     if (!std::isfinite(wanted)) return std::nullopt;
-    double low = 0.0;  // there the ratio is ln(ratio_coarse) / ln(ratio_fine)
+    double low = 0.0;  // the ratio tends to ln(ratio_coarse) / ln(ratio_fine)
     double high = highest_order;
     if (wanted <= std::log(ratio_coarse) / std::log(ratio_fine)) return std::nullopt;
     if (wanted > ratio_of_changes(high, ratio_coarse, ratio_fine)) return std::nullopt;
@@ -75,7 +75,7 @@ double smallest_told_difference(const Noise& noise, std::size_t repeats) {
 
 namespace {
 
-/// The three finest rungs, and how the value changes from one to the next.
+/// The three finest rungs and their differences.
 struct Ending {
     const Rung& coarse;
     const Rung& middle;
@@ -86,7 +86,7 @@ struct Ending {
     double ratio_fine = middle.size / fine.size;
 };
 
-/// Whether two rungs differ by no more than noise makes them.
+/// Whether two rungs differ by no more than the noise.
 bool is_noise(const Rung& one, const Rung& other, const std::optional<Noise>& noise) {
     const std::size_t repeats = std::min(one.value.count, other.value.count);
     return noise &&
@@ -97,7 +97,7 @@ double two_grid_error(double change, double ratio) {
     return factor_of_safety_of_two * std::abs(change) / (ratio - 1.0);
 }
 
-/// The last difference exceeds the noise, so more than a standard error of it is left.
+/// The last difference exceeds the noise, so it stays positive minus one standard error.
 Range order_by_noise(const Ending& e, const Noise& noise) {
     const std::size_t repeats =
         std::min({e.coarse.value.count, e.middle.value.count, e.fine.value.count});
@@ -111,7 +111,7 @@ Range order_by_noise(const Ending& e, const Noise& noise) {
             .high = order(coarse + off, fine - off).value_or(highest_order)};
 }
 
-/// What the finest rung may be off, in the unit of the value; order and limit where there are any.
+/// Error of the finest rung in the unit of the value; sets order and limit if they exist.
 double judge(const Ending& e, const std::optional<Noise>& noise, Convergence& found) {
     if (e.change_coarse * e.change_fine < 0.0) {
         found.course = Course::oscillating;
@@ -133,9 +133,9 @@ double judge(const Ending& e, const std::optional<Noise>& noise, Convergence& fo
     return factor_of_safety * std::abs(left(std::min(*found.order, highest_formal_order)));
 }
 
-/// Error of the finest rung where its difference from the one before is below the noise: that
-/// difference. Close rungs agree at any error, so for ratios below 2 it is the error of first order
-/// that the difference leaves, or of the third rung's difference if that is below the noise, too.
+/// Error of the finest rung if its difference from the one before is below the noise: that
+/// difference. For size ratios below 2, close rungs agree at any error; then the first-order error
+/// from that difference, or from the third rung's if that is below the noise too.
 double hidden_error(std::span<const Rung> ending, const Noise& noise) {
     const Rung& fine = ending.back();
     const auto off = [&](const Rung& other) {
@@ -160,7 +160,7 @@ Convergence convergence_of(std::span<const Rung> rungs) {
     const Rung& fine = rungs[rungs.size() - 1];
     const Rung& middle = rungs[rungs.size() - 2];
     double error = two_grid_error(fine.value.mean - middle.value.mean, middle.size / fine.size);
-    // Coarse rungs scatter more than fine ones: they say nothing about what tells these apart.
+    // Only the finest rungs: coarse ones scatter more.
     const auto ending = rungs.last(std::min<std::size_t>(rungs.size(), 3));
     const auto noise = noise_of_rungs(ending);
     if (*found.spread == 0.0 && fine.value.mean != 0.0) {

@@ -1,5 +1,5 @@
-// Error of a ladder of settings: observed order, limit, grid convergence index, noise; which
-// settings are worth their cost. Pure functions of numbers, without access to runs.
+// Error of a setting from a ladder of runs: observed order, limit, grid convergence index, noise;
+// and which settings are worth their cost. Pure functions of numbers.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace breach::statistics {
 
 /// A setting of a ladder: its size and its result.
 struct Rung {
-    double size;  ///< > 0, falling along the ladder
+    double size;  ///< > 0, descending along the ladder
     Repeats value;
 };
 
@@ -22,58 +22,55 @@ struct Range {
     double high;
 };
 
-/// No scheme here has a higher order: faster convergence of the rungs is chance, or the coarsest is
-/// far too coarse.
+/// Upper limit of the order of all schemes here: faster convergence is chance, or the coarsest rung
+/// is far too coarse.
 constexpr double highest_formal_order = 2.0;
 
-/// Course of the three finest rungs of a ladder; of two, whether they differ.
+/// Convergence of the three finest rungs, or whether two differ.
 enum class Course {
-    too_few,      ///< fewer than three have a value, and two differ by more than the noise
-    monotone,     ///< towards a limit: order, limit and index are given
-    oscillating,  ///< up and down: a spread, no order
-    not_falling,  ///< the differences do not get smaller with the size: no order
-    below_noise,  ///< the last difference is within the noise of the repeats: no order
-    no_effect,    ///< all rungs give the same to the last digit
+    too_few,      ///< fewer than three values, and two differ by more than the noise
+    monotone,     ///< towards a limit: with order, limit and index
+    oscillating,  ///< no order; the spread is known
+    not_falling,  ///< the differences do not decrease with the size: no order
+    below_noise,  ///< the last difference is within the scatter of repeats: no order
+    no_effect,    ///< all rungs have identical values
 };
 std::string_view name_of(Course course);
 
-/// Whether, in this course, the error of the finest rung depends on the ratios of the rungs'
-/// sizes.
+/// Whether the error of the finest rung depends on the ratios of sizes.
 bool rests_on_sizes(Course course);
 
 struct Convergence {
     Course course = Course::too_few;
     std::optional<double> order;  ///< p of value = limit + C size^p
-    /// Range of the order if the two differences of the means are off by a standard error each:
-    /// from 0, which has no limit, to 20. Nothing: no rung was repeated
+    /// Range of the order if both differences of means are off by one standard error; from 0 (no
+    /// limit) to 20. None: no rung has repeats.
     std::optional<Range> order_by_noise;
-    std::optional<double> limit;  ///< Richardson's
-    /// Roache's grid convergence index of the finest rung, with his factor of safety 1.25 for
-    /// three grids; relative to its value. An order above `highest_formal_order` is replaced by
-    /// that one
+    std::optional<double> limit;  ///< Richardson extrapolation
+    /// Roache's grid convergence index of the finest rung, relative to its value, with the safety
+    /// factor 1.25 for three grids. The order is at most `highest_formal_order`.
     std::optional<double> gci;
-    /// Error of the finest rung, relative to its value. monotone: the index; oscillating: half of the
-    /// range of the three finest (Stern et al. 2001); below_noise: the last difference, and more
-    /// where the rungs' sizes are close; otherwise Roache's index for two grids, 3 |difference| /
-    /// (ratio - 1), of first order
+    /// Error of the finest rung, relative to its value. monotone: the index; oscillating: half the
+    /// range of the three finest (Stern et al. 2001); below_noise: the last difference, more for
+    /// similar sizes; otherwise Roache's index for two grids with first order, 3 |difference| /
+    /// (ratio - 1).
     std::optional<double> error_of_finest;
-    std::optional<double> spread;  ///< largest minus smallest value of the rungs
-    std::optional<Noise> noise;    ///< nothing: no rung was repeated
+    std::optional<double> spread;  ///< range of all values
+    std::optional<Noise> noise;    ///< none: no rung has repeats
 };
 
-/// rungs: from coarse to fine.
+/// rungs: from coarse to fine
 Convergence convergence_of(std::span<const Rung> rungs);
 
-/// p of value = limit + C size^p through three values, for any ratios of their sizes (Roache 1998,
-/// 5.10.6: for unequal ratios p is the root of an equation). ratio_*: of the coarser size to the
-/// finer one, > 1; change_*: finer value minus coarser value. Nothing: the changes differ in sign,
-/// or do not fall faster than they would for p = 0, or so fast that the last one says nothing (p >
-/// 20).
+/// p of value = limit + C size^p through three values, for any size ratios (Roache 1998, 5.10.6:
+/// the root of an equation if they differ). ratio_*: coarser over finer size, > 1; change_*: finer
+/// minus coarser value. None if the changes differ in sign, do not decrease as they would for p >
+/// 0, or give p > 20.
 std::optional<double> observed_order(double ratio_coarse, double ratio_fine, double change_coarse,
                                      double change_fine);
 
-/// The difference of two means of so many repeats that noise alone exceeds in one of twenty pairs: by
-/// Student's distribution, as few repeats give the noise.
+/// Smallest significant difference of two means of so many repeats: noise alone exceeds it in 5 %
+/// of pairs (Student's distribution, because few repeats give the noise).
 double smallest_told_difference(const Noise& noise, std::size_t repeats);
 
 /// Relative error of a setting from one ladder, and whether it exceeds the noise.
@@ -81,22 +78,21 @@ struct Share {
     double error;
     bool told;
 };
-/// The errors of several ladders together. Those above the noise add up; those within the noise
-/// have either sign, so they add as squares.
+/// Combined error of several ladders: errors above the noise add linearly, others as squares.
 double sum_of(std::span<const Share> shares);
 
-/// Cost of a setting and error of one run with it.
+/// Cost of a setting and its error for one run.
 struct Offer {
     double cpu_seconds;
     double error;  ///< relative
 };
-/// [offers] whether no other offer is as good in both and better in one.
+/// [offers] whether no other offer is at least as good in both and better in one.
 std::vector<bool> pareto_front(std::span<const Offer> offers);
-/// The cheapest with an error of at most `asked`; of equally cheap ones the more accurate.
+/// The cheapest with an error of at most `asked`; of several, the most accurate.
 std::optional<std::size_t> cheapest_within(std::span<const Offer> offers, double asked);
 
-/// Root of the mean square of (one run - reference) / |reference|, from a relative bias and the
-/// scatter of repeats. reference other than zero.
+/// Root mean square of (one run - reference) / |reference|, from a relative bias and the scatter of
+/// repeats. reference must not be 0.
 double error_of_one_run(double bias, const Repeats& value, double reference);
 
 }  // namespace breach::statistics

@@ -11,10 +11,10 @@ namespace breach::statistics {
 
 namespace {
 
-/// Of the logarithm.
+/// Standard deviation of the logarithm.
 double lognormal_deviation(double cov) { return std::sqrt(std::log1p(cov * cov)); }
 
-/// Without `between`.
+/// Quantile without `between`.
 double whole_quantile(const Distribution& distribution, double u) {
     const auto [a, b, c] = distribution.numbers;
     switch (distribution.kind) {
@@ -34,7 +34,7 @@ double whole_quantile(const Distribution& distribution, double u) {
     return c - std::sqrt((1.0 - u) * (c - a) * (c - b));
 }
 
-/// How many standard deviations x is above the middle; of normal and lognormal.
+/// Standard deviations of x above the median (normal, lognormal).
 double deviations(const Distribution& distribution, double x) {
     const auto [a, b, c] = distribution.numbers;
     if (distribution.kind == DistributionKind::normal) return (x - a) / b;
@@ -69,8 +69,8 @@ double share_below(const Distribution& distribution, double x) {
 double share_between(const Distribution& distribution) {
     if (!distribution.between) return 1.0;
     const auto [low, high] = *distribution.between;
-    // Above the middle of a normal distribution the shares are near 1 and their difference is lost:
-    // there the shares above are taken.
+    // In the upper half the probabilities are near 1 and their difference loses digits: use those
+    // above.
     if (is_of_normal(distribution.kind) && deviations(distribution, low) > 0.0)
         return normal_cdf(-deviations(distribution, low)) -
                normal_cdf(-deviations(distribution, high));

@@ -1,5 +1,5 @@
-// The distributions of uncertain numbers, each by its quantile function: a share of probability in, a
-// value out. No random numbers here, and nothing of std's distributions, which differ between libraries.
+// Distributions of uncertain numbers by their quantile functions: probability in, value out. No std
+// distributions: they differ between libraries.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ constexpr auto words_of(DistributionKind) {
                                               {triangular, "triangular"}});
 }
 
-/// Meaning of the numbers by kind:
+/// Parameters by kind:
 ///     uniform, log_uniform   from, to
 ///     normal                 mean, standard deviation
 ///     lognormal              median, coefficient of variation (standard deviation over mean)
@@ -27,19 +27,19 @@ constexpr auto words_of(DistributionKind) {
 struct Distribution {
     DistributionKind kind = DistributionKind::uniform;
     std::array<double, 3> numbers{};
-    /// Truncation: the distribution given that the value lies between. Its quantiles are those of
-    /// the shares between, so no value accumulates at an end.
+    /// Truncation to this interval: the conditional distribution, without extra probability at the
+    /// ends.
     std::optional<std::array<double, 2>> between{};
 };
 
-/// Share of probability below x, without `between`.
+/// Probability of a value below x, without `between`.
 double share_below(const Distribution& distribution, double x);
-/// Share of probability inside `between`; 1 without it.
+/// Probability of a value inside `between`; 1 without it.
 double share_between(const Distribution& distribution);
-/// The value below which the share u lies, 0 < u < 1, with `between`.
+/// The quantile of probability u, 0 < u < 1, with `between`.
 double quantile(const Distribution& distribution, double u);
 
-/// Rounded as text shows it: the number stored, set and shown is the same.
+/// Rounds as text shows it, so that stored, used and shown numbers agree.
 double in_six_digits(double value);
 
 }  // namespace breach::statistics

@@ -34,8 +34,8 @@ VectorXd ranked(std::span<const double> values) {
     return Eigen::Map<const VectorXd>(ranks.data(), static_cast<Index>(ranks.size()));
 }
 
-/// In Fisher's z = atanh(r), with the variance of Bonett & Wright (2000); degrees: of freedom, n - 3
-/// less one for each column that was taken out.
+/// Interval in Fisher's z = atanh(r), with the variance of Bonett & Wright (2000). degrees of
+/// freedom: n - 3, minus one for each column removed.
 Interval in_fishers_z(double r, double degrees) {
     const double half = normal_quantile_of_95 * std::sqrt((1.0 + 0.5 * r * r) / degrees);
     const double z = std::atanh(std::clamp(r, -1.0 + 1e-15, 1.0 - 1e-15));
@@ -47,13 +47,13 @@ std::optional<Interval> spearman(std::span<const double> a, std::span<const doub
     return in_fishers_z(rank_correlation(a, b), size_of(a) - 3.0);
 }
 
-/// What least squares on the columns leave.
+/// Residuals of a least-squares fit to the columns.
 VectorXd rest_of(const VectorXd& values, const Eigen::ColPivHouseholderQR<MatrixXd>& columns,
                  const MatrixXd& matrix) {
     return values - matrix * columns.solve(values);
 }
 
-/// One, and every parameter but that one: ranks, or which option.
+/// A constant column, and every parameter except one: ranks, or indicators of options.
 MatrixXd all_but(std::span<const Drawn> parameters, std::size_t left_out, Index samples) {
     MatrixXd matrix = MatrixXd::Ones(samples, 1);
     for (std::size_t j = 0; j < parameters.size(); ++j) {
@@ -77,14 +77,14 @@ std::optional<Interval> partial_rank_correlation(std::span<const Drawn> paramete
     const VectorXd of_results = ranked(results);
     const VectorXd x = rest_of(of_ranks, solved, others);
     const VectorXd y = rest_of(of_results, solved, others);
-    // What the others explain to the last digit leaves round-off.
+    // If the others explain everything, only round-off is left.
     constexpr double round_off = 1e-10;
     if (x.norm() < round_off * of_ranks.norm() || y.norm() < round_off * of_results.norm())
         return std::nullopt;
     return in_fishers_z(x.dot(y) / (x.norm() * y.norm()), degrees);
 }
 
-/// Sums of one group, or of all: x of the parameter, y of the result.
+/// Sums of one group or of all: x parameter, y result.
 struct Sums {
     double count = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
     void add(const Eigen::Vector2d& at, double sign) {
@@ -98,7 +98,7 @@ struct Sums {
     double by_mean() const { return count > 0.0 ? y * y / count : 0.0; }
 };
 
-/// What a group's mean explains, or a straight line, and with how many numbers.
+/// Sum of squares that a group's mean or line explains, and its number of coefficients.
 struct Explained {
     double squares = 0.0;
     double numbers = 0.0;
@@ -106,7 +106,7 @@ struct Explained {
         : squares(group.by_mean()), numbers(group.count > 0.0 ? 1.0 : 0.0) {
         if (group.count < 3.0) return;
         const double spread = group.xx - group.x * group.x / group.count;
-        constexpr double round_off = 1e-12;  // one value of the parameter, many times
+        constexpr double round_off = 1e-12;  // all values of the parameter are equal
         if (spread <= round_off * group.xx) return;
         const double slope = group.xy - group.x * group.y / group.count;
         squares += slope * slope / spread;
@@ -179,7 +179,7 @@ std::optional<Interval> share_explained(std::span<const std::size_t> groups,
         rest.add(points[i], -1.0);
         own.add(points[i], -1.0);
         const Explained after(own);
-        if (rest.yy - rest.by_mean() <= 0.0) return std::nullopt;  // one result alone differs
+        if (rest.yy - rest.by_mean() <= 0.0) return std::nullopt;  // only one result differs
         without_one.push_back(epsilon_squared(rest, explained - before.squares + after.squares,
                                               numbers - before.numbers + after.numbers));
     }

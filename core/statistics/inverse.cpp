@@ -17,10 +17,11 @@ std::string in_unit(double value, const std::string& unit = "") {
     return text + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
-/// Between neighbours that are as near as the tolerance, of the target: such a result may jump.
+/// A larger step between the results at the bracket's ends, relative to the target, is remarked as
+/// a jump.
 constexpr double large_step = 0.25;
 
-/// A step that has a result, on the scale that is halved.
+/// A step with a result; `at`: value on the bisected scale.
 struct Point {
     double at;
     double value;
@@ -46,7 +47,7 @@ std::vector<Point> points_of(std::span<const InverseStep> steps, const Scale& sc
     return points;
 }
 
-/// Over all steps with results on several lattices.
+/// Pooled over all steps with several lattices.
 std::optional<Noise> noise_of_steps(std::span<const InverseStep> steps) {
     std::vector<Repeats> repeats;
     for (const InverseStep& each : steps)
@@ -54,7 +55,7 @@ std::optional<Noise> noise_of_steps(std::span<const InverseStep> steps) {
     return pooled_noise(repeats);
 }
 
-/// Of the mean with fewer lattices; 0: no noise is known.
+/// Of the mean with fewer lattices; 0: unknown.
 double scatter_of_means(const std::optional<Noise>& noise, const Point& a, const Point& b) {
     return noise ? half_width_of_mean(*noise, std::min(a.lattices, b.lattices)) : 0.0;
 }
@@ -65,8 +66,7 @@ double crossing(const Point& a, const Point& b, double level) {
     return a.at + std::clamp(share, 0.0, 1.0) * (b.at - a.at);
 }
 
-/// Where the way from the bracket outwards leaves the band about the target; the last point when it
-/// does not.
+/// Where the path from the bracket outwards leaves the band around the target; else the last point.
 double edge_of_band(const std::vector<Point>& points, std::size_t from, int direction,
                     double target, double half) {
     const auto n = static_cast<std::ptrdiff_t>(points.size());
@@ -106,15 +106,15 @@ std::string at_both_ends(const InverseQuestion& question, const Point& low, cons
            ": values between them give the same result";
 }
 
-/// Why no value can be given; empty: the ends enclose it.
+/// Why there is no solution; empty: the ends enclose it.
 std::string refusal_of(const InverseQuestion& question, const Point& low, const Point& high) {
     const Side side = side_of(low, question.target);
     if (side != side_of(high, question.target)) return "";
     return side == Side::at ? at_both_ends(question, low, high) : outside(question, low, high);
 }
 
-/// The neighbours between which the result passes the target, or comes to it or leaves it where
-/// several give the target itself; the ends are on two sides of it.
+/// The neighbours between which the result crosses the target, or reaches or leaves it if several
+/// values give the target itself. The ends must be on both sides of it.
 std::size_t bracket_in(const std::vector<Point>& points, double target) {
     const Side first = side_of(points.front(), target);
     std::size_t k = 1;
@@ -122,7 +122,7 @@ std::size_t bracket_in(const std::vector<Point>& points, double target) {
     return k - 1;
 }
 
-/// Whether the result is the target itself at a point and still at the next one in the direction.
+/// Whether the result equals the target at this point and at the next one in the direction.
 bool stays_at_target(const std::vector<Point>& points, std::size_t here, int direction,
                      double target) {
     const auto next = static_cast<std::ptrdiff_t>(here) + direction;
@@ -162,10 +162,10 @@ void tell(const InverseQuestion& question, const Scale& scale, const std::vector
         return;
     }
     const auto edge = [&](std::size_t inside, int direction) {
-        // What is looked for is the end of a stretch that gives the target itself, not all of it.
+        // The solution is the end of a range that gives the target itself, not all of it.
         const std::size_t end = direction < 0 ? bracket : bracket + 1;
         if (stays_at_target(points, end, direction, question.target)) return value;
-        // The inner end of the band lies in the bracket itself, where the step is outside the band.
+        // The inner end of the band is inside the bracket if the step is outside the band.
         const Point root{scale.of(value), value, question.target, 0, 0, 0};
         std::vector<Point> way = points;
         way.insert(way.begin() + static_cast<std::ptrdiff_t>(bracket) + 1, root);

@@ -1,5 +1,5 @@
-// Back-analysis: the value of one parameter at which a result is a given number. Pure: from the
-// known results it returns the next runs, or the value found.
+// Back-analysis: the value of one parameter for which a result has a given value. Pure: from the
+// known results it returns the next runs, or the solution.
 #pragma once
 
 #include <optional>
@@ -11,47 +11,46 @@
 
 namespace breach::statistics {
 
-/// A value of the parameter that was run, on one lattice of points or on several.
+/// A value of the parameter, run with one or several lattices of points.
 struct InverseStep {
     double value;
-    std::vector<double> results;  ///< of the lattices that have one
-    bool open = false;            ///< some still run
-    std::size_t moving = 0;       ///< results that are lower bounds: their soil still moved
-    std::size_t stood = 0;        ///< results without a transfer: no soil was released, they are 0
+    std::vector<double> results;  ///< of the completed lattices
+    bool open = false;            ///< some runs are incomplete
+    std::size_t moving = 0;       ///< results that are lower bounds: the soil still moved
+    std::size_t stood = 0;        ///< results without transfer: no soil was released, they are 0
 };
 
 struct InverseQuestion {
     double target;
-    std::string quantity;  ///< named with its unit in sentences
+    std::string quantity;  ///< with its unit, for messages
     std::string unit;
-    double low, high;         ///< ends of the range that is searched
-    bool logarithmic;         ///< halve in the logarithm: factors
-    double tolerance = 0.02;  ///< of the value, relative (of the range, where not logarithmic)
-    std::size_t most_values = 100;  ///< the search ends after so many
+    double low, high;               ///< range of the search
+    bool logarithmic;               ///< bisect the logarithm, for factors
+    double tolerance = 0.02;        ///< of the value, relative (to the range, unless logarithmic)
+    std::size_t most_values = 100;  ///< limit of the search
 };
 
-/// Effect of lower bounds beside the target on the value found.
+/// How lower bounds near the target bound the solution.
 enum class Bound { none, at_least, at_most };
 
 struct InverseAdvice {
-    std::vector<double> run_next;   ///< empty: wait, or nothing more to run
-    std::optional<Interval> found;  ///< low and high: where an interval exists
+    std::vector<double> run_next;   ///< empty: wait, or done
+    std::optional<Interval> found;  ///< low and high: if there is an interval
     bool has_interval = false;
     Bound bound = Bound::none;
-    std::optional<double> noise;  ///< standard deviation of one run by its lattice, pooled
-    std::string refused;          ///< why there is no value
+    std::optional<double> noise;  ///< pooled standard deviation of one run due to its lattice
+    std::string refused;          ///< why there is no solution
     std::string remark;           ///< a caveat of the interval
 };
 
-/// Both ends first; then the bracket is halved until it is as narrow as the tolerance, or until the
-/// results at its ends differ by no more than the noise of a mean. The value is interpolated between
-/// them; where a stretch of values gives the target itself, as a runout of 0, it is the end of that
-/// stretch. Its interval: all values with a result, interpolated between neighbouring steps, within t
-/// s / sqrt(lattices) of the target (of such a stretch its end alone), s the noise pooled over the
-/// steps and t Student's factor of 90 % (core/statistics/repeats.hpp). It excludes the uncertainty of
-/// the other parameters, which stay at their medians, and of the model. Assumed: the result rises or
-/// falls all the way between the ends, except for such a stretch. Without a transfer the result is 0
-/// and jumps beside it: noise excludes such results.
+/// Runs both ends, then bisects until the bracket is within the tolerance, or until the results at
+/// its ends differ by no more than the noise of a mean. The solution is interpolated; if a range of
+/// values gives the target itself, as a runout of 0, it is the end of that range. Its interval: all
+/// values whose result, interpolated between neighbouring steps, is within t s / sqrt(lattices) of
+/// the target. s is the noise pooled over the steps, t Student's factor of 90 %
+/// (core/statistics/repeats.hpp). The interval excludes the uncertainty of the model and of the
+/// other parameters, which stay at their medians. Assumes a monotone result, except for such a
+/// range. Without a transfer the result is 0 and discontinuous: the noise excludes such results.
 InverseAdvice advise_inverse(const InverseQuestion& question, std::span<const InverseStep> steps);
 
 }  // namespace breach::statistics

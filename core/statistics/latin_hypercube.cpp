@@ -8,13 +8,13 @@ namespace breach::statistics {
 
 namespace {
 
-/// A place in one dimension: which of the slices, and where in it. Halving a slice is exact in it.
+/// A coordinate as slice number and position within the slice, which halving keeps exact.
 struct SlicePlace {
     std::size_t slice;
     double within;  ///< 0 <= x < 1
 };
 
-/// One dimension, as far as it has been cut.
+/// One dimension with its present slices.
 class Dimension {
   public:
     Dimension(std::size_t first, Random& random) : slices_(first) {
@@ -41,7 +41,7 @@ class Dimension {
 
   private:
     void place(std::vector<std::size_t> empty, Random& random) {
-        constexpr double above_zero = 0x1p-54;  // a quantile of 0 may lie at infinity
+        constexpr double above_zero = 0x1p-54;  // a quantile of 0 may be infinite
         random.shuffle(empty);
         for (const std::size_t slice : empty) {
             places_.push_back({slice, random.share()});
@@ -53,7 +53,7 @@ class Dimension {
 
     std::size_t slices_;
     std::vector<SlicePlace> places_;
-    std::vector<double> values_;  ///< as they were when they were placed: no later cut moves them
+    std::vector<double> values_;  ///< unchanged by later halvings
 };
 
 }  // namespace

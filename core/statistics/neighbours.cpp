@@ -8,8 +8,8 @@ namespace breach::statistics {
 
 namespace {
 
-/// Squared deviation of a sample from the line between its neighbours, over what a variance of 1 would
-/// make it on the mean.
+/// Squared deviation of a sample from the line through its neighbours, divided by its expectation
+/// for variance 1.
 double variance_at(const CurvePoint& before, const CurvePoint& here, const CurvePoint& after) {
     const double a = (after.x - here.x) / (after.x - before.x);
     const double b = 1.0 - a;
@@ -28,7 +28,7 @@ std::vector<std::optional<double>> scatter_among_neighbours(std::span<const Curv
     for (std::size_t i = 1; i + 1 < n; ++i)
         variances.push_back(variance_at(samples[i - 1], samples[i], samples[i + 1]));
     for (std::size_t i = 0; i < n; ++i) {
-        // The ends have the nearest that there are.
+        // At the ends: the nearest ones.
         const std::size_t middle = std::clamp<std::size_t>(i, 1, n - 2) - 1;
         const std::size_t from = middle - std::min<std::size_t>(middle, neighbours_each_side);
         const std::size_t to = std::min(middle + neighbours_each_side + 1, variances.size());

@@ -1,4 +1,4 @@
-// Scatter of a curve about itself: an estimate of noise without repeats.
+// Scatter of a curve about itself: estimates noise without repeats.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ struct CurvePoint {
 
 inline constexpr int neighbours_each_side = 2;
 
-/// Standard deviation of each sample about the straight line through its two neighbours (Gasser, Sroka
-/// & Jennen-Steinmetz 1986), root mean square over itself and `neighbours_each_side` to either side.
-/// Includes bends of the curve within them. Nothing where fewer than three samples have two
+/// Standard deviation of each sample about the line through its two neighbours (Gasser, Sroka &
+/// Jennen-Steinmetz 1986), root mean square over the sample and `neighbours_each_side` on either
+/// side. Includes the curve's curvature there. None if fewer than three samples have two
 /// neighbours. `samples` ascend in x.
 std::vector<std::optional<double>> scatter_among_neighbours(std::span<const CurvePoint> samples);
 

@@ -16,7 +16,7 @@ std::vector<double> in_order(std::span<const double> values) {
     return sorted;
 }
 
-/// Between its neighbours linearly. rank: from 1 to the number of values.
+/// Linear between neighbours; rank from 1 to the number of values.
 double order_statistic(const std::vector<double>& sorted, double rank) {
     const double place = std::clamp(rank, 1.0, static_cast<double>(sorted.size())) - 1.0;
     const auto below = static_cast<std::size_t>(place);
@@ -25,8 +25,8 @@ double order_statistic(const std::vector<double>& sorted, double rank) {
     return sorted[below] + rest * (sorted[below + 1] - sorted[below]);
 }
 
-/// The rank r whose order statistic is at most the percentile with this probability: that of
-/// uniform numbers is a beta variable, I_p(r, n + 1 - r).
+/// The rank r whose order statistic is at most the percentile with this probability. For uniform
+/// numbers it is a beta variable: I_p(r, n + 1 - r).
 double rank_below(double share, std::size_t n, double probability) {
     double low = 0.0;
     double high = static_cast<double>(n) + 1.0;
@@ -39,7 +39,7 @@ double rank_below(double share, std::size_t n, double probability) {
     return 0.5 * (low + high);
 }
 
-/// Wilson's interval of a share k / n: the probabilities that a normal test does not refuse.
+/// Wilson's interval of k / n: the probabilities that a normal test does not reject.
 Interval wilson(double k, double n) {
     constexpr double z = normal_quantile_of_95;
     const double share = k / n;

@@ -10,7 +10,7 @@ namespace breach::statistics {
 
 namespace math = boost::math;
 
-// In double, as long double differs between machines.
+// In double: long double differs between machines.
 using InDouble = math::policies::policy<math::policies::promote_double<false>>;
 
 double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }

@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine: the standard defines std::mt19937_64, but not
-// the output of std's distributions.
+// Random numbers that are equal on every machine: the standard defines std::mt19937_64, but not the
+// output of std's distributions.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace breach::statistics {
 
 class Random {
   public:
-    /// Each stream of a seed is another sequence.
+    /// Streams of the same seed are independent sequences.
     Random(std::uint64_t seed, std::uint64_t stream) {
         std::seed_seq mixed{
             static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
@@ -23,7 +23,7 @@ class Random {
     std::uint64_t bits() { return engine_(); }
     /// 0 <= x < 1, in steps of 2^-53.
     double share() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-    /// 0 <= i < n, each as likely as the others to 2^-53 n.
+    /// 0 <= i < n, uniform up to 2^-53 n.
     std::size_t below(std::size_t n) {
         return static_cast<std::size_t>(share() * static_cast<double>(n));
     }

@@ -56,7 +56,7 @@ Columns columns_of(const Points& points, std::size_t from, std::size_t to) {
     return columns;
 }
 
-/// Of the ranks: what a normal distribution's quantiles are there.
+/// Normal scores of the ranks.
 Columns scores_of(const Columns& columns) {
     Columns scores = ranks_of_columns(columns);
     for (auto& column : scores)
@@ -79,7 +79,7 @@ Matrix quotient(const Matrix& p, const Matrix& q) {
     return s;
 }
 
-/// Each dimension is a sum of those before it and itself.
+/// Each dimension becomes a combination of itself and those before it.
 Columns mixed(const Columns& columns, const Matrix& lower) {
     Columns sums(columns.size(), std::vector<double>(columns.front().size(), 0.0));
     for (std::size_t d = 0; d < columns.size(); ++d)
@@ -89,7 +89,7 @@ Columns mixed(const Columns& columns, const Matrix& lower) {
     return sums;
 }
 
-/// The values in the order of the guide.
+/// The values, in the order of the guide's ranks.
 std::vector<double> reordered(const std::vector<double>& values, const std::vector<double>& guide) {
     std::vector<double> sorted = values;
     std::ranges::sort(sorted);
@@ -107,8 +107,7 @@ double largest_difference(const Matrix& a, const Matrix& b) {
     return largest;
 }
 
-/// What a normal distribution's correlation must be for these rank correlations; as they are where
-/// that is not positive definite.
+/// Normal correlations for these rank correlations; unchanged if that is not positive definite.
 Matrix of_normal(const Matrix& rank) {
     Matrix normal = rank;
     for (std::size_t a = 0; a < rank.size(); ++a)
@@ -117,8 +116,8 @@ Matrix of_normal(const Matrix& rank) {
     return cholesky(normal) ? normal : rank;
 }
 
-/// Swaps places within a dimension while that brings the correlations nearer to the wanted ones: what
-/// Iman & Conover's order leaves where rows are few.
+/// Swaps pairs within a dimension while that reduces the error of Iman & Conover's order, which is
+/// large for few rows.
 class Swapping {
   public:
     Swapping(Columns& columns, const Matrix& wanted)
@@ -161,7 +160,7 @@ class Swapping {
 
     Columns& columns_;
     Columns ranks_;
-    Matrix miss_;         ///< reached less wanted
+    Matrix miss_;         ///< actual minus wanted
     double scale_ = 0.0;  ///< sum of squares of the ranks about their mean
 };
 

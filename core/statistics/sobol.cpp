@@ -12,7 +12,7 @@ std::vector<std::vector<std::uint32_t>> sobol_sequence(std::size_t points, std::
     std::vector<std::vector<std::uint32_t>> sequence(points,
                                                      std::vector<std::uint32_t>(dimensions, 0));
     if (dimensions == 0) return sequence;
-    boost::random::sobol_engine<std::uint32_t, 32> engine(dimensions);  // from the second point on
+    boost::random::sobol_engine<std::uint32_t, 32> engine(dimensions);  // without the first point
     for (std::size_t i = 1; i < points; ++i)
         std::ranges::generate(sequence[i], [&] { return engine(); });
     return sequence;

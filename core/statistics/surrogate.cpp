@@ -36,18 +36,18 @@ VectorXd normal_scores(std::span<const double> values) {
     return scores;
 }
 
-/// One place in the space of the parameters.
+/// One point in parameter space.
 struct Coordinates {
-    RowVectorXd scores;   ///< of the numbers
-    RowVectorXd options;  ///< of the choices: which option, 0 or 1
+    RowVectorXd scores;   ///< of numeric parameters
+    RowVectorXd options;  ///< of choices: 1 for the chosen option, else 0
 };
 
-/// Where a parameter stands in a place: its score, or the first of its options' columns.
+/// Column of a parameter: its score, or the first of its options.
 struct Block {
     Index first, count;
 };
 
-/// What the polynomial is of.
+/// Inputs of the polynomial.
 struct Inputs {
     MatrixXd scores;   ///< [samples][numbers]
     MatrixXd options;  ///< [samples][columns of options]
@@ -76,7 +76,7 @@ RowVectorXd terms_of(const Coordinates& place, Form form) {
     terms.insert(terms.end(), options.begin(), options.end());
     terms.insert(terms.end(), scores.begin(), scores.end());
     for (Index i = 0; form != Form::linear && i < k; ++i)
-        terms.push_back(scores(i) * scores(i) - 1.0);  // Hermite's: mean zero, apart from the rest
+        terms.push_back(scores(i) * scores(i) - 1.0);  // Hermite polynomial: zero mean
     for (Index i = 0; form == Form::products && i < k; ++i)
         for (Index j = 0; j < i; ++j) terms.push_back(scores(i) * scores(j));
     return Eigen::Map<RowVectorXd>(terms.data(), static_cast<Index>(terms.size()));
@@ -89,7 +89,7 @@ struct Fit {
     double at(const Coordinates& place) const { return terms_of(place, form).dot(coefficients); }
 };
 
-/// Nothing: too many terms for so many samples, or terms that the samples do not distinguish.
+/// None: too many terms for the samples, or dependent terms.
 std::optional<Fit> fitted(const Inputs& inputs, const VectorXd& y, Form form) {
     const Index n = y.size();
     const Index terms = terms_of(inputs.at(0), form).size();
@@ -104,7 +104,7 @@ std::optional<Fit> fitted(const Inputs& inputs, const VectorXd& y, Form form) {
     double squares = 0.0;
     for (Index i = 0; i < n; ++i) {
         const double others = 1.0 - q.row(i).squaredNorm();  // 1 - leverage
-        if (others < 1e-10) return std::nullopt;             // the sample alone fixes a term
+        if (others < 1e-10) return std::nullopt;             // this sample alone determines a term
         squares += std::pow(rest(i) / others, 2);
     }
     fit.q2 = 1.0 - squares / (y.array() - y.mean()).square().sum();
@@ -120,7 +120,7 @@ std::optional<Fit> best_fit(const Inputs& inputs, const VectorXd& y) {
     return best;
 }
 
-/// The place with one of a choice's options; -1: the first, which has no column.
+/// The point with one option of a choice; -1: the first, which has no column.
 Coordinates with_option(Coordinates place, const Block& block, Index option) {
     place.options.segment(block.first, block.count).setZero();
     if (option >= 0) place.options(block.first + option) = 1.0;
@@ -129,14 +129,15 @@ Coordinates with_option(Coordinates place, const Block& block, Index option) {
 
 Index most_frequent(const Inputs& inputs, const Block& block) {
     const RowVectorXd count = inputs.options.middleCols(block.first, block.count).colwise().sum();
-    double most = static_cast<double>(inputs.options.rows()) - count.sum();  // of the first
+    // count of the first option
+    double most = static_cast<double>(inputs.options.rows()) - count.sum();
     Index found = -1;
     for (Index option = 0; option < count.size(); ++option)
         if (count(option) > most) most = count(found = option);
     return found;
 }
 
-/// Numbers at score 0, choices at their most frequent option.
+/// Scores 0, and the most frequent option of each choice.
 Coordinates middle_of(const Inputs& inputs, std::span<const Drawn> parameters) {
     Coordinates middle{RowVectorXd::Zero(inputs.scores.cols()),
                        RowVectorXd::Zero(inputs.options.cols())};

@@ -1,5 +1,5 @@
-// The columns of the FEM's telemetry: one table for the FEM's lines, the conditions of triggers,
-// the labels of reports and GET /v1/telemetry/fields.
+// Columns of the FEM's telemetry: one table for the FEM's lines, trigger conditions, report labels
+// and GET /v1/telemetry/fields.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace breach::telemetry {
 
-/// Requirement of a column on the scene, for the FEM to measure it.
+/// What a scene needs for the FEM to measure a column.
 enum class Needs {
     nothing,
     softening,
@@ -20,21 +20,21 @@ enum class Needs {
 };
 
 struct Column {
-    const char* name;     ///< key of the line, name in a condition
+    const char* name;     ///< key in a line, name in a condition
     const char* unit;     ///< "1": a ratio or a count
-    const char* meaning;  ///< for people, one line
+    const char* meaning;  ///< for display, one line
     Needs needs = Needs::nothing;
-    double least = -std::numeric_limits<double>::infinity();  ///< its lower bound
+    double least = -std::numeric_limits<double>::infinity();  ///< lower bound of the values
     double most = std::numeric_limits<double>::infinity();
 };
 
-/// The columns of fem_solver, in the order of history.h5, with their requirements.
+/// Columns of fem_solver with their requirements, in the order of history.h5.
 std::span<const Column> fem_columns();
 
-/// Further names for conditions: numbers of the same run from other phases.
+/// More names for conditions: results of the same run's other phases.
 std::span<const Column> run_columns();
 
-/// A column of either table; nullptr: no such column.
+/// A column of either table; nullptr: none.
 const Column* column_named(std::string_view name);
 
 }  // namespace breach::telemetry

@@ -9,7 +9,7 @@ namespace breach::telemetry {
 
 namespace {
 
-/// Nothing: no JSON object with a time.
+/// None: no JSON object with a time.
 std::optional<Line> line_of(const std::string& text) {
     const nlohmann::json entry = nlohmann::json::parse(text, nullptr, false);
     if (!entry.is_object()) return std::nullopt;
@@ -61,7 +61,7 @@ std::vector<Line> read(const std::filesystem::path& file) {
         }
         take(std::move(line));
     }
-    // A copy may have lost its last line break. A line that is torn is no JSON object.
+    // A copied file may lack its last line break; an incomplete line is no JSON object.
     if (std::optional<Line> line = line_of(walk.text())) take(std::move(line));
     return lines;
 }

@@ -1,5 +1,5 @@
-// telemetry.jsonl on the disk: one JSON object per line, numbers by name, which a phase may still
-// be writing. Defines what a whole line is and which lines count.
+// Reads telemetry.jsonl: one JSON object per line, numbers by name; a phase may still be writing
+// it.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,17 @@
 
 namespace breach::telemetry {
 
-/// Iterates over the lines of a file. A last line without its line break is still being written: it
-/// is not returned until it is complete.
+/// Iterates over the complete lines of a file; a last line without line break is incomplete.
 class LineWalk {
   public:
     /// from: the position() of an earlier walk [bytes].
     explicit LineWalk(const std::filesystem::path& file, std::streamoff from = 0);
 
-    /// Goes to the next line; false: there is none yet, or the file cannot be read.
+    /// Goes to the next line; false: none yet, or the file cannot be read.
     bool next();
-    /// The line; after next() returned false, the text behind the last line break.
+    /// The line; after next() returned false, the incomplete rest.
     const std::string& text() const { return text_; }
-    /// Behind the line break of the last line [bytes].
+    /// Offset after the last complete line [bytes].
     std::streamoff position() const { return position_; }
     bool can_be_read() const { return readable_; }
 
@@ -35,22 +34,21 @@ class LineWalk {
 
 struct Line {
     double time;                                        ///< simulated [s]
-    std::int64_t step;                                  ///< 0 where the line has none
-    std::map<std::string, double, std::less<>> values;  ///< its numbers, "time" among them
+    std::int64_t step;                                  ///< 0 if the line has none
+    std::map<std::string, double, std::less<>> values;  ///< numbers of the line, "time" included
 };
 
-/// The valid lines of a file that is complete or may still end inside a line: leaves out a line
-/// that is not later than one before it (a resumed phase). Throws IoError when the file cannot be
-/// read, BadInput naming a line that is no JSON object with a time.
+/// Valid lines of a file, complete or not. Ignores a line whose time does not exceed that of an
+/// earlier one (resumed phase). Throws IoError if the file cannot be read, BadInput for a line that
+/// is no JSON object with a time.
 std::vector<Line> read(const std::filesystem::path& file);
 
-/// The same lines of a running phase, each once. Skips a line that is no JSON object with a time,
-/// as a watcher cannot refuse it.
+/// Reads the lines of a running phase, each once. Skips invalid lines.
 class Tail {
   public:
     explicit Tail(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// The lines since the last call. A file that has become shorter is read from its beginning.
+    /// Lines since the last call. A file that became shorter is read from the beginning.
     std::vector<Line> fresh();
     const std::filesystem::path& file() const { return file_; }
 

@@ -7,7 +7,7 @@
 
 namespace breach::words {
 
-/// Bytes of the UTF-8 character that begins at this place; 0 when there is none.
+/// Bytes of the UTF-8 character at this place; 0: none.
 inline std::size_t utf8_length(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
     const std::uint8_t first = byte(at);
@@ -20,14 +20,15 @@ inline std::size_t utf8_length(std::string_view text, std::size_t at) {
     for (std::size_t i = 1; i < length; ++i)
         if ((byte(at + i) & 0xC0) != 0x80) return 0;
     if (length < 3) return length;
-    const std::uint8_t second = byte(at + 1);  // overlong, surrogates, beyond the last code point
+    // excludes overlong forms, surrogates, beyond U+10FFFF
+    const std::uint8_t second = byte(at + 1);
     if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second >= 0xA0) ||
         (first == 0xF0 && second < 0x90) || (first == 0xF4 && second >= 0x90))
         return 0;
     return length;
 }
 
-/// The first byte that belongs to no UTF-8 character; npos when there is none.
+/// The first byte that is not UTF-8; npos: none.
 inline std::size_t first_not_utf8(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t length = utf8_length(text, at);
@@ -37,8 +38,8 @@ inline std::size_t first_not_utf8(std::string_view text) {
     return std::string_view::npos;
 }
 
-/// "UTF-16", "UTF-32", as iconv calls them, by the byte order mark or the zero bytes of the first ASCII character; empty for
-/// all others.
+/// "UTF-16" or "UTF-32" (names of iconv), from the byte order mark or the zero bytes of a leading
+/// ASCII character; empty for all others.
 inline std::string wide_encoding(std::string_view text) {
     const std::string_view four = text.substr(0, 4);
     using namespace std::string_view_literals;

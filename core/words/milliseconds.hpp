@@ -1,4 +1,4 @@
-// Times that were meant in milliseconds.
+// Detects times in milliseconds where seconds are expected.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace breach::words {
 
-/// The remedy for a time that lies after the end [s] and would fit in milliseconds; empty for all others.
+/// Remedy for a time after the end [s] that would fit in milliseconds; empty for all others.
 inline std::string seconds_remedy(double time, double end) {
     if (time <= 50.0 * end || 1e-3 * time > end) return "";
     return "times are in seconds: for " + text_of(time) + " ms, write " + text_of(1e-3 * time);

@@ -1,4 +1,4 @@
-// The known word nearest to a misspelt one.
+// Finds the known word nearest to a misspelt one.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace breach::words {
 
-/// Letters to add, drop or replace between two words.
+/// Levenshtein distance.
 inline std::size_t edit_distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -23,7 +23,7 @@ inline std::size_t edit_distance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
-/// The nearest of the words, the last of equally near ones; empty: none is near.
+/// The nearest word, the last of equally near ones; empty: none is near.
 inline std::string nearest(const std::string& word, const std::vector<std::string>& known) {
     std::string found;
     std::size_t least = 1 + word.size() / 3;

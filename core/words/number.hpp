@@ -1,4 +1,4 @@
-// A number in a sentence for people.
+// Formats a number for a sentence.
 #pragma once
 
 #include <sstream>
@@ -6,7 +6,7 @@
 
 namespace breach::words {
 
-/// "0.25", "1e+09": with so many significant digits at most.
+/// "0.25", "1e+09"; `digits`: most significant digits.
 inline std::string text_of(double value, int digits = 6) {
     std::ostringstream text;
     text.precision(digits);

@@ -1,6 +1,5 @@
-// The words of an enum, as users write and read them: one table per enum, from which entries are
-// read, results written and plans printed. A table is found by the enum's type and is in the enum's
-// namespace:
+// Words of an enum for entries, results and plans: one table per enum, found by the enum's type, in
+// the enum's namespace:
 //
 //     constexpr auto words_of(Wall) {
 //         return words::in_order<Wall>({{Wall::roller, "roller"}, {Wall::open, "open"}});
@@ -23,7 +22,7 @@ struct Word {
     std::string_view word;
 };
 
-/// The table of an enum. Compiles only if the values have the enum's order.
+/// The table of an enum. Compiles only if it is in the enum's order.
 template <class Enum, std::size_t n>
 consteval std::array<Word<Enum>, n> in_order(const Word<Enum> (&list)[n]) {
     for (std::size_t i = 0; i < n; ++i)
@@ -51,7 +50,7 @@ constexpr std::string_view name_of(Enum value) {
     return words_of(value).at(static_cast<std::size_t>(value)).word;
 }
 
-/// Nothing: the enum has no such word.
+/// None: not a word of the enum.
 template <Worded Enum>
 constexpr std::optional<Enum> find(std::string_view word) {
     for (const Enum each : values<Enum>)
@@ -59,14 +58,14 @@ constexpr std::optional<Enum> find(std::string_view word) {
     return std::nullopt;
 }
 
-/// The word of a checked entry; an unknown word is a programming error.
+/// The value of a checked word; an unknown word is a programming error.
 template <Worded Enum>
 Enum named(std::string_view word) {
     if (const auto found = find<Enum>(word)) return *found;
     throw std::logic_error("nothing reads the word \"" + std::string(word) + "\"");
 }
 
-/// The value for the word of an entry, in a JSON object that has been checked.
+/// The value of an entry in a checked JSON object.
 template <Worded Enum, class Object>
 Enum word_at(const Object& object, const char* key) {
     return named<Enum>(object.at(key).template get_ref<const std::string&>());

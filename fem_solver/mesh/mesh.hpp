@@ -1,5 +1,4 @@
-// The finite-element mesh: nodes, quads and their regions, and the three ways to get one (mapped
-// blocks, gmsh, a .msh file). No unknowns, no physics.
+// The finite-element mesh: nodes, quads and their regions, from mapped blocks, gmsh or a .msh file.
 #pragma once
 
 #include <array>
@@ -28,51 +27,49 @@ struct Mesh {
 
 Corners corners_of(const Mesh& mesh, std::size_t element);
 
-/// Called now and then while gmsh runs; true: stop it.
+/// Polled while gmsh runs; true: stop it.
 using StopQuestion = std::function<bool()>;
-/// Meshing was stopped on request, and there is no mesh.
+/// Meshing was stopped on request.
 class MeshingStopped : public std::exception {};
 
 /// Source of the mesh.
 enum class Mesher { msh_file, gmsh, blocks };
 process::Decided<Mesher> mesher_of(const scene::Scene& scene);
 
-/// The mesh that the scene asks for. `folder`: where gmsh's input and output are kept. Throws
-/// BadInput (regions that do not fit together, a mesh that is not all quads), IoError (gmsh
-/// missing, file not readable), MeshingStopped.
+/// The scene's mesh. `folder`: for gmsh's input and output. Throws BadInput (regions that do not
+/// match, elements that are no quads), IoError (gmsh missing, unreadable file), MeshingStopped.
 Mesh build_mesh(
     const scene::Scene& scene, const std::filesystem::path& folder,
     const StopQuestion& stop = [] { return false; });
 
-/// A part of a region that is meshed in one way.
+/// A part of a region with one kind of mesh.
 struct Piece {
     scene::Region region;  ///< with the part's polygon and divisions
     std::size_t of;        ///< index of the whole region in the section
-    double growth = 1.0;   ///< block: length of an element over its neighbour's before it, along
-                           ///< corner 0-1 [-]
-    int unit = 1;          ///< block: the divisions of a side's segments are multiples of this
+    double growth = 1.0;   ///< block: ratio of successive element lengths along side 0-1 [-]
+    int unit = 1;          ///< block: divisions of a side's segments are multiples of this
 };
 
-/// The section's regions in their order, graded ones as strips and middle. Throws BadInput when a
-/// strip is not a quadrilateral.
+/// The section's regions in order, graded ones as strips and middle. Throws BadInput if a strip is
+/// not a quadrilateral.
 std::vector<Piece> pieces_of(const scene::Section& section);
 
-/// Quads mapped from the unit square onto the piece by transfinite interpolation of its four
-/// sides. A side's polyline vertices become nodes; its divisions are shared out by length. Throws
-/// BadInput when a side has more segments than divisions.
+/// Quads by transfinite interpolation of the piece's four sides. Vertices on a side become nodes;
+/// the side's divisions are distributed by length. Throws BadInput if a side has more segments than
+/// divisions.
 Mesh map_block(const Piece& piece);
 
-/// One mesh from several: nodes closer than a millionth of the shortest edge become one. Throws
-/// BadInput with every hanging node and gap between regions, naming both.
+/// Merges meshes: nodes closer than a millionth of the shortest edge become one. Throws BadInput
+/// with every hanging node and gap between regions.
 Mesh join(const std::vector<Mesh>& parts, const scene::Section& section);
 
-/// Meshes all regions with gmsh's command line; block regions stay structured. Needs `gmsh` on the
-/// PATH; ends it, and throws MeshingStopped, soon after `stop` has become true.
+/// Meshes all regions with the program gmsh; block regions stay structured. Needs `gmsh` on the
+/// PATH. When `stop` becomes true, ends it and throws MeshingStopped.
 Mesh mesh_with_gmsh(
     const scene::Section& section, const std::filesystem::path& folder,
     const StopQuestion& stop = [] { return false; });
 
-/// Reads a gmsh text mesh (format 2.2 or 4.1) whose physical surfaces carry the regions' names.
+/// Reads a gmsh text mesh (format 2.2 or 4.1) whose physical surfaces have the regions' names.
 Mesh read_msh(const std::filesystem::path& file, const scene::Section& section);
 
 struct Quality {
@@ -82,17 +79,17 @@ struct Quality {
                             ///< [-]
     double shortest_edge;   ///< [m]
     double longest_edge;    ///< [m]
-    std::size_t worst_element;  ///< where least_jacobian is
+    std::size_t worst_element;  ///< element of least_jacobian
 };
 Quality quality_of(const Mesh& mesh);
 
-/// Points along the side from corner k to corner k+1, divisions + 1 of them, including every
-/// polyline vertex; within a segment, each element is `growth` times as long as the one before.
-/// Empty when the side has more segments than divisions.
+/// Points on the side from corner k to corner k+1: divisions + 1, with every vertex. Within a
+/// segment, each element is `growth` times as long as the one before. Empty if the side has more
+/// segments than divisions.
 std::vector<Vec2> divide_side(const geometry::Polygon& polygon, std::size_t from, std::size_t to,
                               int divisions, double growth = 1.0, int unit = 1);
 
-/// Distributes a side's divisions over its segments: at least one `unit` each, otherwise by length;
+/// Distributes a side's divisions over its segments: at least one `unit` each, the rest by length;
 /// `divisions` is a multiple of the unit.
 std::vector<int> share_divisions(const std::vector<double>& lengths, int divisions, int unit = 1);
 

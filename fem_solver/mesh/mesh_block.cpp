@@ -10,8 +10,8 @@ std::vector<int> share_divisions(const std::vector<double>& lengths, int divisio
     const std::size_t segments = lengths.size();
     if (segments == 0 || divisions < unit * static_cast<int>(segments)) return {};
     std::vector<int> shares(segments, unit);
-    // One unit at a time to the segment whose elements are longest now: deterministic and as
-    // even as whole numbers allow.
+    // Gives units one by one to the segment with the longest elements: deterministic, and as even
+    // as possible.
     for (int given = unit * static_cast<int>(segments); given < divisions; given += unit) {
         std::size_t longest = 0;
         for (std::size_t i = 1; i < segments; ++i) {
@@ -25,8 +25,7 @@ std::vector<int> share_divisions(const std::vector<double>& lengths, int divisio
 
 namespace {
 
-/// Share of a segment that the first k of n elements fill when each is `growth` times its
-/// predecessor.
+/// Share of a segment in the first k of n elements, each `growth` times as long as the one before.
 double share_at(int k, int n, double growth) {
     if (growth == 1.0) return static_cast<double>(k) / n;
     return std::expm1(k * std::log(growth)) / std::expm1(n * std::log(growth));
@@ -112,8 +111,8 @@ Sides divide_sides(const Piece& piece) {
     return {std::move(sides[0]), std::move(sides[1]), std::move(sides[2]), std::move(sides[3])};
 }
 
-/// A grid line's parameter: opposite sides may be divided differently, so it runs from one side's
-/// share to the other's.
+/// Parameter of a grid line: runs from the share on one side to that on the opposite side, which
+/// may be divided differently.
 double between(double at_start, double at_end, double other) {
     return (1.0 - other) * at_start + other * at_end;
 }
@@ -131,7 +130,7 @@ Mesh map_block(const Piece& piece) {
         for (std::size_t i = 0; i < columns; ++i) {
             const double xi_start = s_bottom[i], xi_end = s_top[i];
             const double eta_start = s_left[j], eta_end = s_right[j];
-            // Where the straight grid lines of the parameter square cross.
+            // Intersection of the straight grid lines in the parameter square.
             const double d_xi = xi_end - xi_start, d_eta = eta_end - eta_start;
             const double xi = (xi_start + d_xi * eta_start) / (1.0 - d_xi * d_eta);
             const double eta = between(eta_start, eta_end, xi);

@@ -16,23 +16,23 @@
 #include "core/exchange/publish.hpp"
 #include "fem_solver/mesh/mesh.hpp"
 
-extern char** environ;  // NOLINT: POSIX asks for this declaration
+extern char** environ;  // NOLINT: required by POSIX
 
 namespace breach::fem {
 namespace {
 
-/// The section as gmsh wants it: points, lines between neighbouring points, loops of signed lines.
+/// The section for gmsh: points, lines between neighbouring points, loops of signed lines.
 struct Outline {
     struct Line {
         int from, to;                ///< points
         double length;               ///< [m]
-        int divisions = 0;           ///< 0: not yet decided
+        int divisions = 0;           ///< 0: not decided yet
         double growth = 1.0;         ///< of its elements, from `from` to `to`
-        std::size_t divided_by = 0;  ///< region that decided
+        std::size_t divided_by = 0;  ///< region that decided the divisions
     };
     std::vector<Vec2> points;
     std::vector<Line> lines;
-    std::vector<std::vector<int>> loops;  ///< per piece: line + 1, negative when run backwards
+    std::vector<std::vector<int>> loops;  ///< per piece: line + 1, negative if reversed
 };
 
 int point_at(Outline& outline, const Vec2& x, double tolerance) {
@@ -94,7 +94,7 @@ Outline outline_of(const std::vector<Piece>& pieces) {
     return outline;
 }
 
-/// Lines of a loop, signed as in it, from the point at corner `from` to that at `to`.
+/// Signed lines of a loop from the point at corner `from` to that at `to`.
 std::vector<int> side_lines(const Outline& outline, const std::vector<int>& loop, const Vec2& from,
                             const Vec2& to) {
     const auto start = [&](int signed_line) {
@@ -146,8 +146,8 @@ void divide_block(Outline& outline, const std::vector<Piece>& pieces, std::size_
     }
 }
 
-/// Even divisions on the free lines of an unstructured region; one more on a line of its own where
-/// its blocks leave an odd sum, because only an even border can be filled with quads.
+/// Even divisions on the free lines of an unstructured region; one more on a line of its own if its
+/// blocks leave an odd sum: only an even border can be filled with quads.
 void divide_unstructured(Outline& outline, const std::vector<Piece>& pieces,
                          std::vector<fault::Fault>& faults) {
     std::vector<int> uses(outline.lines.size(), 0);
@@ -181,19 +181,19 @@ void divide_unstructured(Outline& outline, const std::vector<Piece>& pieces,
     }
 }
 
-/// gmsh's 2D algorithm and how it recombines triangles to quads.
+/// gmsh's 2D algorithm and its recombination of triangles to quads.
 struct Recipe {
     int algorithm;
     int recombination;
 };
 
-/// Tried in this order until no triangle is left: frontal, Delaunay and adaptive triangles, paired
-/// by blossom or, where all lines have even divisions, paired at twice the size and halved. The last
-/// two split what is left of triangles, into more elements than were asked for. (Algorithm 8, made
-/// for quads, crashes in Debian's gmsh 4.8.4.)
+/// Tried in this order until no triangle is left: frontal, Delaunay and adaptive triangles,
+/// recombined by blossom or, if all lines have even divisions, at twice the size and halved. The
+/// last two split remaining triangles, which gives more elements than requested. (Algorithm 8, for
+/// quads, crashes in Debian's gmsh 4.8.4.)
 constexpr std::array<Recipe, 7> recipes{{{6, 1}, {6, 3}, {5, 1}, {5, 3}, {1, 1}, {9, 3}, {6, 2}}};
 
-/// One physical surface per region, of all its pieces.
+/// One physical surface per region, for all its pieces.
 void write_regions(std::ostringstream& geo, const std::vector<Piece>& pieces) {
     for (std::size_t p = 0; p < pieces.size(); ++p) {
         const bool begins = p == 0 || pieces[p - 1].of != pieces[p].of;
@@ -249,7 +249,7 @@ std::string geo_text(const Outline& outline, const std::vector<Piece>& pieces,
     return geo.str();
 }
 
-/// Waits for a child; ends it when `stop` says so.
+/// Waits for a child process; ends it if `stop` returns true.
 int status_of(pid_t child, const StopQuestion& stop) {
     constexpr timespec between_looks{0, 5'000'000};  // 5 ms; a signal ends it early
     int status = 0;
@@ -261,11 +261,11 @@ int status_of(pid_t child, const StopQuestion& stop) {
         }
         nanosleep(&between_looks, nullptr);
     }
-    if (stop()) throw MeshingStopped();  // one signal may have ended both
+    if (stop()) throw MeshingStopped();  // a signal may have ended both
     return status;
 }
 
-/// Runs a program found on the PATH, its output going to `log`; returns its exit code.
+/// Runs a program on the PATH with its output in `log`; returns its exit code.
 int run_program(std::vector<std::string> words, const std::filesystem::path& log,
                 const StopQuestion& stop) {
     std::vector<char*> arguments;
@@ -316,7 +316,7 @@ Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& 
         try {
             return read_msh(msh, section);
         } catch (const fault::BadInput&) {
-            if (last) throw;  // another recipe may leave no triangle
+            if (last) throw;  // another recipe may succeed
         }
     }
 }

@@ -16,8 +16,7 @@ double shortest_edge(const std::vector<Mesh>& parts) {
     return shortest;
 }
 
-/// Index of the first node within `tolerance` of each node (itself when there is none before it),
-/// by a sweep over x.
+/// Index of the first node within `tolerance` of each node (possibly itself), by a sweep over x.
 std::vector<std::int32_t> first_coincident(const std::vector<Vec2>& nodes, double tolerance) {
     std::vector<std::int32_t> order(nodes.size());
     std::iota(order.begin(), order.end(), 0);
@@ -40,7 +39,7 @@ std::vector<std::int32_t> first_coincident(const std::vector<Vec2>& nodes, doubl
     return first;
 }
 
-/// An edge that belongs to one element only, counter-clockwise around it.
+/// An edge of one element only, counter-clockwise around it.
 struct MeshEdge {
     std::int32_t a, b;
     std::size_t element;
@@ -72,7 +71,7 @@ std::string text_of(const Vec2& x) {
     return out.str();
 }
 
-/// By at least the tolerance.
+/// Inside by at least the tolerance.
 bool lies_inside(const Mesh& mesh, std::size_t element, const Vec2& x, double tolerance) {
     const Quad& quad = mesh.quads[element];
     for (std::size_t k = 0; k < 4; ++k) {
@@ -82,12 +81,12 @@ bool lies_inside(const Mesh& mesh, std::size_t element, const Vec2& x, double to
     return true;
 }
 
-/// What a node of the border is to another region's border edge. A layer that is thin beside its
-/// elements' edges has nodes near the edge, too: only what faces the edge leaves a gap.
+/// How a border node fails to match another region's border edge; null if there is no fault. Only
+/// nodes that face the edge leave a gap: a layer thinner than its elements has other nodes nearby.
 const char* misfit(const Mesh& mesh, const MeshEdge& edge, std::int32_t node,
                    const std::vector<Vec2>& outwards_of_node, double tolerance) {
-    constexpr double gap_share = 0.05;  // of the edge: nearer than this was meant to touch
-    constexpr double faces = -0.5;      // cosine between the normals
+    constexpr double gap_share = 0.05;  // over the edge length: nearer nodes should coincide
+    constexpr double faces = -0.5;      // largest cosine between the normals
     const Vec2 &A = mesh.nodes[edge.a], &B = mesh.nodes[edge.b], &X = mesh.nodes[node];
     const double length = (B - A).norm(), along = (B - A).dot(X - A) / length;
     if (along < -tolerance || along > length + tolerance) return nullptr;

@@ -14,9 +14,9 @@ namespace {
 constexpr int gmsh_triangle = 2;
 constexpr int gmsh_quad = 3;
 constexpr int surface_dimension = 2;
-constexpr std::size_t most_told = 10;  ///< faults of elements
+constexpr std::size_t most_told = 10;  ///< reported faults of elements
 
-/// What a .msh file says about its surfaces, before it is matched with the section.
+/// Contents of a .msh file, before it is matched with the section.
 struct RawMesh {
     std::map<int, std::string> surface_names;  ///< by physical tag
     std::map<long, Vec2> nodes;                ///< by node tag
@@ -34,7 +34,7 @@ struct RawMesh {
 class MshReader {
   public:
     explicit MshReader(const std::filesystem::path& file) : file_(file) {
-        std::error_code error;  // a device or a pipe never ends
+        std::error_code error;  // excludes devices and pipes
         if (std::filesystem::is_regular_file(file, error)) in_.open(file);
         if (!in_.is_open()) throw fault::IoError(file.string() + ": cannot be opened");
     }
@@ -202,7 +202,7 @@ class MshReader {
     bool version_4_ = false;
 };
 
-/// Region index of each physical tag; faults for names that are no region and regions without
+/// Region index of each physical tag. Faults for names that are no regions, and regions without
 /// elements.
 std::map<int, std::int32_t> match_regions(const RawMesh& raw, const scene::Section& section,
                                           std::vector<fault::Fault>& faults) {
@@ -232,7 +232,7 @@ double twice_area(const Corners& x) {
     return geometry::cross(x.col(2) - x.col(0), x.col(3) - x.col(1));
 }
 
-/// Why the quad that was read last is none; nothing: it is one.
+/// Fault of the last quad; none: it is valid.
 std::optional<fault::Fault> fault_of_last_quad(const Mesh& mesh,
                                                const RawMesh::QuadOfFile& in_file) {
     const std::string name = "element " + std::to_string(in_file.tag);

@@ -1,5 +1,5 @@
-// Regions cut into the parts that are meshed in one way each: the region itself, or its middle and
-// the strips that widen towards its far ends.
+// Divides regions into parts with one kind of mesh: the region itself, or its middle and graded
+// strips.
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +8,12 @@
 namespace breach::fem {
 namespace {
 
-/// An even number, so that gmsh may make all quads of the neighbours by halving.
+/// An even number, so that gmsh can make quads of the neighbours by halving.
 int divisions_for(double length, double size) {
     return 2 * std::max(1, static_cast<int>(std::lround(0.5 * length / size)));
 }
 
-/// Length of n elements that begin with `first` and grow by the factor `growth`.
+/// Length of n elements that start with `first` and grow by the factor `growth`.
 double total_length(double first, double growth, int n) {
     double sum = 0.0, size = first;
     for (int i = 0; i < n; ++i, size *= growth) sum += size;
@@ -61,7 +61,7 @@ fault::BadInput refusal(const scene::Region& region, std::size_t index, const st
                                       cause + " of region '" + region.name + "'", remedy}});
 }
 
-/// The strip on one side of x as a block from its lower left corner on.
+/// The strip on one side of x as a block, starting at its lower left corner.
 Piece strip(const scene::Region& region, std::size_t index, Side side, double x) {
     const Vec2 a{x, side == Side::left ? 0.0 : 1.0}, b{x, side == Side::left ? 1.0 : 0.0};
     geometry::Polygon ring =
@@ -86,7 +86,7 @@ Piece strip(const scene::Region& region, std::size_t index, Side side, double x)
     return piece;
 }
 
-/// What lies between the strips; a block keeps its corners in their order.
+/// The part between the strips; a block keeps the order of its corners.
 Piece middle(const scene::Region& region, std::size_t index) {
     Piece piece{region, index};
     geometry::Polygon& ring = piece.region.polygon;

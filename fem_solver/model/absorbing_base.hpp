@@ -1,4 +1,4 @@
-// The dashpots of a Lysmer-Kuhlemeyer base on this mesh, and its input motion.
+// The dashpots of a Lysmer-Kuhlemeyer base and its input motion.
 #pragma once
 
 #include "core/motion/read_motion.hpp"
@@ -7,8 +7,8 @@
 
 namespace breach::fem {
 
-/// All nodes of the mesh's base; `impedance` = rho V_s of the rock [Pa s/m]. Each node has half of
-/// its neighbouring edges.
+/// Dashpots at all base nodes, each for half of its adjacent edges; `impedance` = rho V_s of the
+/// rock [Pa s/m].
 AbsorbingBase absorbing_base(const Model& model, double impedance, motion::Series velocity,
                              scene::MotionAt at);
 

@@ -5,13 +5,12 @@
 
 namespace breach::fem {
 
-/// Throws BadInput when supports, water, base or columns do not fit the mesh.
+/// Throws BadInput if supports, water, base or columns do not match the mesh.
 Model build_model(const scene::Scene& scene, Mesh mesh);
-/// The same with the decisions about the scene.
 Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh mesh);
 
-/// Sets the masses, and as the external force the weight and this share of it towards +x, of the
-/// elements present.
+/// Sets the masses of the present elements, and as external force their weight and, towards +x,
+/// seismic_coefficient times their weight.
 void set_weights(double gravity, double seismic_coefficient, Model& model);
 
 }  // namespace breach::fem

@@ -9,7 +9,7 @@ using process::line_of;
 using process::Use;
 using process::use_if;
 
-/// A part of the scene, on where it is there.
+/// An optional part of the scene; on if it exists.
 template <class Part>
 Decided<std::optional<Part>> part(const std::optional<Part>& value, const std::string& feature,
                                   const process::Reasons& reasons, const std::string& pointer) {

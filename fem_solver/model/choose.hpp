@@ -1,5 +1,5 @@
-// Decides the parts of the model from the scene, each choice once. The model is built from the
-// values, the plan prints the lines.
+// Decides the parts of the model from the scene. The model is built from the values, the plan
+// prints the lines.
 #pragma once
 
 #include "core/process/plan.hpp"
@@ -7,14 +7,15 @@
 
 namespace breach::fem {
 
-/// Hourglass control; none: the element has none.
+/// Hourglass control of the single-point quad; none: 2 x 2 Gauss points.
 using ElementChoice = std::optional<HourglassModulus>;
 
-/// A decision without a value leaves that part of the model out.
+/// A part without a value is not in the model.
 struct ModelDecisions {
     process::Decided<double> gravity;  ///< [m/s2]
     process::Decided<scene::Kinematics> kinematics;
-    process::Decided<ElementChoice> element;  ///< single-point quads, or 2 x 2 mean dilatation
+    /// single-point quad, or 2 x 2 points with mean dilatation
+    process::Decided<ElementChoice> element;
     process::Decided<Rayleigh> damping;
     process::Decided<std::optional<scene::GroundWater>> water;
     process::Decided<std::optional<scene::ElasticBase>> base;

@@ -6,7 +6,7 @@
 namespace breach::fem {
 namespace {
 
-/// What comes after the first `begin` entries; of an empty list nothing.
+/// The entries after the first `begin`.
 template <class T>
 std::vector<T> rest_of(const std::vector<T>& all, std::size_t begin) {
     if (all.empty()) return {};
@@ -28,7 +28,7 @@ Mesh mesh_of(const Model& whole) {
     return mesh;
 }
 
-/// Ties among those from `begin` on: the first of each group is its master.
+/// Ties from `begin` on, with the first of each group as master.
 std::vector<std::int32_t> ties_of(const std::vector<std::int32_t>& masters, std::size_t begin) {
     std::map<std::int32_t, std::int32_t> first_of_group;
     std::vector<std::int32_t> own;
@@ -40,7 +40,7 @@ std::vector<std::int32_t> ties_of(const std::vector<std::int32_t>& masters, std:
     return own;
 }
 
-/// A support that holds the mesh's edge holds what is tied to it.
+/// A support of the mesh's edge also holds the columns tied to it.
 std::vector<bool> held_of(const Constraints& whole, std::size_t begin) {
     std::vector<bool> group_is_held(whole.held.size(), false);
     for (std::size_t d = 0; d < whole.held.size(); ++d) {
@@ -54,10 +54,10 @@ std::vector<bool> held_of(const Constraints& whole, std::size_t begin) {
     return held;
 }
 
-/// A zone's elements among the columns'.
+/// Elements of a zone in the columns.
 struct ZonePart {
-    std::size_t zone;   ///< of the whole
-    std::size_t first;  ///< element of the whole
+    std::size_t zone;   ///< in the whole
+    std::size_t first;  ///< element in the whole
     std::size_t count;
 };
 
@@ -90,7 +90,7 @@ PoreWater water_of(const Model& whole, const std::vector<ZonePart>& parts) {
     return water;
 }
 
-/// What `count` points of a zone of this law remember.
+/// Memories of `count` points of a zone.
 materials::LawMemory part_of(const materials::Law& law, const materials::LawMemory& zone,
                              std::size_t first, std::size_t count) {
     materials::LawMemory part = materials::memory_for(law, 0);

@@ -18,10 +18,10 @@ using Gradient = Eigen::Matrix<double, 2, 4>;  ///< dN_i/dx, one column per node
 using Dofs8 = Eigen::Matrix<double, 8, 1>;
 using Stiffness = Eigen::Matrix<double, 8, 8>;
 
-/// Natural coordinates (xi, eta) of the Gauss points, counter-clockwise like the corners.
+/// Natural coordinates (xi, eta) of the Gauss points, in the order of the corners.
 const std::array<Vec2, gauss_points>& gauss_positions();
 
-/// An element's data at each Gauss point for its integrals.
+/// Integration data of an element at its Gauss points.
 struct Quadrature {
     std::array<StrainOperator, gauss_points> B;  ///< B-bar [1/m]
     std::array<double, gauss_points> weight;     ///< w det J t [m3]
@@ -33,17 +33,16 @@ struct Gradients {
     std::array<double, gauss_points> weight;
 };
 
-/// x: corners [m]; thickness [m]. The caller must check det J > 0 (weights show it).
+/// x: corners [m]; thickness [m]. The caller must check det J > 0 (positive weights).
 void evaluate_gradients(const Corners& x, double thickness, Gradients& out);
 
 /// B-bar of the mean-dilatation method (Hughes 1980): the in-plane volumetric part of B is replaced
-/// by its element mean, so that one volumetric constraint per element remains. Plane strain is kept
-/// exactly: epsilon_zz = 0 at every point. Departs from: Hughes splits the 3D dilatation (thirds),
-/// which gives epsilon_zz != 0 at the points.
+/// by its element mean, which leaves one volumetric constraint per element. epsilon_zz = 0 at every
+/// point. Departs from: Hughes splits the 3D dilatation (thirds), which gives epsilon_zz != 0 at
+/// the points.
 void evaluate_quadrature(const Gradients& gradients, Quadrature& out);
 
-/// Nodal shares of the element's volume, integral of N_i dV [m3] (row sums: the lumped mass at unit
-/// density).
+/// Integral of N_i dV [m3]: nodal shares of the volume, and lumped mass for unit density.
 Eigen::Vector4d nodal_volumes(const Corners& x, double thickness);
 
 }  // namespace breach::fem

@@ -8,7 +8,7 @@ namespace {
 
 enum class Side { left, right };
 
-/// Nodes with the least or largest x, from below.
+/// Nodes with the smallest or largest x, from below.
 std::vector<std::int32_t> side_nodes(const Mesh& mesh, const Body& body, Side side,
                                      double tolerance) {
     const double sign = side == Side::left ? 1.0 : -1.0;
@@ -50,7 +50,7 @@ void add_column(const scene::FreeField& field, const Body& body, Side side, doub
                                     " side of the mesh is not one vertical line of element edges",
                                 "end the section in a vertical side, or leave this column out"}});
     };
-    if (edge.size() < 2) refuse();  // it leans
+    if (edge.size() < 2) refuse();  // inclined
     const Vec2 outwards(side == Side::left ? -field.width : field.width, 0.0);
     const auto first = static_cast<std::int32_t>(mesh.nodes.size());
     for (const std::int32_t node : edge) {

@@ -15,7 +15,7 @@ struct OuterEdge {
     std::size_t element;
 };
 
-/// Edges that two elements do not share, of those that are there.
+/// Edges of present elements that no other element shares.
 std::vector<OuterEdge> outer_edges(const Model& model) {
     const Mesh& mesh = model.mesh;
     std::map<std::array<std::int32_t, 2>, int> count;
@@ -59,12 +59,12 @@ struct Part {
     double from = 0.0, to = 0.0;
 
     double length() const { return to - from; }
-    /// Shares of a load that is even over the part.
+    /// Nodal shares of a load that is uniform over the part.
     double on_b() const { return 0.5 * (from + to) * length(); }
     double on_a() const { return length() - on_b(); }
 };
 
-/// Of an edge whose nodes lie at a and b, what lies in [from, to]. Rounding leaves no slivers.
+/// The part of an edge from a to b within [from, to], without slivers from round-off.
 Part part_within(double a, double b, double from, double to) {
     constexpr double rounding = 1e-6;
     const auto share = [&](double x) {
@@ -75,7 +75,7 @@ Part part_within(double a, double b, double from, double to) {
     return std::max(a, b) <= from || std::min(a, b) >= to ? Part{} : part;
 }
 
-/// A column beside the section stands for the ground at its side.
+/// A column beside the section gets the load at that side.
 Part part_under(const scene::Surcharge& load, double a, double b, const Sides& sides) {
     const double middle = 0.5 * (a + b), x = std::clamp(middle, sides.left, sides.right);
     if (x == middle) return a == b ? Part{} : part_within(a, b, load.from, load.to);
@@ -126,7 +126,7 @@ std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model) {
     return found;
 }
 
-/// Of free water above a point of the ground; below 0: the point is dry [m].
+/// Depth of free water above a point of the ground; negative: dry [m].
 static double depth_of_water(const scene::GroundWater& water, const Vec2& x) {
     return level_at(water.line, x.x()) - x.y();
 }
@@ -139,7 +139,7 @@ double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2
     return pressure_at(water, gravity, depth_of_water(water, x));
 }
 
-/// What the two nodes of an edge carry of the water on it, per area [Pa].
+/// Nodal pressures of the water on an edge, per area [Pa].
 static std::array<double, 2> carried(const scene::GroundWater& water, double gravity,
                                      const Vec2& x_a, const Vec2& x_b) {
     const double a = depth_of_water(water, x_a), b = depth_of_water(water, x_b);

@@ -8,7 +8,7 @@ namespace breach::fem {
 
 using geometry::level_at;
 
-/// An edge of the mesh that looks upwards, or sideways within the section.
+/// An outer edge of the mesh that faces upwards, or sideways within the section.
 struct GroundEdge {
     std::int32_t a;
     std::int32_t b;
@@ -16,15 +16,14 @@ struct GroundEdge {
 };
 std::vector<GroundEdge> ground_edges(const Model& model);
 
-/// Adds a pressure on outer edges to the external force; returns the number of edges.
+/// Adds a pressure on outer edges to the external force; returns their number.
 std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model);
 
-/// Pressure of free water with its surface at `line` on a point of the ground, 0 above it [Pa].
+/// Pressure of free water with the surface `line` at a point of the ground [Pa]; 0 above it.
 double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x);
 
-/// Adds the forces of ponded water (normal to the ground, linear along an edge) and of the
-/// surcharge (vertical, on the edge's horizontal extent) to the model's external force. They stay
-/// as they are when the ground moves.
+/// Adds to the external force: ponded water (normal to the ground, linear along an edge) and
+/// surcharge (vertical, per horizontal length). They do not follow the ground's motion.
 void add_ground_loads(const ModelDecisions& decided, Model& model);
 
 }  // namespace breach::fem

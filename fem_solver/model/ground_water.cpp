@@ -17,8 +17,7 @@ const scene::Material& material_of(const scene::Scene& scene, const Model& model
     return scene.materials[scene.section.regions[region].material];
 }
 
-/// Depth of each node below the phreatic line; within `tolerance` of it counts as on it, above it is
-/// negative [m].
+/// Depth of each node below the phreatic line [m]: 0 within `tolerance`, negative above.
 std::vector<double> depths_below(const GroundWater& water, const Mesh& mesh, double tolerance) {
     std::vector<double> depth;
     for (const Vec2& x : mesh.nodes) {
@@ -28,7 +27,7 @@ std::vector<double> depths_below(const GroundWater& water, const Mesh& mesh, dou
     return depth;
 }
 
-/// Whether they are there or not.
+/// Includes absent elements.
 std::vector<bool> wet_elements(const Mesh& mesh, const std::vector<double>& depth) {
     std::vector<bool> wet(mesh.quads.size(), false);
     for (std::size_t e = 0; e < wet.size(); ++e)
@@ -36,7 +35,7 @@ std::vector<bool> wet_elements(const Mesh& mesh, const std::vector<double>& dept
     return wet;
 }
 
-/// Nothing flows in it: it is dry, or most of it where all above the line is.
+/// No flow in a dry element; or, if all soil above the line is drained, in one mostly above it.
 bool stands_still(const GroundWater& water, const Mesh& mesh, std::size_t element,
                   const std::vector<bool>& wet) {
     if (!wet[element] || water.above != AboveWater::dry) return !wet[element];
@@ -65,8 +64,8 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
     if (!faults.empty()) throw fault::BadInput("scene", std::move(faults));
 }
 
-/// On the line p = 0, and above it what lets it fall to 0 there; on submerged ground the pond's
-/// pressure; between wet and dry elements the hydrostatic one.
+/// p = 0 on the line, and above it values that make it 0 there; the pond's pressure on submerged
+/// ground; the hydrostatic pressure between wet and dry elements.
 std::vector<std::optional<double>> prescribed_pressures(
     const scene::Scene& scene, const GroundWater& water, const Model& model,
     const std::vector<double>& depth, const std::vector<bool>& wet, double tolerance) {
@@ -93,7 +92,7 @@ std::vector<std::optional<double>> prescribed_pressures(
     return prescribed;
 }
 
-/// One entry per zone that has a wet element.
+/// One per zone with a wet element.
 std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const GroundWater& water,
                                             const Model& model, const std::vector<bool>& wet) {
     std::vector<std::optional<Fluid>> fluids(model.zones.size());
@@ -121,7 +120,7 @@ std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const Gro
     return fluids;
 }
 
-/// Weight of water that turns a hydraulic conductivity into a mobility; standard gravity where the
+/// Unit weight of water that converts hydraulic conductivity to mobility; standard gravity if the
 /// scene has none [N/m3].
 double unit_weight(const scene::Scene& scene) {
     constexpr double standard_gravity = 9.80665;

@@ -1,21 +1,21 @@
-// The scene's water on this mesh: wet elements, nodes with a prescribed pressure, and the
-// permeability of a stage.
+// Pore water of a scene on the mesh: wet elements, prescribed pressures, and a stage's
+// permeability.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
 
-/// [elements] wet by this water, including absent ones.
+/// [elements] wet with this water, including absent ones.
 std::vector<bool> elements_below(const scene::GroundWater& water, const Mesh& mesh);
 
-/// Water below its phreatic line, which is the scene's or a stage's, in the soil present. Throws
-/// BadInput when a wet material lacks void_ratio or permeability, when a boundary holds no node, or
-/// when the pressure is not determined.
+/// Water below its phreatic line (the scene's or a stage's) in the present soil. Throws BadInput if
+/// a wet material lacks void_ratio or permeability, a boundary contains no node, or the pressure is
+/// indeterminate.
 PoreWater ground_water(const scene::Scene& scene, const scene::GroundWater& water,
                        const Model& model);
 
-/// Sets the stage's permeability: free drainage, or the materials' own.
+/// Sets the stage's permeability: free drainage, or that of the materials.
 void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,
                       Model& model);
 

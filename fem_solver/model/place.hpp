@@ -1,15 +1,15 @@
-// Position of integration points below the ground, for laws that vary with the place.
+// Position of integration points below the ground, for laws that vary in space.
 #pragma once
 
 #include "fem_solver/model/ground.hpp"
 
 namespace breach::fem {
 
-/// The present ground.
+/// The present ground surface.
 class Overburden {
   public:
     explicit Overburden(const Model& model) : edges_(ground_edges(model)) {}
-    /// Place of an integration point of the mesh; sigma_v0 is left 0.
+    /// Place of an integration point, with sigma_v0 = 0.
     materials::Place place(const Model& model, std::size_t point) const;
 
   private:

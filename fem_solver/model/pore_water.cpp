@@ -9,7 +9,7 @@
 namespace breach::fem {
 namespace {
 
-/// Smallest node of the connected saturated body that each node belongs to.
+/// Smallest node of each node's connected saturated body.
 std::vector<std::int32_t> bodies_of(const Model& model, const PoreWater& water) {
     std::vector<std::int32_t> parent(model.mesh.nodes.size());
     std::iota(parent.begin(), parent.end(), 0);
@@ -53,10 +53,10 @@ double constrained_modulus(const mechanics::Elasticity& soil) {
     return 2.0 * soil.shear_modulus() * (1.0 - soil.nu) / (1.0 - 2.0 * soil.nu);  // K + 4G/3
 }
 
-/// Shares of the integrals of N_j over the element where the depth, linear along eta, is positive.
+/// Integrals of N_j over the part with positive depth, over the whole; depth is linear along eta.
 Eigen::Vector4d shares_below(const Corners& x, const Eigen::Vector4d& depth) {
     if (depth.minCoeff() >= 0.0) return Eigen::Vector4d::Ones();
-    constexpr int slices = 8;  // of xi: sloping lines to 0.1 % of the element
+    constexpr int slices = 8;  // of xi: inclined lines to 0.1 % of the element
     const double a = 1.0 / std::sqrt(3.0);
     Eigen::Vector4d below = Eigen::Vector4d::Zero(), whole = below;
     const auto add = [&](double xi, double from, double to, Eigen::Vector4d& sum) {
@@ -190,7 +190,7 @@ Eigen::VectorXd steady_pressure(const Model& model) {
     Eigen::SparseMatrix<double> H(right.size(), right.size());
     H.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(H);
-    // A pressure that nothing determines shows as a pivot that is lost in the rounding of its row.
+    // An indeterminate pressure shows as a pivot within the round-off of its row.
     constexpr double lost = 1e-13;
     const bool determined =
         right.size() == 0 || (factors.info() == Eigen::Success &&

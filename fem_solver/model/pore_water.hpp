@@ -1,38 +1,39 @@
-// Pore water on a mesh: which nodes have a pressure unknown, the operators of all saturated
-// elements, the force of the pressure and steady seepage. One element: porous_element.hpp.
+// Pore water on a mesh: unknown pressures, operators of the saturated elements, force of the
+// pressure, steady seepage. For one element: porous_element.hpp.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
 
 namespace breach::fem {
 
-/// The input of build_pore_water beside the model.
+/// Input of build_pore_water besides the model.
 struct Wetness {
     std::vector<std::optional<Fluid>> fluids;       ///< [zones], none where dry
-    std::vector<bool> wet;                          ///< [elements]; of zones without fluid ignored
+    std::vector<bool> wet;                          ///< [elements]; ignored in zones without fluid
     std::vector<std::optional<double>> prescribed;  ///< [nodes] pressure, none where free [Pa]
     Vec2 body;
-    std::vector<double> depth = {};  ///< [nodes] below the phreatic line; empty: all is below [m]
-    /// The line as drawn is in equilibrium; otherwise seepage determines the pressure.
+    /// [nodes] depth below the phreatic line; empty: all are below [m]
+    std::vector<double> depth = {};
+    /// The line is hydrostatic as drawn; otherwise the pressure follows from seepage.
     bool rests_as_drawn = false;
 };
 
-/// Throws BadInput where a connected saturated body has no node with a prescribed pressure: then
-/// neither K_f nor the checkerboard mode determines its pressure.
+/// Throws BadInput if a connected saturated body has no prescribed pressure: nothing else
+/// determines it.
 PoreWater build_pore_water(const Model& model, Wetness wetness);
 
-/// Recomputes all operators: on the undeformed mesh, or on the mesh displaced by u when it moves.
+/// Recomputes all operators for the undeformed mesh or, if it moves, for displacements u.
 void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater& water);
 
 /// f += Q p, the force of the pore pressure on the nodes [N].
 void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f);
 
-/// The pressure for output [Pa]: 0 at nodes above the line, where negative values only serve to
-/// make the pressure 0 on the line.
+/// Pressure for output [Pa]: 0 above the line, where negative values only serve to make the
+/// pressure 0 on the line.
 Eigen::VectorXd without_suction(const PoreWater& water, const Eigen::VectorXd& p);
 
-/// Pressure of steady seepage, H p = flux, with the mobilities in force: hydrostatic where nothing
-/// drives a flow. Throws BadInput when the prescribed pressures do not determine it.
+/// Pressure of steady seepage, H p = flux, with the present mobilities; hydrostatic without flow.
+/// Throws BadInput if the prescribed pressures do not determine it.
 Eigen::VectorXd steady_pressure(const Model& model);
 
 }  // namespace breach::fem

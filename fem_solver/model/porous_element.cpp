@@ -5,8 +5,8 @@
 namespace breach::fem {
 namespace {
 
-/// In rock stiffer than its water (K_f / n, 5 GPa) the water's own compliance measures it: with the
-/// skeleton's a jump of pressure at soft soil would go on as a zig-zag that nothing damps.
+/// In rock stiffer than its water (K_f / n, 5 GPa), use the water's compliance: with the
+/// skeleton's, a pressure jump at soft soil would continue as an undamped zig-zag.
 Vec2 stabilisation_of(const Corners& x, const Fluid& fluid, double skeleton_modulus) {
     if (fluid.alpha) return Vec2::Constant(*fluid.alpha);
     const Vec2 extent = x.rowwise().maxCoeff() - x.rowwise().minCoeff();
@@ -41,8 +41,8 @@ void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid&
     out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
     out.H.noalias() = V * dN.transpose() * fluid.mobility.asDiagonal() * dN;
     if (fluid.integration == scene::PressureIntegration::full) {
-        // The gradient of xi eta, whose amplitude is gamma: blind to linear pressures, so that
-        // seepage along a line stays exact on skewed quads.
+        // The gradient of xi eta, with the amplitude gamma: zero for linear pressures, so that
+        // seepage along a line is exact on skewed quads.
         const Eigen::Matrix4d alternating = geometry.gamma * geometry.gamma.transpose();
         const Vec2 kappa = 4.0 * geometry.H.diagonal();
         const double most = alternation_time * alternation_time / out.density;

@@ -13,7 +13,7 @@
 namespace breach::fem {
 namespace {
 
-/// [elements] of regions that are not there in a stage.
+/// [elements] of regions absent in a stage.
 std::vector<bool> elements_gone(const scene::Scene& scene, std::size_t stage, const Mesh& mesh) {
     const auto gone = scene::fem_of(scene).regions_gone(scene.section.regions.size(), stage);
     std::vector<bool> elements;
@@ -21,7 +21,7 @@ std::vector<bool> elements_gone(const scene::Scene& scene, std::size_t stage, co
     return elements;
 }
 
-/// In some stage water stands where soil is not there.
+/// Whether in some stage water covers absent soil.
 bool floods_gaps(const scene::Scene& scene, const Mesh& mesh) {
     const scene::Fem& fem = scene::fem_of(scene);
     for (std::size_t s = 0; fem.water && s < fem.stages.size(); ++s) {
@@ -33,7 +33,7 @@ bool floods_gaps(const scene::Scene& scene, const Mesh& mesh) {
     return false;
 }
 
-/// Soil comes and goes below water where the stage's water is that of steady seepage.
+/// Refuses changes of soil below water with steady seepage.
 void refuse_wet_changes(const scene::Scene& scene, std::size_t stage, const Model& model) {
     const scene::Fem& fem = scene::fem_of(scene);
     const scene::Stage& now = fem.stages[stage];
@@ -86,7 +86,7 @@ void hold_what_is_left(const scene::Scene& scene, std::size_t stage, Model& mode
     model.constraints.held = std::move(held);
 }
 
-/// Holds what this stage and those before it displace, and notes what this one moves.
+/// Fixes the nodes displaced up to this stage, and sets the displacements of this one.
 void displace(const scene::Fem& fem, std::size_t stage, Model& model) {
     const std::vector<bool> lonely = lonely_nodes(model);
     model.driven.clear();
@@ -114,8 +114,8 @@ void displace(const scene::Fem& fem, std::size_t stage, Model& model) {
     }
 }
 
-/// Nodes whose pressure is sought where no water flows: those of undrained regions, but where soil
-/// that drains meets them. The phreatic line drains nothing then.
+/// Nodes with unknown pressure in undrained regions, except where they meet soil that drains. The
+/// phreatic line is no boundary then.
 void find_undrained(const scene::Fem& fem, std::size_t stage, Model& model) {
     model.undrained.clear();
     const auto& regions = fem.stages[stage].undrained;
@@ -155,7 +155,7 @@ void press(const scene::Fem& fem, std::size_t stage, Model& model) {
     }
 }
 
-/// Forces on single nodes, of this stage or the last one that gave some.
+/// Nodal forces, of this stage or the last one that set them.
 void push(const scene::Fem& fem, std::size_t stage, Model& model) {
     std::size_t from = 0;
     for (std::size_t s = 0; s <= stage; ++s)
@@ -193,7 +193,7 @@ void push(const scene::Fem& fem, std::size_t stage, Model& model) {
     }
 }
 
-/// epsilon_q that creeps in this stage, per element.
+/// epsilon_q of creep in this stage, per element.
 void creep(const scene::Fem& fem, std::size_t stage, Model& model) {
     model.creep.clear();
     model.creep_step.clear();
@@ -286,7 +286,7 @@ void forget_absent(const Model& model, Motion& motion) {
         motion.hourglass[e].force.setZero();
         motion.hourglass[e].energy = 0.0;
     }
-    // A dof that is attached to the moving base keeps moving with it.
+    // A dof attached to the moving base stays attached.
     const std::vector<std::int32_t> of_dof = model.unknowns(Solved::motion_and_pressure).of_dof;
     const std::vector<bool> lonely = lonely_nodes(model);
     for (std::size_t d = 0; d < of_dof.size(); ++d) {

@@ -9,8 +9,7 @@
 namespace breach::fem {
 namespace {
 
-/// Elements of the body that are there and share a node with `element`, without itself, in ascending
-/// order.
+/// Present elements of the body that share a node with `element`, ascending, without itself.
 std::vector<std::size_t> neighbours_of(const Model& model, std::size_t element) {
     const Mesh& mesh = model.mesh;
     const Quad& own = mesh.quads[element];

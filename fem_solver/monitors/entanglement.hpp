@@ -1,5 +1,5 @@
-// Entanglement of a mesh: in failed soil, which is how the analysis of a failing dam regularly ends,
-// or at one bad corner, which has nothing to do with the dam.
+// Entanglement of a mesh: in failed soil, the usual end of a failing dam's analysis, or at a single
+// bad corner, independent of the failure.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,7 +15,7 @@ struct Entanglement {
         band,   ///< the soil around the folded element has failed
         corner  ///< it has not failed
     };
-    double time;  ///< of the step in which the corner folded; the last good state is older [s]
+    double time;  ///< of the step in which the corner folded; later than the last good state [s]
     std::size_t element;
     std::size_t region;  ///< index in the section
     std::string region_name;
@@ -27,17 +27,17 @@ struct Entanglement {
     scene::AtEntanglement then;  ///< the scene's choice
 };
 
-/// Evaluated in the last good state, which is the last snapshot. Band: the elements around the
-/// folded one are strained beyond `/fem/failure_surfaces/epsilon_q` on average, or one of them (or
-/// it) belongs to a failure surface. The element's own strain does not count: it is large because
-/// the corner has folded.
+/// Evaluates the last good state, which is the last snapshot. band: the elements around the folded
+/// one have a mean epsilon_q above `/fem/failure_surfaces/epsilon_q`, or one of them, or itself,
+/// belongs to a failure surface. Its own strain does not count: it is large because the corner
+/// folded.
 Entanglement entanglement_of(const scene::Section& section, const Model& model, const Watch& watch,
                              const Motion& last_good, const Distortion& folded, double time,
                              scene::AtEntanglement then);
 
 /// `entanglement` of result.json.
 nlohmann::json as_json(const Entanglement& what);
-/// Inverse of as_json, for an analysis of this section.
+/// Inverse of as_json, for the same section.
 Entanglement entanglement_from(const nlohmann::json& facts, const scene::Section& section);
 
 /// One sentence: element, time, place, and state of the soil around it.

@@ -15,7 +15,7 @@ struct BorderEdge {
     std::size_t element;
 };
 
-/// Elements by their edges, each from its first node to its second, the element on the left.
+/// Elements by their edges, from first to second node, with the element on the left.
 using Edges = std::map<std::pair<std::int32_t, std::int32_t>, std::size_t>;
 
 Edges edges_of(const Mesh& mesh) {
@@ -28,7 +28,7 @@ Edges edges_of(const Mesh& mesh) {
     return edges;
 }
 
-/// Border edges by their first node, the body on their left.
+/// Border edges by their first node, with the body on the left.
 std::map<std::int32_t, BorderEdge> border_of(const Edges& edges) {
     std::map<std::int32_t, BorderEdge> border;
     for (const auto& [edge, element] : edges) {
@@ -39,7 +39,7 @@ std::map<std::int32_t, BorderEdge> border_of(const Edges& edges) {
     return border;
 }
 
-/// What lies across each edge, with the whole border as its edge.
+/// Neighbours across each edge; the whole border as `edge`.
 std::vector<std::array<std::int32_t, 4>> neighbours_of(const Mesh& mesh, const Edges& edges) {
     std::vector<std::array<std::int32_t, 4>> beside(mesh.quads.size());
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
@@ -76,7 +76,7 @@ std::int32_t upper_corner(const Mesh& mesh, const std::map<std::int32_t, BorderE
     return best;
 }
 
-/// Elements above the threshold, joined where they share a node: the band of each, -1 outside.
+/// Band number of elements above the threshold, connected by shared nodes; -1 outside.
 std::vector<std::int32_t> bands_of(const Mesh& mesh, std::span<const double> epsilon_q,
                                    double threshold) {
     std::vector<std::int32_t> parent(mesh.quads.size());
@@ -102,10 +102,10 @@ std::vector<std::int32_t> bands_of(const Mesh& mesh, std::span<const double> eps
     return band;
 }
 
-/// Bands that meet the ground at more than one place.
+/// Bands that meet the ground at several places.
 struct Exits {
     std::size_t surfaces = 0;
-    std::vector<bool> holds;  ///< [elements] belongs to such a band
+    std::vector<bool> holds;  ///< [elements] in such a band
 };
 
 Exits exits_of(const Mesh& mesh, const Ground& ground, std::span<const double> epsilon_q,
@@ -130,10 +130,10 @@ Exits exits_of(const Mesh& mesh, const Ground& ground, std::span<const double> e
     return exits;
 }
 
-/// Bodies that bands cut off from the border beside and below.
+/// Bodies that bands separate from the border at the sides and below.
 struct CutOff {
-    std::size_t bodies = 0;     ///< of at least the least area
-    std::size_t valleys = 0;    ///< such bodies that lie within the bands of the threshold
+    std::size_t bodies = 0;     ///< of sufficient area
+    std::size_t valleys = 0;    ///< those within the bands of the threshold
     std::vector<bool> largest;  ///< [elements]
 };
 
@@ -171,7 +171,7 @@ CutOff cut_off_by(const Mesh& mesh, const Ground& ground, const std::vector<bool
     return cut;
 }
 
-/// Of a mesh all of which is there.
+/// Ground of a mesh without absent elements.
 Ground ground_of_whole(const Mesh& mesh) {
     const Edges edges = edges_of(mesh);
     const auto border = border_of(edges);
@@ -200,7 +200,7 @@ Ground ground_of_whole(const Mesh& mesh) {
     return ground;
 }
 
-/// Edge of an element, from its corner k to the next.
+/// Edge of an element from corner k to the next.
 struct Face {
     std::size_t element, k;
 
@@ -209,7 +209,7 @@ struct Face {
     std::size_t number() const { return 4 * element + k; }
 };
 
-/// The border edge after this one, around the soil on its left.
+/// The next border edge around the soil on its left.
 Face after(const Mesh& mesh, const Ground& ground, Face face) {
     const std::int32_t node = face.to(mesh);
     face.k = (face.k + 1) % 4;
@@ -221,7 +221,7 @@ Face after(const Mesh& mesh, const Ground& ground, Face face) {
     return face;
 }
 
-/// The ground's edges, chain by chain, each from right to left. Those of holes have no first one.
+/// Edges of the ground, chain by chain, each from right to left; without those of holes.
 std::vector<std::vector<Face>> chains_of(const Mesh& mesh, const Ground& ground) {
     std::vector<Face> faces;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
@@ -245,7 +245,7 @@ std::vector<std::vector<Face>> chains_of(const Mesh& mesh, const Ground& ground)
     return chains;
 }
 
-/// The ground of what is left of the mesh without `absent`.
+/// The ground of the mesh without `absent`.
 Ground ground_without(std::vector<char> absent, const Mesh& mesh, const Ground& whole) {
     Ground ground;
     ground.beside = whole.beside;

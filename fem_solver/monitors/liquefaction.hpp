@@ -1,4 +1,4 @@
-// Liquefied nodes, by the excess pore pressure ratio, and the depth of liquefaction.
+// Liquefied nodes by the excess pore pressure ratio, and the depth of liquefaction.
 #pragma once
 
 #include <array>
@@ -9,31 +9,30 @@
 
 namespace breach::fem {
 
-/// Effective vertical stress sigma'_v [Pa, compression positive] at the nodes: mean of the
-/// surrounding elements' averages, weighted by their volumes. sigma_yy: [elements] Pa, tension
-/// positive; volume: [elements] m3.
+/// Effective vertical stress sigma'_v [Pa, compression positive] at the nodes: mean of the adjacent
+/// elements' averages, weighted by volume. sigma_yy: [elements] Pa, tension positive; volume:
+/// [elements] m3.
 std::vector<double> nodal_vertical_stress(const Mesh& mesh, std::span<const double> sigma_yy,
                                           std::span<const double> volume);
 
 /// Excess pore pressure ratio r_u = (u - u_0) / sigma'_v0 [-] at the nodes (Sordo et al. 2024, Eq.
-/// 1). excess = u - u_0, sigma_v0: [nodes] Pa. 0 where sigma'_v0 is below `least_stress` [Pa]: near
-/// the ground the ratio is meaningless.
+/// 1). excess = u - u_0, sigma_v0: [nodes] Pa. 0 if sigma'_v0 is below `least_stress` [Pa], near
+/// the ground.
 std::vector<double> pore_pressure_ratio(std::span<const double> excess,
                                         std::span<const double> sigma_v0, double least_stress);
 
 /// The watched nodes, and the level of depth 0.
 struct LiquefactionWindow {
-    std::vector<std::size_t> regions;  ///< that can liquefy; their nodes count
-    std::array<double, 2> x;           ///< below this stretch of ground [m]
-    double level;                      ///< where depth is zero [m]
-    double threshold;                  ///< liquefied where r_u is above [-]
+    std::vector<std::size_t> regions;  ///< with liquefiable soil
+    std::array<double, 2> x;           ///< range of the nodes [m]
+    double level;                      ///< y of zero depth [m]
+    double threshold;                  ///< liquefied if r_u is above [-]
 };
 
 /// Nodes of the window, in ascending order.
 std::vector<std::int32_t> nodes_in(const Mesh& mesh, const LiquefactionWindow& window);
 
-/// Depth of the deepest liquefied node of `nodes` below the window's level [m]; 0 when there is
-/// none.
+/// Depth of the deepest liquefied node below the window's level [m]; 0 if none.
 double liquefaction_depth(const Mesh& mesh, std::span<const std::int32_t> nodes,
                           std::span<const double> r_u, const LiquefactionWindow& window);
 

@@ -116,7 +116,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
 
 namespace {
 
-/// Volumes [m3] of elements that are there and can soften, and of Gauss points that have.
+/// Volumes [m3] of present elements that can soften, and of Gauss points that have.
 struct Softened {
     double possible = 0.0;
     double done = 0.0;
@@ -141,7 +141,7 @@ Softened softened_volume(const Model& model, const Motion& motion) {
     return volume;
 }
 
-/// Points of the body that are there, of laws with a state parameter.
+/// Over present points of the body with a state parameter.
 void read_instability(const Model& model, const Motion& motion, Reading& r) {
     double volume = 0.0, psi = 0.0, past = 0.0;
     for (std::size_t z = 0; z < motion.memory.size(); ++z) {
@@ -165,7 +165,7 @@ void read_instability(const Model& model, const Motion& motion, Reading& r) {
     r.past_peak_share = past / volume;
 }
 
-/// 0 where the base is held.
+/// 0 with a fixed base.
 double base_velocity(const Model& model, const Motion& motion) {
     double sum = 0.0, nodes = 0.0;
     for (std::size_t i = 0; i < model.body.nodes && !model.constraints.is_base.empty(); ++i) {

@@ -1,5 +1,4 @@
-// The monitored quantities of an analysis at one time, as a telemetry line and as a row of the
-// history.
+// Monitored quantities at one time, as a telemetry line and a row of the history.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +20,7 @@ struct Distortion {
     std::size_t inverted = 0;  ///< elements with a corner at or below 0
 };
 
-/// One row; every member is a column.
+/// One row; each member is a column.
 struct Reading {
     double step = 0.0;
     double time = 0.0;  ///< [s]
@@ -33,7 +32,7 @@ struct Reading {
     double crest_dy = 0.0;                  ///< [m]
     double base_velocity = 0.0;             ///< horizontal, of an elastic base [m/s]
     double kinetic_energy = 0.0;            ///< [J]
-    double kinetic_energy_over_peak = 1.0;  ///< over its largest value so far [-]
+    double kinetic_energy_over_peak = 1.0;  ///< over its maximum so far [-]
     double external_work = 0.0;             ///< of gravity since the first dynamic stage [J]
     double internal_work = 0.0;             ///< of the stresses since the first dynamic stage [J]
     double viscous_dissipation = 0.0;       ///< by the materials' viscosity, in the body [J]
@@ -42,52 +41,53 @@ struct Reading {
     double jacobian_centre_avg = 1.0;
     double jacobian_least_avg = 1.0;
     double jacobian_least_min = 1.0;
-    /// Volume average over the strained elements; 0 when there are none [-]
+    /// Volume average over the strained elements; 0 if there are none [-]
     double epsilon_q_avg = 0.0;
     double epsilon_q_max = 0.0;  ///< [-]
-    /// Volume of elements with epsilon_q above the threshold over all volume [-]
+    /// Volume of elements with epsilon_q above the threshold over the total volume [-]
     double strained_share = 0.0;
-    double excess_pressure_avg = 0.0;  ///< u - u_0 over the nodes with a pressure unknown, weighted
-                                       ///< by mass [Pa]
-    double r_u_max = 0.0;              ///< of the watched nodes [-]
-    double liquefaction_depth = 0.0;   ///< deepest watched node above the threshold [m]
-    double failure_surfaces = 0.0;     ///< from ground to ground
-    double slip_across_band = 0.0;     ///< of the largest body that they cut off [m]
+    /// average of u - u_0 at nodes with unknown pressure, weighted by mass [Pa]
+    double excess_pressure_avg = 0.0;
+    double r_u_max = 0.0;             ///< maximum at the watched nodes [-]
+    double liquefaction_depth = 0.0;  ///< of the deepest liquefied watched node [m]
+    double failure_surfaces = 0.0;    ///< from ground to ground
+    double slip_across_band = 0.0;    ///< of the largest body that failure surfaces separate [m]
     double inverted_elements = 0.0;
     double psi_avg = 0.0;                ///< state parameter, by volume [-]
     double instability_ratio_max = 0.0;  ///< eta over eta_L [-]
-    double past_peak_share = 0.0;        ///< of the volume with psi: undrained, q would fall [-]
-    double strength_ratio_avg = 0.0;     ///< s_u over sigma'_v0, by volume [-]
-    double strength_ratio_min = 0.0;     ///< its least [-]
-    double viscous_share = 0.0;          ///< of damping over the soil's stress in bands [-]
-    double softened_share = 0.0;         ///< volume that has lost strength over volume that can [-]
+    /// share of the volume with psi in which q would fall in undrained shear [-]
+    double past_peak_share = 0.0;
+    double strength_ratio_avg = 0.0;  ///< s_u over sigma'_v0, by volume [-]
+    double strength_ratio_min = 0.0;  ///< minimum [-]
+    double viscous_share = 0.0;       ///< damping stress over the soil's stress in bands [-]
+    double softened_share = 0.0;      ///< volume that has softened over volume that can soften [-]
 };
 
 struct Column : telemetry::Column {
     double Reading::*member;
 };
-/// The columns of core/telemetry/columns.hpp, in its order; a test compares the two.
+/// In the order of core/telemetry/columns.hpp.
 const std::vector<Column>& columns();
-/// Without those that are not measured in this scene: they are not 0.
+/// Without columns that this scene does not measure.
 std::vector<Column> columns_of(const scene::Scene& scene);
 
 /// Element average of epsilon_q = sqrt(2/3 e:e) of the total strain since the first dynamic stage
 /// [-].
 double element_epsilon_q(const Model& model, const Motion& motion, std::size_t element);
-/// The same of all elements of the body.
+/// The same for all elements of the body.
 std::vector<double> epsilon_q_of_elements(const Model& model, const Motion& motion);
 
 Distortion distortion_of(const Model& model, const Motion& motion, double strain_threshold);
 
-/// All entries of a Reading that follow from the motion; the caller sets time, dt, iterations,
-/// residual and works.
+/// All entries of a Reading that follow from the motion; the caller sets the others (time, dt,
+/// iterations, residual, works).
 Reading read_monitors(const Model& model, const Motion& motion, const Distortion& distortion,
                       std::size_t crest_node, double strain_threshold);
 
 nlohmann::json telemetry_line(const Reading& reading, const std::vector<Column>& columns);
 exchange::Archive history_archive(const std::vector<Reading>& history,
                                   const std::vector<Column>& columns);
-/// Of all columns. Throws std::out_of_range when one is missing or has another length.
+/// Throws std::out_of_range if a column is missing or has another length.
 std::vector<Reading> history_from(const exchange::Archive& archive);
 
 std::size_t nearest_node(const Mesh& mesh, const Vec2& point);

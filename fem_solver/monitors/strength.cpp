@@ -7,8 +7,8 @@ namespace breach::fem {
 
 namespace {
 
-/// [elements of the body] mean pore pressure where it is more than suction [Pa]; negative where an
-/// element does not count.
+/// [elements of the body] mean pore pressure, suction as 0 [Pa]; negative if an element does not
+/// count.
 std::vector<double> pressures(const Model& model, const Motion& motion) {
     const bool wet = model.water.any();
     std::vector<double> u(model.body.elements, wet ? -1.0 : 0.0);

@@ -6,15 +6,14 @@
 
 namespace breach::fem {
 
-/// Undrained peak strength s_u over sigma'_v0, the vertical effective stress when the first dynamic
-/// stage began [-].
+/// Undrained peak strength s_u over sigma'_v0 at the beginning of the first dynamic stage [-].
 struct StrengthRatio {
-    double average = 0.0;  ///< by volume
+    double average = 0.0;  ///< weighted by volume
     double least = 0.0;
 };
-/// Over such soil in the body, in a wet scene over its saturated elements; excludes points with initial stresses below
-/// the law's least mean stress. With the material's S; without suction: strengths are at most the critical ones at p' +
-/// u, as in the transfer. Zeros if no point counts.
+/// For soil with a state parameter in the body, in a wet scene its saturated elements; excludes
+/// points with initial stress below the law's minimum. With the material's S and without suction:
+/// at most the critical strength at p' + u, as in the transfer. Zeros if no point counts.
 StrengthRatio strength_ratio(const Model& model, const Motion& motion, const Beginning& beginning);
 
 }  // namespace breach::fem

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double fails = 0.05;   // displacement over the section's height
 constexpr double moves = 0.1;    // of the largest displacement
-constexpr double near = 1.0;     // heights from the end
-constexpr double sloping = 0.1;  // of the height, from side to side
+constexpr double near = 1.0;     // section heights from the end
+constexpr double sloping = 0.1;  // over the height, from side to side
 
 /// The section's upstream end, where the ground is higher.
 struct UpstreamEnd {
@@ -47,7 +47,7 @@ UpstreamEnd upstream_end(const Model& model, const std::vector<bool>& lonely) {
                         : UpstreamEnd{high.x(), height, -1.0, relief};
 }
 
-/// What of the failing mass lies nearest to the end.
+/// The part of the failing mass nearest to the end.
 struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::string what;
@@ -61,7 +61,7 @@ struct Nearest {
     }
 };
 
-/// Displacements against that of the base, which the ground's motion moves [m].
+/// Displacements relative to the base [m].
 std::vector<double> displacements(const Model& model, const Motion& motion,
                                   const std::vector<bool>& lonely) {
     const auto lowest = std::ranges::min_element(

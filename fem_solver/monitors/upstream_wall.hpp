@@ -1,4 +1,4 @@
-// Whether the failing mass approaches the section's upstream end, where free-field columns or supports
+// Flags a failing mass near the section's upstream end, where free-field columns or supports
 // replace the ground.
 #pragma once
 
@@ -8,10 +8,9 @@
 
 namespace breach::fem {
 
-/// Nothing where the section has no upstream end (its ground is level from side to side), or where
-/// nothing fails: no failure surface, and no soil that moved by 5 % of the section's height.
-/// surface_cuts_through: there is a failure surface (Reading::failure_surfaces).
-/// excess_max: [nodes of the body] largest excess pore pressure; empty in dry soil [Pa]
+/// None without an upstream end (level ground), or without failure: no failure surface, and no
+/// displacement of 5 % of the section's height. surface_cuts_through: there is a failure surface.
+/// excess_max: [nodes of the body] largest excess pore pressure [Pa]; empty if dry.
 std::optional<fault::Flag> upstream_wall(const scene::Fem& fem, const Model& model,
                                          const Motion& motion, const Beginning& beginning,
                                          bool surface_cuts_through, std::size_t crest_node,

@@ -6,7 +6,7 @@ namespace breach::fem {
 
 namespace {
 
-/// Largest engineering shear of a strain, and twice the largest shear stress: one circle of Mohr.
+/// Diameter of Mohr's circle: largest engineering shear strain, or twice the largest shear stress.
 double circle(double xx, double yy, double twice_xy) { return std::hypot(xx - yy, twice_xy); }
 
 }  // namespace

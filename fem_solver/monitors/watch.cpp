@@ -48,8 +48,7 @@ FailureSurfaces Watch::failure_surfaces(std::span<const double> epsilon_q) const
 
 namespace {
 
-/// Mean displacement of the body that slides against that of the sound rest [m]; 0 where none is
-/// cut off.
+/// Mean displacement of the sliding body relative to the intact rest [m]; 0 if none is separated.
 double slip_across(const Model& model, const Motion& motion, const FailureSurfaces& surfaces) {
     Vec2 of_slide = Vec2::Zero(), of_rest = Vec2::Zero();
     double slide = 0.0, rest = 0.0;

@@ -1,4 +1,4 @@
-// Monitors beside the motion itself: liquefaction and failure surfaces, in the body alone.
+// Monitors liquefaction and failure surfaces of the body.
 #pragma once
 
 #include "fem_solver/monitors/failure_surface.hpp"
@@ -15,17 +15,17 @@ class Watch {
   public:
     Watch(const scene::Fem& fem, const Model& model);
 
-    /// From here on watches the present soil: for stages that change the body.
+    /// Changes to the present elements, for stages that change the body.
     void look_at(const Model& model);
 
-    /// Excess pore pressure, r_u and depth of liquefaction, failure surfaces; zeros in dry soil and
-    /// before the first dynamic stage.
+    /// Excess pore pressure, r_u, depth of liquefaction, failure surfaces; zeros if dry and before
+    /// the first dynamic stage.
     void read(const Model& model, const Motion& motion, const Beginning& beginning,
               Reading& reading) const;
 
     /// epsilon_q: [elements of the body].
     FailureSurfaces failure_surfaces(std::span<const double> epsilon_q) const;
-    /// u - u_0 at the body's nodes, over the same elements as in a snapshot [Pa].
+    /// u - u_0 at the body's nodes, averaged over the same elements as in a snapshot [Pa].
     std::vector<double> excess_pressure(const Model& model, const Motion& motion,
                                         const Beginning& beginning) const;
     double failure_strain() const { return failure_strain_; }
@@ -37,11 +37,11 @@ class Watch {
                     Reading& reading) const;
 
     Mesh body_;     ///< without free-field columns
-    Mesh present_;  ///< all its nodes, and the present elements
+    Mesh present_;  ///< all nodes, present elements
     Ground ground_;
     LiquefactionWindow window_{};
     double least_stress_ = 0.0;
-    std::vector<std::int32_t> nodes_;  ///< in the window; empty: none is watched
+    std::vector<std::int32_t> nodes_;  ///< in the window; empty: no monitoring
     double failure_strain_;
     double failure_separation_;
 };

@@ -25,7 +25,7 @@ std::vector<Stage> dynamic_stages(const scene::Fem& fem) {
     return stages;
 }
 
-/// The columns on their way through the stages.
+/// The columns during the stages.
 class Columns {
   public:
     Columns(const scene::Scene& scene, const Model& whole, const Motion& start)
@@ -35,7 +35,7 @@ class Columns {
           motion_(columns_alone(whole, start)),
           trial_(motion_),
           prediction_(prediction_for(model_)) {
-        // At rest with what the mesh presses on them, so that nothing moves before the ground does.
+        // Equilibrium with the forces of the mesh: nothing moves before the ground does.
         model_.external_force = Eigen::VectorXd::Zero(model_.dofs());
         add_pressure_force(model_, motion_.p, model_.external_force);
         model_.external_force = motion_.force - model_.external_force;
@@ -59,7 +59,8 @@ class Columns {
         set_acceleration(*newton_, model_, rest_, time_, prediction_, motion_);
     }
 
-    /// To this time, in steps of the stage or shorter. False: the least of them does not converge.
+    /// Advances to this time with steps of the stage or shorter. False: the smallest does not
+    /// converge.
     bool advance_to(double end) {
         double dt = stage_->time_step;
         const Newmark newmark{fem_.newmark_beta, fem_.newmark_gamma};
@@ -92,7 +93,7 @@ class Columns {
     const scene::Fem& fem_;
     Model model_;
     Motion motion_, trial_;
-    const Beginning rest_{};  ///< no reaction: external_force has it
+    const Beginning rest_{};  ///< no reaction: it is in external_force
     Prediction prediction_;
     Seconds seconds_;
     std::vector<materials::Law> laws_;

@@ -1,6 +1,6 @@
-// Motion of the ground away from the failure: the free-field columns run alone from the beginning of
-// the shaking to its end, before the mesh takes its first step. Every snapshot contains it, for the
-// runout, however the FEM ends.
+// Motion of the ground away from the failure: the free-field columns run alone through the whole
+// shaking before the first dynamic step of the mesh. Every snapshot contains it, for the runout,
+// even if the FEM ends early.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace breach::fem {
 
 struct FreeGround {
     exchange::BaseMotion motion;  ///< of the columns' base
-    std::string why_not;          ///< why there is none
+    std::string why_not;          ///< why there is no motion
 };
 
-/// For a shaken model with an absorbing base and columns. `start`: the motion of the whole model as
-/// its first dynamic stage begins, with the laws and stresses of that stage. The force of the mesh
-/// on the columns then stays constant. The samples reach to the end of the stages or of the
-/// earthquake, whichever is later.
+/// For a shaken model with absorbing base and columns. `start`: motion of the whole model at the
+/// beginning of its first dynamic stage, with that stage's laws and stresses. The force of the mesh
+/// on the columns stays constant. Samples reach the end of the stages or of the earthquake,
+/// whichever is later.
 FreeGround free_ground(const scene::Scene& scene, const Model& whole, const Motion& start);
 
 }  // namespace breach::fem

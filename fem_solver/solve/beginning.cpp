@@ -8,7 +8,7 @@
 namespace breach::fem {
 namespace {
 
-/// The force that is missing to rest at the base's nodes in x.
+/// Horizontal force that keeps the base nodes at rest.
 Eigen::VectorXd base_reaction(const Model& model, const Motion& motion) {
     Eigen::VectorXd applied = model.external_force;
     add_pressure_force(model, motion.p, applied);
@@ -20,7 +20,7 @@ Eigen::VectorXd base_reaction(const Model& model, const Motion& motion) {
     return missing;
 }
 
-/// Average of -sigma'_yy over the elements at a node that are there, by volume; 0 where none is.
+/// Average of -sigma'_yy over the present elements at a node, by volume; 0 if none.
 std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
     std::vector<double> sum(model.body.nodes, 0.0), volume(model.body.nodes, 0.0);
     for (std::size_t e = 0; e < model.body.elements; ++e) {
@@ -39,7 +39,7 @@ std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
     return sum;
 }
 
-/// K + 4G/3 now: of a law with memory from that, of other laws the elastic one.
+/// Present K + 4G/3: from the memory, or elastic for laws without.
 double modulus_of(const Model& model, const Motion& motion, const PorousElement& porous) {
     const Zone& zone = model.zones[porous.zone];
     double modulus = porous.skeleton_modulus;

@@ -98,7 +98,7 @@ void InternalForce::small_strains(std::size_t element, const Motion& old, const 
     for (std::size_t g = 0; g < points_; ++g) {
         d_epsilon_[element * points_ + g] = strain_of(model_.reference[element].B[g], d_u);
     }
-    // The law sees what is not creep.
+    // Strain without creep.
     for (std::size_t g = 0; g < points_ && !model_.creep_step.empty(); ++g)
         d_epsilon_[element * points_ + g] -= model_.creep_step[element * points_ + g];
     if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
@@ -107,9 +107,9 @@ void InternalForce::small_strains(std::size_t element, const Motion& old, const 
     if (!d_q_.empty()) d_q_[element].setZero();
 }
 
-/// Strain increment and rotation from the mid-configuration: both are exact for a rigid rotation
-/// (Hughes & Winget 1980, with the exact angle). Leaves the quadrature of the end configuration for
-/// the forces.
+/// Strain increment and rotation from the mid-configuration, exact for rigid rotation (Hughes &
+/// Winget 1980, with the exact angle). Leaves the quadrature of the end configuration for the
+/// forces.
 Geometry InternalForce::moving_strains(std::size_t element, const Motion& old,
                                        const Motion& trial) {
     const Quad& quad = model_.mesh.quads[element];
@@ -207,9 +207,9 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
                : Geometry::degenerate;
 }
 
-/// The elastic tangent of whichever end of the step is stiffer: symmetric positive definite, which
-/// keeps the matrix quasi-definite, and too stiff rather than too soft, so that iterations approach
-/// instead of swinging about when soil near zero mean stress is pressed again.
+/// The stiffer elastic tangent of the step's two ends. It is symmetric positive definite, which
+/// keeps the matrix quasi-definite, and rather too stiff, so that iterations do not oscillate when
+/// soil near zero mean stress is compressed again.
 template <materials::Remembers Law>
 Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t z,
                                                     const Motion& old, Motion& trial) {
@@ -255,8 +255,8 @@ void InternalForce::accumulate_strain(std::size_t begin, std::size_t end, const 
 }
 
 /// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
-/// and the force stays continuous when the modulus changes. On a moving mesh Q turns with the
-/// element. H of the end configuration stands for that of the middle, as in the tangent.
+/// and the force is continuous when the modulus changes. On a moving mesh Q rotates with the
+/// element. H of the end configuration replaces that of the middle, as in the tangent.
 void InternalForce::advance_hourglass(std::size_t begin, std::size_t end, const Motion& old,
                                       Motion& trial) const {
     const std::vector<SspGeometry>& geometries = hourglasses();
@@ -280,9 +280,9 @@ void InternalForce::advance_hourglass(std::size_t begin, std::size_t end, const 
     }
 }
 
-/// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stresses s
-/// = (s_xx - s_yy, 2 s_xy) that go with it. A step without shear tells nothing and keeps the
-/// modulus. A floor of 2 % of the elastic one keeps the modes controlled in flowing soil.
+/// 4 G_secant of the step: G_s = s.d / (2 d.d) with d = (e_xx - e_yy, gamma_xy) and the stress
+/// increment s = (s_xx - s_yy, 2 s_xy). Without shear the modulus stays. A floor of 2 % of the
+/// elastic one controls the hourglass modes in flowing soil.
 double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Motion& old,
                                              const Motion& trial) const {
     if (model_.hourglass_modulus == HourglassModulus::elastic) return now;
@@ -299,7 +299,7 @@ double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Mo
     return std::clamp(2.0 * s.dot(d) / d.squaredNorm(), floor * elastic, elastic);
 }
 
-/// What follows from the stresses: total strains, hourglass forces, nodal forces.
+/// Computes total strains, hourglass forces and nodal forces from the stresses.
 void InternalForce::force_pass(const Motion& old, Motion& trial) {
     const std::size_t elements = model_.mesh.quads.size();
     trial.force.setZero();
@@ -429,7 +429,7 @@ void InternalForce::add_elastic_stiffness(double factor, LinearSystem& A) const 
     }
 }
 
-/// visit(element, its operators, eta) for each element whose material has a viscosity.
+/// Calls visit(element, its operators, eta) for each element with viscosity.
 template <typename Visit>
 void InternalForce::visit_viscous_elements(Visit visit) const {
     for (const Zone& zone : model_.zones) {

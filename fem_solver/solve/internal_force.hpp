@@ -1,5 +1,5 @@
-// From displacements to stresses to nodal forces, and the tangent: strain pass, law pass, force
-// pass. Small strains on the undeformed mesh, or updated Lagrangian on the moving one.
+// Stresses and nodal forces from displacements, and the tangent, in passes over strains, laws and
+// forces. Small strain on the undeformed mesh, or updated Lagrangian on the moving one.
 #pragma once
 
 #include <memory>
@@ -15,37 +15,36 @@ namespace breach::fem {
 
 enum class Geometry {
     sound,
-    degenerate,  ///< det J <= 0 at a Gauss point of the trial mesh, or a law with memory that
-                 ///< refused a strain increment: no forces were computed
+    degenerate,  ///< det J <= 0 at a Gauss point, or a law refused the strain increment: no forces
 };
 
 class InternalForce {
   public:
-    /// team: the results do not depend on its threads.
+    /// team: its size does not change the results.
     InternalForce(const Model& model, Seconds& seconds,
                   std::shared_ptr<numerics::Team> team = std::make_shared<numerics::Team>(1));
 
-    /// Stresses, strains and nodal forces of `trial` (points, strain, force) at displacement
-    /// trial.u, coming from `old`.
+    /// Sets stresses, strains and nodal forces of `trial` for the displacement trial.u, starting at
+    /// `old`.
     Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial);
-    /// The same, and adds the consistent tangent (symmetrised if A is symmetric) to A.
+    /// The same, and adds the consistent tangent to A, symmetrised if A is symmetric.
     Geometry evaluate(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
                       LinearSystem& A);
-    /// The laws with memory: cost of their calls, reason of the last refusal.
+    /// Laws with memory: cost of their calls, reason of the last refusal.
     const MemoryPass& memory_pass() const { return memory_; }
-    /// Message after a degenerate evaluation: the element that turned inside out, or the one with a
-    /// law that refused and why.
+    /// After a degenerate evaluation: the element that is inside out, or the one whose law refused,
+    /// and why.
     std::string why_degenerate() const;
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
-    /// Whether a zone has a viscosity. The functions below use the mesh of the last evaluation.
+    /// Whether a zone has viscosity. The functions below use the mesh of the last evaluation.
     bool is_viscous() const;
     /// Adds `factor` times the viscous forces of the zones at the velocity v to f [N].
     void add_viscous_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f) const;
-    /// Adds `factor` [1/s] times their derivative with respect to v to A.
+    /// Adds `factor` [1/s] times their derivative by v to A.
     void add_viscous_damping(double factor, LinearSystem& A) const;
-    /// Their dissipation at the velocity v over the displacement d_u [J].
+    /// Their dissipation over the displacement d_u at the velocity v [J].
     double viscous_work(const Eigen::VectorXd& v, const Eigen::VectorXd& d_u) const;
 
   private:
@@ -75,14 +74,14 @@ class InternalForce {
     double next_hourglass_modulus(std::size_t element, double now, const Motion& old,
                                   const Motion& trial) const;
     void force_pass(const Motion& old, Motion& trial);
-    /// take(element, its nodal forces) for the elements [begin, end), in order.
+    /// Calls take(element, nodal forces) for the elements [begin, end), in order.
     template <class Take>
     void visit_nodal_forces(std::size_t begin, std::size_t end, const Motion& trial,
                             const Take& take) const;
     void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
     template <typename Visit>
     void visit_viscous_elements(Visit visit) const;
-    /// Of all elements, as the mesh is now.
+    /// [elements] for the present mesh.
     const std::vector<Quadrature>& quadratures() const;
     const std::vector<SspGeometry>& hourglasses() const;
 
@@ -93,15 +92,15 @@ class InternalForce {
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     MemoryPass memory_;
-    std::optional<std::size_t> folded_;  ///< the first degenerate element of the last evaluation
+    std::optional<std::size_t> folded_;  ///< first degenerate element of the last evaluation
     /// Updated Lagrangian: [points] half the rotation of the step [rad]
     std::vector<double> half_angle_;
     std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]
     std::vector<Gradients> gradients_;    ///< updated Lagrangian: [elements]
     std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
     std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
-    std::vector<Vec2> d_q_;               ///< single point: [elements] amplitude of the step [m]
-    std::vector<Dofs8> nodal_;  ///< several threads: [elements] forces, summed in order [N]
+    std::vector<Vec2> d_q_;     ///< single point: [elements] hourglass amplitude of the step [m]
+    std::vector<Dofs8> nodal_;  ///< several threads: [elements] forces, then summed in order [N]
 };
 
 /// Elastic stiffness of the undeformed element: integral B^T D B dV [N/m].

@@ -27,7 +27,7 @@ std::int32_t index_of(const Eigen::SparseMatrix<double>& A, std::int32_t row, st
 
 }  // namespace
 
-/// visit(row, column) for the 64 entries of each element, column by column; -1 where held.
+/// Calls visit(row, column) for the 64 entries of each element, column by column; -1 if fixed.
 template <typename Visit>
 void LinearSystem::visit_elements(Visit visit) const {
     for (const Quad& quad : model_.mesh.quads) {
@@ -38,7 +38,7 @@ void LinearSystem::visit_elements(Visit visit) const {
     }
 }
 
-/// visit(row, column) for each saturated element: 32 entries of Q (pressure row, displacement
+/// Calls visit(row, column) for each saturated element: 32 entries of Q (pressure row, displacement
 /// column), then 16 of B_p.
 template <typename Visit>
 void LinearSystem::visit_water(Visit visit) const {
@@ -139,7 +139,7 @@ void LinearSystem::add_product(double factor, const Eigen::VectorXd& x, Eigen::V
         if (i >= 0) product_in_[i] = x[static_cast<Eigen::Index>(d)];
     }
     product_out_.noalias() = A_.selfadjointView<Eigen::Lower>() * product_in_;
-    // A tied node's share goes to the first of its dofs: sums over the tie are what counts.
+    // Adds a tied dof's share to the first dof of its tie: only sums matter.
     for (std::size_t d = 0; d < unknowns_.of_dof.size(); ++d) {
         const std::int32_t i = unknowns_.of_dof[d];
         if (i < 0) continue;

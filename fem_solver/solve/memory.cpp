@@ -79,7 +79,7 @@ StressBias begin_memory(const Model& model, Motion& motion) {
                 Voigt& sigma = motion.points[p++].sigma;
                 const Voigt held = materials::stress(law, each);
                 Voigt lost = held - sigma;
-                lost[2] = 0.0;  // no node feels it, and PM4Sand does not know it
+                lost[2] = 0.0;  // sigma_zz acts on no node, and PM4Sand has none
                 const double size = lost.cwiseAbs().maxCoeff();
                 if (size > 1e-9 * held.cwiseAbs().maxCoeff() && !model.is_absent(zone.first)) {
                     ++cut.cut_down;

@@ -1,7 +1,6 @@
-// Zones with laws whose points remember more than State: the one switch from the elastic stages to
-// their laws, and the pass over a zone's points. Independent of the particular law, through the
-// interface of core/materials/memory.hpp. The memory (Motion::memory) is stored beside State, which
-// mirrors its stress.
+// Zones with laws whose points have a memory besides State (core/materials/memory.hpp): the switch
+// from the elastic stages to these laws, and their integration over a zone. Motion::memory has the
+// memories; State mirrors their stress.
 #pragma once
 
 #include <memory>
@@ -17,69 +16,67 @@ namespace breach::fem {
 
 bool has_memory(const Model& model);
 
-/// "PM4Sand": the names of the laws that remember, each once.
+/// "PM4Sand": names of the laws with memory, each once.
 std::string names_of_laws_with_memory(const Model& model);
 
-/// Constant stress left by the switch because it lay outside the law's surfaces.
+/// Constant stress that the switch kept because it lay outside the law's surfaces.
 struct StressBias {
     std::size_t points = 0;
     double largest = 0.0;      ///< largest component [Pa]
-    std::size_t cut_down = 0;  ///< points whose stress the law could not hold and reduced
-    double largest_cut = 0.0;  ///< largest component taken from one [Pa]
+    std::size_t cut_down = 0;  ///< points whose stress the law reduced
+    double largest_cut = 0.0;  ///< largest reduction of a component [Pa]
 };
 
-/// Makes the first memory of every point of every zone that remembers, from the stress and the
-/// volumetric strain that the elastic stages left in `motion`. Does nothing where that was done
-/// before: exactly one call per point in a run.
+/// Creates the memory of every point of these zones from the stress and volumetric strain of the
+/// elastic stages. Does nothing if it exists: exactly one call per point and run.
 StressBias begin_memory(const Model& model, Motion& motion);
 
-/// The bias that `motion` carries now.
+/// The present bias of `motion`.
 StressBias stress_bias(const Model& model, const Motion& motion);
 
-/// Number of points moved to the end of their path in one call because no strain of theirs could be
-/// followed.
+/// Number of points that a law moved to their critical state because it could not integrate their
+/// strain.
 std::size_t fallen_points(const Model& model, const Motion& motion);
 
-/// Number of points that have a memory now.
 std::size_t points_with_memory(const Model& model, const Motion& motion);
 
-/// Runs laws over zones; its buffers are as large as the largest zone of each.
+/// Runs laws over zones, with reusable buffers.
 class MemoryPass {
   public:
-    /// team: the results do not depend on its threads.
+    /// team: its size does not change the results.
     explicit MemoryPass(const Model& model,
                         std::shared_ptr<numerics::Team> team = std::make_shared<numerics::Team>(1));
 
     enum class Answer {
         done,
-        refused,  ///< a strain increment beyond `largest_strain` or not finite, or a point that
-                  ///< used up its evaluations: the step must be cut
+        /// a strain increment is too large or not finite, or needs too many evaluations: cut the
+        /// step
+        refused,
     };
-    /// New memories and stresses of zone `z` after the strain increments and, on a moving mesh, half turns
-    /// [rad] of its points. The law works in axes that turn with its point: every part of the memory turns
-    /// exactly.
+    /// New memories and stresses of zone `z` after strain increments and, on a moving mesh, half
+    /// rotations [rad] of its points. The law works in axes that rotate with the point, which
+    /// rotates every part of its memory exactly.
     template <materials::Remembers Law>
     Answer integrate(const Law& law, std::size_t z, std::span<const Voigt> d_epsilon,
                      std::span<const double> half_angles, const Motion& old, Motion& trial);
 
-    /// Strain increments beyond this belong to a diverged trial [-]. A call of the law would be
-    /// expensive and useless.
+    /// Larger strain increments belong to a diverged trial [-]; integrating them would be expensive
+    /// and useless.
     static constexpr double largest_strain = 0.05;
 
-    /// Why and where the last step was refused.
+    /// Why and where a law refused the last step.
     struct Refusal {
         enum class Why {
             strain,       ///< an increment beyond largest_strain, or not finite
-            evaluations,  ///< more than the law may use
+            evaluations,  ///< too many evaluations
         };
         Why why = Why::strain;
-        const char* law = "";  ///< for people
+        const char* law = "";  ///< for display
         std::size_t element = 0;
         double largest = 0.0;  ///< component of its strain increment [-]
     };
     const Refusal& refusal() const { return refusal_; }
 
-    /// Of the laws, so far.
     std::int64_t evaluations() const { return evaluations_; }
 
   private:
@@ -94,11 +91,11 @@ class MemoryPass {
 
     Answer refuse(Refusal::Why why, const char* law, const Zone& zone, std::size_t point,
                   const Voigt& d_epsilon);
-    /// The increments in the axes of their points; stores the rotation of these.
+    /// Increments in the rotated axes of the points; stores the rotation of these.
     std::span<const Voigt> turn(std::size_t first, std::span<const Voigt> d_epsilon,
                                 std::span<const double> half_angles, const Motion& old,
                                 Motion& trial);
-    /// The first increment that is too large for the laws; their number if none is.
+    /// The first increment that is too large for the laws; the number of increments if none is.
     static std::size_t first_too_large(std::span<const Voigt> d_epsilon);
 
     const Model& model_;
@@ -106,7 +103,7 @@ class MemoryPass {
     std::shared_ptr<numerics::Team> team_;
     Refusal refusal_;
     decltype(buffers_of(static_cast<const materials::Law*>(nullptr))) buffers_;
-    std::vector<Voigt> in_own_axes_;  ///< increments of a zone, on a moving mesh
+    std::vector<Voigt> in_own_axes_;  ///< increments of a zone, moving mesh only
     std::int64_t evaluations_ = 0;
 };
 
@@ -144,7 +141,7 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
     return Answer::done;
 }
 
-/// Message: whether the strain limit or the law's evaluations ended the step, and where.
+/// Message: strain limit or evaluations, and where.
 std::string in_words(const MemoryPass::Refusal& refusal);
 
 }  // namespace breach::fem

@@ -10,7 +10,7 @@
 namespace breach::fem {
 namespace {
 
-/// A new factorisation costs about as much as this many iterations with the old one.
+/// Cost of a factorisation in iterations with an old one.
 constexpr double worth_of_matrix = 4.0;
 constexpr double round_off = 1e-15;
 
@@ -20,8 +20,8 @@ Unknowns displacements_only(Unknowns unknowns) {
     return unknowns;
 }
 
-/// Body over own thickness of what each dof belongs to, the thickest first: otherwise the forces of
-/// free-field columns would decide alone what counts as balanced.
+/// Thickness of the body over that of each dof's thickest element: without it the forces of
+/// free-field columns would dominate the residual.
 Eigen::VectorXd shares_of_dofs(const Model& model, const Unknowns& unknowns) {
     std::vector<double> largest(static_cast<std::size_t>(unknowns.count), 1.0);
     for (std::size_t e = model.body.elements; e < model.mesh.quads.size(); ++e) {
@@ -41,17 +41,17 @@ Eigen::VectorXd shares_of_dofs(const Model& model, const Unknowns& unknowns) {
     return share;
 }
 
-/// PM4Sand jumps where a reversal is just seen or just not seen (by up to 0.3 % of the mean stress,
-/// measured): there no displacement has a vanishing residual. Such a step is accepted up to this
-/// many times the tolerance; what is out of balance enters the next step, it does not add up.
+/// PM4Sand is discontinuous at a reversal (by up to 0.3 % of the mean stress, measured): there, no
+/// displacement has a vanishing residual. Such a step is accepted up to this multiple of the
+/// tolerance. The unbalanced force enters the next step; it does not accumulate.
 constexpr double worst_jump = 100.0;
 
-/// Of the elastic stiffness, in the tangents of a limit state.
+/// Share of the elastic stiffness added at a limit state.
 constexpr double elastic_share = 0.05;
-/// Times the tolerance, at a limit state.
+/// Multiple of the tolerance accepted at a limit state.
 constexpr double grace = 100.0;
 
-/// The residuals of one step: tells when they no longer fall.
+/// Residuals of one step: detects when they stop decreasing.
 class Progress {
   public:
     void note(double residual) {
@@ -135,8 +135,7 @@ void Newton::add_inertia_and_water(const TimeRule& rule) {
     matrix_.add_water(rule);
 }
 
-/// Factorises the assembled tangent; one that is not positive definite would lead uphill, then the
-/// elastic one is used.
+/// Factorises the assembled tangent; the elastic one if that is not positive definite.
 bool Newton::factorise(const TimeRule& rule) {
     const Stopwatch watch(seconds_, &Seconds::factor);
     ++counts_.factorisations;
@@ -266,7 +265,7 @@ Newton::WaterShare Newton::water_share(const PorousElement& each, const StepProb
             .rounding = share * share * (of_u + of_p) * (of_u + of_p)};
 }
 
-/// Sums over ties; held dofs drop out. The balance of mass is divided by -c_v, as its rows are.
+/// Sums over ties; fixed dofs drop out. The mass balance is divided by -c_v, like its rows.
 void Newton::gather_residual(const StepProblem& problem) {
     residual_.setZero();
     if (model_.row_weight.size() > 0) R_u_.array() *= model_.row_weight.array();
@@ -286,9 +285,9 @@ double Newton::norm_of(const Eigen::VectorXd& per_dof) const {
     return (share_of_dof_.array() * per_dof.array()).matrix().norm();
 }
 
-/// Out-of-balance force over the weight, or over the internal or viscous forces where they are
-/// larger (no gravity); unbalanced volume over what the elements exchange. Never so strict that the tolerance
-/// asks for less than round-off: M a is c_a M (u - u_predicted).
+/// Unbalanced force over the weight, or over the internal or viscous forces if larger (no gravity);
+/// unbalanced over exchanged volume. The reference includes round-off, as M a is c_a M (u -
+/// u_predicted).
 double Newton::residual_measure(const StepProblem& problem, const Motion& trial) const {
     const std::int32_t n_u = unknowns().displacements, n_p = unknowns().pressures();
     const double inertia =
@@ -308,9 +307,9 @@ double Newton::residual_measure(const StepProblem& problem, const Motion& trial)
     return std::max(of_force, exchange > 0.0 ? volume / exchange : 0.0);
 }
 
-/// Combines the plain correction g = A^-1 R with the last ones so that the combination's own g is
-/// least (Anderson 1965, in the form of Walker & Ni 2011, Eq. 2.2), measured by the matrix's
-/// diagonal: with an exact tangent it changes nothing.
+/// Combines the correction g = A^-1 R with the last ones to minimise the combination's own g
+/// (Anderson 1965, as in Walker & Ni 2011, Eq. 2.2) in the norm of the matrix's diagonal. Has no
+/// effect with an exact tangent.
 void Newton::accelerate() {
     correction_ = plain_;
     if (has_last_) {
@@ -370,8 +369,8 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
     has_last_ = false;
     Matrix matrix = serves ? Matrix::keep : Matrix::renew;
     double first = 0.0, before = 0.0, residual = 0.0;
-    // The matrix of laws with memory is that of the step's ends: a second renewal would give the
-    // same again.
+    // With laws with memory the matrix depends on the step's ends: a second renewal would give the
+    // same.
     const bool of_ends = !problem.old.memory.empty();
     int renewals_left = of_ends ? 1 : settings_.largest_iterations;
     Progress progress;
@@ -400,8 +399,8 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
             memory_.has_matrix = false;
             return {near_limit ? End::converged : End::not_converged, iteration, residual};
         }
-        // Iterations that the present rate of convergence would still need.
-        // Before the first correction nothing is known about it.
+        // Iterations still needed at the present rate of convergence, unknown before the first
+        // correction.
         const double rate = iteration == 0 ? 0.0 : residual / before;
         const double wanted = std::log(settings_.tolerance / residual);
         const bool slow =

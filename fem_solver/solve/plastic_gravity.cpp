@@ -11,10 +11,11 @@ namespace breach::fem {
 namespace {
 
 constexpr double first_cohesion = 16e3, last_cohesion = 0.25e3;  // [Pa]
-constexpr double smallest_cut = 0.9;  // a level nearer to the last one is not worth a try
+// ratio of successive levels; a smaller reduction is not tried
+constexpr double smallest_cut = 0.9;
 
-/// Of each zone whose law remembers, the least that its surfaces allow under the stress it has; 0
-/// elsewhere [rad].
+/// [zones] smallest friction angle of the surfaces of their points under the present stress; 0
+/// without memory [rad].
 std::vector<double> friction_angles(const Model& model, const Motion& motion) {
     std::vector<double> angles;
     const Overburden overburden(model);
@@ -34,7 +35,7 @@ std::vector<double> friction_angles(const Model& model, const Motion& motion) {
     return angles;
 }
 
-/// The zones' laws with friction and this cohesion in place of laws with memory.
+/// Laws of the zones, with this friction and cohesion instead of laws with memory.
 std::vector<materials::Law> frictional_laws(const Model& model, const std::vector<double>& phi,
                                             double c) {
     std::vector<materials::Law> laws;
@@ -59,7 +60,7 @@ FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& mo
     FrictionalRest rest;
     const std::vector<double> phi = friction_angles(model, motion);
     const Eigen::VectorXd start = motion.force;
-    double share = 0.5;  // of the last cohesion
+    double share = 0.5;  // of the cohesion before
     for (double c = first_cohesion; c >= last_cohesion && share < smallest_cut;
          c = share * rest.cohesion) {
         const std::vector<materials::Law> laws = frictional_laws(model, phi, c);

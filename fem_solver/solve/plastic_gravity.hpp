@@ -1,6 +1,6 @@
-// Gravity for a law with memory (PM4Sand): elastic gravity leaves stresses outside its surfaces at faces and ponds,
-// from which the law cannot return. A friction-only analysis finds a stress field inside, in equilibrium; the law
-// begins from that.
+// Gravity for a law with memory (PM4Sand). Elastic gravity leaves stresses outside its surfaces at
+// faces and ponds, from which the law cannot return. A frictional analysis finds an equilibrium
+// inside the surfaces as initial state of the law.
 #pragma once
 
 #include <string>
@@ -9,32 +9,30 @@
 
 namespace breach::fem {
 
-/// Whether a stage that begins such a law searches for that field first: a static one after
-/// another.
+/// Whether a stage that starts such a law searches for that state: a static one after another.
 bool rests_first(const scene::Stage& stage, std::int64_t place);
 
-/// Limit of iterations for one level of the search: unlike a dynamic step it cannot be cut, and
-/// giving it up leaves soil outside its surfaces (Mochikoshi on 0.6 m: 545 for all levels).
+/// Largest number of iterations per level of the search. Large, because a level cannot be divided
+/// like a dynamic step, and giving up leaves soil outside its surfaces (Mochikoshi with 0.6 m: 545
+/// for all levels).
 inline constexpr int iterations_to_rest = 400;
-/// Limit of iterations without a better residual: then no equilibrium exists at this level.
+/// Largest number of iterations without a smaller residual; after it the level has no equilibrium.
 inline constexpr int patience_to_rest = 60;
 
-/// Result of the search.
 struct FrictionalRest {
     bool converged = false;
-    double cohesion = 0.0;  ///< least one in equilibrium; the first one tried when none
-                            ///< was [Pa]
-    double residual = 0.0;  ///< out of balance there, over the weight [-]
+    double cohesion = 0.0;  ///< lowest in equilibrium; the first trial value if none was [Pa]
+    double residual = 0.0;  ///< unbalanced force over the weight at that cohesion [-]
     int iterations = 0;
 };
-/// One sentence: the result, or that there was no equilibrium and what to do.
+/// The result in words, with a remedy if there is no equilibrium.
 std::string in_words(const FrictionalRest& rest);
 
-/// Takes `motion` from elastic equilibrium to one in which every zone with memory is Mohr-Coulomb with
-/// the least friction of its points' surfaces (PM4Sand: sin(phi) = M_b / 2), and a cohesion that is
-/// halved level by level, by less where that does not converge. If not even the first level converges,
-/// `motion` is unchanged. Flow is associated: the tangent stays symmetric, and the strains are
-/// discarded.
+/// Replaces the laws with memory by Mohr-Coulomb with each zone's smallest friction angle of its
+/// points' surfaces (PM4Sand: sin(phi) = M_b / 2) and a cohesion that is halved step by step, by
+/// less if that does not converge. Moves `motion` from elastic equilibrium to the last one found;
+/// if none is found, `motion` stays unchanged. Flow is associated: the tangent is symmetric, and
+/// the strains are discarded.
 FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& motion,
                                   Prediction& prediction, Motion& trial);
 

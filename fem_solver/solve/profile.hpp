@@ -6,28 +6,28 @@
 
 namespace breach::fem {
 
-/// Asks for the table below on stdout (the log where stdout carries JSON lines).
+/// Prints the table below on stdout, or to the log if stdout has JSON lines.
 inline constexpr const char* profile_switch = "--profile";
 
-using Clock = double (*)();  ///< [s] since some moment
-/// 0.1 us per call: cheap enough without --profile.
+using Clock = double (*)();  ///< [s], arbitrary origin
+/// 0.1 us per call, also used without --profile.
 double wall_clock();
-/// Of this process; 2 us per call.
+/// CPU time of this process; 2 us per call.
 double cpu_clock();
 
 /// Seconds spent per kind of work.
 struct Seconds {
-    double assembly = 0.0;  ///< strains, forces, residuals, matrices, distortion
+    double assembly = 0.0;  ///< strains, forces, residuals, matrices, mesh distortion
     double law = 0.0;
     double factor = 0.0;  ///< pattern and factors of the matrix
-    double solve = 0.0;   ///< with the factors, and acceleration
+    double solve = 0.0;   ///< back substitution and acceleration
     double output = 0.0;  ///< monitors, snapshots, checkpoints
     Clock clock = wall_clock;
 
     double sum() const { return assembly + law + factor + solve + output; }
 };
 
-/// Adds the time from its construction to its end to one kind of work.
+/// Adds its lifetime to one kind of work.
 class Stopwatch {
   public:
     Stopwatch(Seconds& seconds, double Seconds::*kind)
@@ -42,9 +42,9 @@ class Stopwatch {
     double began_;
 };
 
-/// Amount of work in those seconds, by this process: a resumed run counts from its checkpoint.
+/// Work done in those seconds by this process; a resumed run counts from its checkpoint.
 struct Work {
-    std::int64_t steps = 0;  ///< tried ones, those that were cut as well
+    std::int64_t steps = 0;  ///< tried, including rejected ones
     std::int64_t iterations = 0;
 };
 

@@ -25,7 +25,8 @@ NewtonOutcome static_step(Newton& newton, const Model& model,
     prediction.external = load * prediction.external + (1.0 - load) * start;
     const TimeRule rule = drains ? TimeRule{} : TimeRule{.c_a = 0.0, .c_v = 1.0};
     if (prediction.driven.size() > 0) {
-        // The edge's own row would take it all: elastic soil shares it out first.
+        // The edge's rows alone would take all of the displacement: an elastic solution distributes
+        // it first.
         const auto elastic = laws_for(model, scene::StageLaws::elastic);
         newton.forget_matrix();
         newton.solve({elastic, old, rule, prediction.external, old.u, old.v, old.p_rate}, trial);
@@ -57,8 +58,8 @@ NewtonOutcome dynamic_step(Newton& newton, const Model& model,
     prediction.v = old.v + dt * (1.0 - gamma) * old.a;
     prediction.p_rate = -(1.0 - gamma) / gamma * old.p_rate;
     set_external_force(model, beginning, end, prediction.external);
-    trial.u = prediction.u + beta * dt * dt * old.a;  // first guess: acceleration and pressure rate
-    trial.p = old.p + dt * old.p_rate;                // go on
+    trial.u = prediction.u + beta * dt * dt * old.a;  // constant acceleration as first guess
+    trial.p = old.p + dt * old.p_rate;                // constant pressure rate
     const TimeRule rule{1.0 / (beta * dt * dt), gamma / (beta * dt)};
     return newton.solve(
         {laws, old, rule, prediction.external, prediction.u, prediction.v, prediction.p_rate},
@@ -104,7 +105,7 @@ void set_acceleration(Newton& newton, const Model& model, const Beginning& begin
     motion.a.setZero();
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
         const std::int32_t i = n.of_dof[d];
-        // A free base of soil that is gone has dashpots alone.
+        // At a free base without soil there are only dashpots.
         if (i >= 0 && mass[i] > 0.0) motion.a[static_cast<Eigen::Index>(d)] = force[i] / mass[i];
     }
 }

@@ -3,7 +3,7 @@
 
 namespace breach::fem {
 
-/// Among the session's switches: the run measures CPU seconds.
+/// Switch of the session: the run measures CPU seconds.
 inline constexpr const char* trial_switch = "--measure";
 
 }  // namespace breach::fem

@@ -1,24 +1,24 @@
-// Newtonian stress beside the law's, 2 eta dev D: an element's nodal forces and its damping matrix.
-// dev is the deviator in space, of the plane-strain rate of deformation D.
+// Newtonian stress 2 eta dev D in addition to the law's: nodal forces and damping matrix of an
+// element. dev: 3D deviator of the plane-strain rate of deformation D.
 #pragma once
 
 #include "fem_solver/model/ssp_quad.hpp"
 
 namespace breach::fem {
 
-/// An element's data for its integrals, on the present mesh.
+/// Integration data of an element on the present mesh.
 struct ElementOperators {
     const Quadrature& quadrature;
     std::size_t points;
     const SspGeometry*
-        hourglass;  ///< of a single-point quad, whose other modes flow as well: 4 eta
-                    ///< in place of 4 G; otherwise null
+        /// of a single-point quad, whose hourglass modes get 4 eta instead of 4 G; else null
+        hourglass;
 };
 
-/// Viscous forces of the element at nodal velocities v [m/s] for a viscosity eta [Pa s]; [N].
+/// Viscous forces of the element [N] at nodal velocities v [m/s] for a viscosity eta [Pa s].
 Dofs8 viscous_forces(const ElementOperators& element, double eta, const Dofs8& v);
 
-/// Their derivative with respect to v [N s/m]: symmetric, zero for rigid motion.
+/// Their derivative by v [N s/m]: symmetric, zero for rigid motion.
 Stiffness viscous_damping(const ElementOperators& element, double eta);
 
 }  // namespace breach::fem

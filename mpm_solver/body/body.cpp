@@ -23,7 +23,7 @@ void refuse_points_outside(const Grid& grid, const Points& points, const std::st
                 "enlarge /mpm/domain_x and /mpm/domain_y, or lower /mpm/floor/level"}});
 }
 
-/// As if nothing had yielded before; a checkpoint's points have it.
+/// As if nothing had yielded; points of a checkpoint have their own.
 void start_viscosity(Body& body) {
     const auto resists = [](const Zone& zone) { return zone.viscosity + zone.damping > 0.0; };
     std::vector<double>& eta = body.points.eta;
@@ -35,7 +35,7 @@ void start_viscosity(Body& body) {
                   zone.viscosity + zone.damping);
 }
 
-/// Fewer points than this per thread cost more to share than to do.
+/// With fewer points per thread, sharing costs more than it saves.
 constexpr std::size_t least_points_per_thread = 2000;
 
 int useful_threads(int asked_for, std::size_t points) {

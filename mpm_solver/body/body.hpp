@@ -1,6 +1,5 @@
-// The data of a time step: the soil's points and zones, the grid, and everything resolved from the
-// scene before the first step. Also the sums over the steps: dissipation, fastest point, lost
-// points.
+// The data of a time step: points and zones, grid, constants from the scene, and sums over the
+// steps (dissipation, fastest point, lost points).
 #pragma once
 
 #include <limits>
@@ -20,17 +19,17 @@ struct Tally {
     double plastic = 0.0;    ///< work dissipated by plastic strain so far [J]
     double friction = 0.0;   ///< work dissipated by the floor's friction so far [J]
     double viscous = 0.0;    ///< work dissipated by viscosity so far [J]
-    double pushed_in = 0.0;  ///< work that the overlap correction put in so far [J]
-    double shaking = 0.0;    ///< work of the moving frame's force so far [J]
-    /// Of the points at the end of the step; not finite when any velocity is not [J]
+    double pushed_in = 0.0;  ///< work of the overlap correction so far [J]
+    double shaking = 0.0;    ///< work of the moving frame's inertial force so far [J]
+    /// Of the points at the end of the step; not finite if a velocity is not [J].
     double kinetic = 0.0;
     double fastest = 0.0;  ///< largest speed of a point [m/s]
-    double strayed = 0.0;  ///< largest distance of a point from its sorted place, per axis [cells]
+    double strayed = 0.0;  ///< largest distance of a point from its home node, per axis [cells]
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::size_t lost = none;  ///< a point that left the grid or is NaN
 };
 
-/// How a body is computed; the results do not depend on the threads.
+/// How to compute; the results do not depend on the number of threads.
 struct Computing {
     int threads = 1;
     InstructionSet instructions = best_instruction_set();
@@ -41,40 +40,40 @@ struct Body {
     Points points;
     std::vector<Zone> zones;
     Vec2 gravity;  ///< [m/s2]
-    /// Of the grid itself, horizontal, over the next step; set by the simulation [m/s2]
+    /// Horizontal acceleration of the grid over the next step; set by the simulation [m/s2].
     double frame_acceleration = 0.0;
     double gimp_half_size;  ///< [cells]
     double blending_rate;   ///< beta [1/s]
     double overlap_rate;    ///< of the overlap correction [1/s]
-    /// Volume of the four cells about a point [m3]: a point that has expanded so far has no
-    /// neighbours left, and its uncontrolled velocity gradient would expand it without limit.
+    /// Volume of the four cells around a point [m3]. A point with a larger volume has no
+    /// neighbours, and its velocity gradient would expand it without limit.
     double widest;
     KernelKind kernel;
     UpdateOrder order;
-    /// Anti-locking (docs/reference/methods/mpm.md): the points of a zone in a cell share their
-    /// volumetric strain rate and mean stress. Per zone, then per cell; empty: no averages.
+    /// Anti-locking (docs/reference/methods/mpm.md): the points of a zone in a cell share
+    /// volumetric strain rate and mean stress. [zones][cells]; empty: off.
     std::vector<std::vector<CellSum>> averages;
     std::vector<Loops> loops;  ///< per zone
     NonlocalSoftening softening;
     Strips strips;
     std::shared_ptr<numerics::Team> team;
-    std::vector<Totals> sums;  ///< of every zone of every strip
+    std::vector<Totals> sums;  ///< [zones * strips]
     Tally tally;
 };
 
-/// Resolves everything; keeps the places of `points`. Throws BadInput (naming `file`) if a point
-/// lies outside the grid.
+/// Precomputes everything; the points keep their positions. Throws BadInput with `file` if a point
+/// is outside the grid.
 Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
                const Computing& computing = {});
 
-/// Throws BadInput (naming `file`) if a point lies below the terrain.
+/// Throws BadInput with `file` if a point is below the terrain.
 void refuse_buried_points(const Body& body, const std::string& file);
 
-/// Wave speed of the stiffest zone at the density that the force uses [m/s].
+/// Wave speed of the stiffest zone, with the density in the force [m/s].
 double wave_speed(const Body& body);
 
-/// Additional wave speed due to viscosity in the Courant step, 16 eta / (3 rho h) [m/s]: a lagged
-/// damping of eigenvalue (4/3) eta 8 / (rho h^2) is stable up to half its period.
+/// Additional wave speed for viscosity in the Courant step, 16 eta / (3 rho h) [m/s]: lagged
+/// damping with the eigenvalue (4/3) eta 8 / (rho h^2) is stable up to half its period.
 double viscous_speed(const Zone& zone, double eta, double h);
 
 /// Largest Courant number of stable explicit steps; damping uses the margin below it.

@@ -10,7 +10,7 @@ using process::Decided;
 using process::Use;
 using words::text_of;
 
-/// Plastic flow keeps its volume and locks, as nearly incompressible elasticity does.
+/// Isochoric plastic flow locks like nearly incompressible elasticity.
 Decided<Averages> averages_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
     const std::string pointer = "/mpm/anti_locking";
     const std::string what = "anti-locking of " + soil.material;

@@ -1,4 +1,4 @@
-// Selects the loops for the scene: once, before the first step.
+// Selects the loops for the scene, before the first step.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace breach::mpm {
 
-/// An elastic solid below this Poisson's ratio does not lock; averaging would only cost energy.
+/// An elastic solid with a smaller Poisson's ratio does not lock; averaging would only cost energy.
 constexpr double locking_nu = 0.45;
 
-/// Compiled version of the inner loops: all give the same results up to round-off.
+/// Compiled version of the inner loops; equal results up to round-off.
 enum class InstructionSet { plain, avx2, avx512 };
 
-/// The widest of this CPU.
+/// The widest that this CPU supports.
 InstructionSet best_instruction_set();
 
 /// How the points of one soil are computed.
@@ -25,7 +25,7 @@ struct SoilDecisions {
     process::Decided<Viscosity> viscosity;
 };
 
-/// A soil for the loops: `law` may be scaled.
+/// A soil for the loops, with scaled `law`.
 struct SoilOfZone {
     const std::string& material;
     const materials::Law& law;

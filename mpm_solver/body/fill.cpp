@@ -16,8 +16,8 @@ using scene::Vec2;
 
 namespace {
 
-/// Keeps the side of a simple polygon where sign * (x_axis - at) >= 0 (Sutherland & Hodgman 1974).
-/// Parts that fall apart stay joined by edges of no width, so areas and moments are exact.
+/// Keeps the part of a simple polygon with sign * (x_axis - at) >= 0 (Sutherland & Hodgman 1974).
+/// Separate parts stay joined by edges of zero width, so areas and moments are exact.
 Polygon cut(const Polygon& polygon, int axis, double at, double sign) {
     Polygon kept;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -55,7 +55,7 @@ Patch patch_of(const Polygon& polygon) {
     return {area, base + moment / area};
 }
 
-using Place = std::pair<int, int>;  ///< square (column, row) of the sampling lattice
+using Place = std::pair<int, int>;  ///< (column, row) of a square
 using Patches = std::map<Place, Patch>;
 
 Patch joined(const Patch& a, const Patch& b) {
@@ -63,7 +63,7 @@ Patch joined(const Patch& a, const Patch& b) {
     return {area, (a.area * a.centroid + b.area * b.centroid) / area};
 }
 
-/// A point of very little mass would be thrown about: parts below a quarter square join the largest
+/// Points of very small mass would be thrown around: parts below a quarter square join the largest
 /// neighbour.
 void join_slivers(Patches& patches, double square) {
     for (auto sliver = patches.begin(); sliver != patches.end();) {
@@ -116,7 +116,7 @@ mechanics::Voigt stress_at(const scene::Scene& scene, const Vec2& place,
     return column_stress(overburden(scene, place), soil.nu);
 }
 
-/// With the mass of the region's own material, and at rest as the one that it becomes.
+/// Mass by the region's material, initial stress by the material that it becomes.
 void add_point(const scene::Scene& scene, std::size_t region, const scene::Material& becomes,
                const Patch& patch, exchange::ParticleState& state) {
     const scene::Material& material = scene.materials[scene.section.regions[region].material];
@@ -133,7 +133,7 @@ void add_point(const scene::Scene& scene, std::size_t region, const scene::Mater
     state.region.back() = static_cast<std::int32_t>(region);
 }
 
-/// Of the point that was added last.
+/// Adds the strength of the last point.
 void add_strength(const scene::Ground& ground, const scene::Material& material, std::size_t region,
                   exchange::ParticleState& state) {
     materials::PointStrength of{};
@@ -147,7 +147,7 @@ void add_strength(const scene::Ground& ground, const scene::Material& material, 
     state.strength.tan_phi_residual.push_back(of.tan_phi_residual);
 }
 
-/// What the points of each region become.
+/// MPM material of each region.
 std::vector<const scene::Material*> materials_of_regions(const scene::Scene& scene) {
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     std::vector<const scene::Material*> become;

@@ -1,5 +1,5 @@
-// The section's polygons as material points at rest, without stress or under the weight above them:
-// for runs that start without a transfer.
+// Fills the section with material points at rest, without stress or under the overburden, for runs
+// without transfer.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace breach::mpm {
 
-/// A region and its points compared: a head of water sampled 2 % too high runs 2 % too far.
+/// Compares a region with its points: a head of water sampled 2 % too high runs 2 % too far.
 struct SampledRegion {
     std::string name;
     double polygon_area;   ///< [m2]
@@ -21,7 +21,7 @@ struct SampledRegion {
     std::size_t points;
 };
 
-/// Area within 1 % and centroid within 1 % of the polygon's height.
+/// Area within 1 %, and centroid within 1 % of the polygon's height.
 bool is_faithful(const SampledRegion& region);
 
 /// Every region of the scene that has points.
@@ -33,9 +33,8 @@ struct FilledSection {
     std::vector<SampledRegion> regions;
 };
 
-/// Cells are cut into fill_points^2 equal squares; each becomes a point with the area and at the
-/// centroid of its part inside the polygon, so areas and first moments are those of the polygon.
-/// Slivers join a neighbour.
+/// Divides cells into fill_points^2 equal squares. Each becomes a point with the area and centroid
+/// of its part inside the polygon, so areas and first moments are exact. Slivers join a neighbour.
 FilledSection fill_section(const scene::Scene& scene);
 
 }  // namespace breach::mpm

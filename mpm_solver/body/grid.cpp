@@ -6,7 +6,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Friction of the floor at x; where zones meet, the one on the right counts.
+/// Friction of the floor at x; at a border that of the zone on the right.
 double friction_at(const std::vector<scene::FrictionZone>& zones, double x, double tolerance) {
     double coefficient = 0.0;
     for (const scene::FrictionZone& zone : zones) {
@@ -15,7 +15,8 @@ double friction_at(const std::vector<scene::FrictionZone>& zones, double x, doub
     return coefficient;
 }
 
-/// Nodes within half a cell of the terrain, and all below it, feel it (docs/reference/methods/mpm.md, *Contact*).
+/// Nodes within half a cell of the terrain, and all below it, are in contact
+/// (docs/reference/methods/mpm.md, *Contact*).
 void lay_terrain(Grid& grid, const scene::Mpm& mpm) {
     grid.terrain.emplace(mpm.terrain);
     grid.contact_of.assign(grid.conditions.size(), 0);
@@ -62,7 +63,7 @@ Grid make_grid(const scene::Mpm& mpm) {
     grid.origin = {mpm.domain_x[0] - h, mpm.floor.level - h};
     grid.columns = cells_x + 3;
     grid.rows = cells_y + 3;
-    const double round_off = 1e-9 * h;  // a point on a wall stays on it up to round-off
+    const double round_off = 1e-9 * h;  // a point on a wall is inside up to round-off
     grid.low = {mpm.domain_x[0] - round_off, mpm.floor.level - round_off};
     grid.high = {mpm.domain_x[1] + round_off, mpm.domain_y[1] + round_off};
     if (mpm.left != scene::Wall::open) grid.walls_x.low = 1;
@@ -84,7 +85,7 @@ Grid make_grid(const scene::Mpm& mpm) {
         grid.conditions[(cells_x + 1) * grid.rows + j] |= wall_condition(mpm.right);
     }
     if (!mpm.terrain.empty()) lay_terrain(grid, mpm);
-    constexpr std::size_t wide = 4;  // rows of masses are read and written four at a time
+    constexpr std::size_t wide = 4;  // rows of masses are accessed four at a time
     grid.mass.assign(n + wide, 0.0);
     grid.motion.assign(n, Lane::Zero());
     return grid;

@@ -1,4 +1,4 @@
-// The square background grid: places, walls, nodal arrays and the list of active nodes.
+// The square background grid: positions, walls, nodal arrays, active nodes.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,10 +13,10 @@ namespace breach::mpm {
 
 using grid::WallRows;
 
-/// Four numbers of a node, scattered and gathered together.
+/// Four values of a node, scattered and gathered together.
 using Lane = Eigen::Array4d;
 
-/// Boundary conditions of a node; interior nodes have 0.
+/// Boundary conditions of a node; 0 inside.
 namespace condition {
 constexpr std::uint8_t hold_x = 1;
 constexpr std::uint8_t hold_y = 2;
@@ -24,7 +24,7 @@ constexpr std::uint8_t floor = 4;    ///< unilateral in y, Coulomb friction in x
 constexpr std::uint8_t terrain = 8;  ///< a Contact
 }  // namespace condition
 
-/// Row of the floor's nodes: there is one ghost row below it.
+/// Row of the floor's nodes; one ghost row is below it.
 constexpr std::int32_t floor_row = 1;
 
 /// Nodes are stored column by column (y fastest), with one ghost row around the domain.
@@ -41,26 +41,26 @@ struct Grid {
     std::vector<std::uint8_t> conditions;  ///< per node
     std::vector<double> friction;          ///< coefficient of the floor per column [-]
     std::optional<Terrain> terrain;
-    std::vector<Contact> contacts;         ///< of the nodes near the terrain
-    std::vector<std::int32_t> contact_of;  ///< per node, index into contacts; empty without terrain
+    std::vector<Contact> contacts;         ///< of nodes near the terrain
+    std::vector<std::int32_t> contact_of;  ///< [nodes] index into contacts; empty without terrain
 
-    // scattered by particle_to_grid
+    // Scattered by particle_to_grid.
     std::vector<double> mass;  ///< [kg]
-    /// After particle_to_grid: momentum [kg m/s] and internal force [N]; after update_momentum:
+    /// After particle_to_grid: momentum [kg m/s] and internal force [N]. After update_momentum:
     /// velocity at the end of the step [m/s] and its change over the step [m/s].
     std::vector<Lane> motion;
 
-    /// Nodes that points may reach before they are sorted again, ascending.
+    /// Nodes that points can reach before the next sort, ascending.
     std::vector<std::int32_t> active;
 
     std::int32_t nodes() const { return columns * rows; }
     double xi(double x) const { return (x - origin.x()) * per_h; }
     double eta(double y) const { return (y - origin.y()) * per_h; }
-    /// Cell that holds (xi, eta), numbered as its lower left node.
+    /// Cell that contains (xi, eta): index of its lower left node.
     std::int32_t cell(double xi, double eta) const {
         return static_cast<std::int32_t>(xi) * rows + static_cast<std::int32_t>(eta);
     }
-    /// Node in the middle of the 3 x 3 nodes of a point there.
+    /// The middle one of the 3 x 3 nodes of a point there.
     std::int32_t nearest_node(double xi, double eta) const {
         return cell(grid::nearest_whole(xi), grid::nearest_whole(eta));
     }

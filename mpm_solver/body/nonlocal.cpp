@@ -8,27 +8,27 @@ namespace breach::mpm {
 
 namespace {
 
-/// The weight falls to 4e-4 of its peak.
+/// Radius of the neighbourhood: the weight is 4e-4 of its peak.
 constexpr double reach = 3.0;  // lengths
-/// Soil that has left its softening this far behind flows; its strains say nothing of a band.
+/// Fully softened soil flows from this strain on; its strains do not describe a band.
 constexpr double spent_after = 5.0;  // strains at residual strength
-/// Until they are shared strains soften the points that have them, which must not start bands of their
-/// own: with 0.05 a shear layer is 2.6 % narrower, with 0.02 0.4 %.
+/// Interval between averages. Until then strains soften single points, which must not start bands
+/// of their own: with 0.05 a shear layer is 2.6 % narrower, with 0.02 0.4 %.
 constexpr double growth_to_share = 0.03;  // of the strain from peak to residual strength
 
-/// r exp(-(r / l)^2): none at the point itself, most at 0.7 l (Galavi & Schweiger 2010).
+/// r exp(-(r / l)^2): 0 at the point itself, largest at 0.7 l (Galavi & Schweiger 2010).
 double weight(double r, double length) { return r * std::exp(-(r / length) * (r / length)); }
 
-/// How far a kernel spreads what a point has: the mean square of the way to the nodes, in one direction
-/// and over all places in a cell [cells2].
+/// Spread of a kernel: mean square of the distance to the nodes, in one direction, over all
+/// positions in a cell [cells2].
 double spread_of(KernelKind kernel, double gimp_half_size) {
     if (kernel == KernelKind::b_spline) return 1.0 / 4.0;
     const double half = kernel == KernelKind::gimp ? gimp_half_size : 0.0;
     return 1.0 / 6.0 + half * half / 3.0;
 }
 
-/// Length of the weights among the nodes: the ways there and back spread, too, which on coarse cells made
-/// a band a tenth too wide.
+/// Length of the weights at the nodes. Mapping to the nodes and back spreads too, which made bands
+/// on coarse cells 10 % too wide.
 double among_nodes(double length, double spread) {
     return std::sqrt(length * length - 2.0 * spread);
 }
@@ -127,7 +127,7 @@ double NonlocalSoftening::spread(Points& points, const std::vector<Zone>& zones,
 template <class Kernel>
 double NonlocalSoftening::spread_with(const Kernel& kernel, Points& points,
                                       const std::vector<Zone>& zones, const Grid& grid) {
-    double grown = 0.0;    // volume x growth, as part of what softens
+    double grown = 0.0;    // volume x growth, over the softening strain
     double squares = 0.0;  // volume x growth^2
     for (const Group& group : groups_) {
         const Zone& zone = zones[group.zone];
@@ -167,7 +167,7 @@ double NonlocalSoftening::spread_with(const Kernel& kernel, Points& points,
     return grown > 0.0 ? squares / grown : 0.0;
 }
 
-/// In the columns that the group's points reach; most of a grid is far from them.
+/// Resets the columns that the group's points reach, not the whole grid.
 void NonlocalSoftening::forget_given(const Grid& grid, const std::vector<Column>& neighbourhood) {
     if (weights_.empty()) return;
     const auto [least, most] = std::ranges::minmax(weights_, {}, &Weights::first);
@@ -177,8 +177,9 @@ void NonlocalSoftening::forget_given(const Grid& grid, const std::vector<Column>
     std::fill(given_.begin() + begin * grid.rows, given_.begin() + end * grid.rows, 0.0);
 }
 
-/// The mean growth of every node's neighbourhood, by volume. Most nodes give nothing in a step, so
-/// those that do reach out; only where something arrives is the neighbourhood's volume counted.
+/// Volume-weighted mean increment of every node's neighbourhood. Most nodes have none in a step:
+/// those that do add to their neighbours, and only where something arrives is the neighbourhood's
+/// volume summed.
 void NonlocalSoftening::average(const Grid& grid, const std::vector<Column>& neighbourhood) {
     for (const std::int32_t node : grid.active) {
         if (growth_[node] > 0.0) give(grid, node, neighbourhood);
@@ -211,14 +212,14 @@ void NonlocalSoftening::give(const Grid& grid, std::int32_t node,
     }
 }
 
-/// Node by node the same order of sums as if each counted alone.
+/// Sums in the same order as node by node.
 void NonlocalSoftening::take(const Grid& grid, Run run, const std::vector<Column>& neighbourhood) {
-    const std::int32_t own = run.begin / grid.rows * grid.rows;  // the column's first node
+    const std::int32_t own = run.begin / grid.rows * grid.rows;  // first node of the column
     for (const Column& each : neighbourhood) {
         const std::int32_t other = own + each.columns * grid.rows;
         if (other < 0 || other >= grid.nodes()) continue;
         const double* from = volume_.data() + other;
-        double* to = mean_.data() + own;  // until the whole is known
+        double* to = mean_.data() + own;  // until all are known
         for (std::size_t k = 0; k < each.weights.size(); ++k) {
             const double weight = each.weights[k];
             const std::int32_t shift = each.rows + static_cast<std::int32_t>(k);

@@ -1,4 +1,4 @@
-// Weight of the section above a place: the initial stress of filled points.
+// Overburden: the initial stress of filled points.
 #pragma once
 
 #include "core/mechanics/elasticity.hpp"
@@ -6,7 +6,7 @@
 
 namespace breach::mpm {
 
-/// Vertical stress of the regions' weight in the column above `place`, compression positive [Pa].
+/// Vertical stress from the weight of the regions above `place`, compression positive [Pa].
 double overburden(const scene::Scene& scene, const scene::Vec2& place);
 
 /// sigma_v with the lateral stress of a confined column, K_0 = nu / (1 - nu); tension positive

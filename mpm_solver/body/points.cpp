@@ -16,16 +16,16 @@ namespace breach::mpm {
 
 namespace {
 
-/// A shear band is about a cell wide, or as wide as nonlocal softening makes it: with strains in
-/// inverse proportion its dissipation does not depend on the cells.
+/// A shear band is about a cell wide, or as wide as nonlocal softening makes it. Strains in inverse
+/// proportion make its dissipation independent of the cells.
 double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
     if (!mpm.softening_length) return 1.0;
     return *mpm.softening_length / scene::band_width(soil, mpm);
 }
 
-/// Viscosity 2 xi G / omega, which damps by the share xi the shear wave that the mobile soil's height H
-/// holds, omega = pi c_s / (2 H); at most what leaves the time step alone (courant_step). Where the
-/// wave speed is limited, c_s is near the limit and that bound is lower.
+/// Viscosity 2 xi G / omega: damps the fundamental shear wave of the mobile soil's height H, omega
+/// = pi c_s / (2 H), with the ratio xi; at most what does not reduce the time step (courant_step).
+/// If the wave speed is limited, c_s is near that limit and the bound is lower.
 double damping_of(const scene::Scene& scene, const scene::Material& soil,
                   const mechanics::Elasticity& elasticity) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
@@ -91,8 +91,8 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
     return zone;
 }
 
-/// Index into the scene's soils of each region of the state: by its name and material; by its name
-/// alone where no such soil exists, which is then the region's own.
+/// Soil index of each region of the state, by name and material; by name alone if no such soil
+/// exists: then the region's own.
 std::vector<std::int32_t> match_soils(const scene::Scene& scene,
                                       const std::vector<scene::Soil>& soils,
                                       const exchange::ParticleState& state,
@@ -120,7 +120,8 @@ std::vector<std::int32_t> match_soils(const scene::Scene& scene,
     return match;
 }
 
-/// The pore pressure beside an effective stress would be lost here, and with it the balance.
+/// Refuses effective stress with pore pressure: the solver would lose the pore pressure, and with
+/// it equilibrium.
 void refuse_water(const exchange::ParticleState& state, const std::string& file) {
     for (std::size_t p = 0; p < state.size(); ++p) {
         if (state.pressure_beside(p) == 0.0) continue;
@@ -130,7 +131,7 @@ void refuse_water(const exchange::ParticleState& state, const std::string& file)
     }
 }
 
-/// Of every soil's material: whether its points have strengths of their own.
+/// [soils] whether its points have individual strengths.
 std::vector<bool> strengths_of_points(const scene::Scene& scene) {
     std::vector<bool> have;
     for (const scene::Soil& soil : scene::soils_of(scene))
@@ -138,7 +139,7 @@ std::vector<bool> strengths_of_points(const scene::Scene& scene) {
     return have;
 }
 
-/// Calls visit(number of the points, the same in the state) for each variable copied unchanged.
+/// Calls visit(value of the points, value of the state) for each variable that is copied.
 template <class AnyPoints, class AnyState, class Visit>
 void for_each_shared(AnyPoints& points, std::size_t p, AnyState& state, std::size_t s,
                      Visit&& visit) {
@@ -162,7 +163,7 @@ void for_each_shared(AnyPoints& points, std::size_t p, AnyState& state, std::siz
     visit(points.tan_phi_residual[p], strength.tan_phi_residual[s]);
 }
 
-/// V_0 and V that belong to the stress under the zone's own (scaled) K.
+/// V_0 and V for the stress with the zone's scaled K.
 void settle_volumes(Points& points, Zone& zone) {
     const double K = zone.elasticity.bulk_modulus();
     for (std::size_t p = zone.begin; p < zone.end; ++p) {
@@ -174,14 +175,14 @@ void settle_volumes(Points& points, Zone& zone) {
     zone.largest_specific_volume = largest_specific_volume(points, zone);
 }
 
-/// What softened in the scene's measure has softened as far in the zone's own.
+/// Scales the softening variable like the zone's softening strains.
 void scale_softening(Points& points, const Zone& zone) {
     if (zone.softening_scale == 1.0) return;
     for (std::size_t p = zone.begin; p < zone.end; ++p)
         points.epsilon_q_plastic[p] *= zone.softening_scale;
 }
 
-/// Points of another thickness have other volumes than their section's.
+/// Refuses points of another thickness than the section.
 void refuse_thickness(const scene::Scene& scene, const exchange::ParticleState& state,
                       const std::string& file) {
     if (std::abs(state.thickness - scene.thickness) <= 1e-9 * scene.thickness) return;
@@ -192,10 +193,10 @@ void refuse_thickness(const scene::Scene& scene, const exchange::ParticleState& 
                 "give the scene the thickness that its points were made with"}});
 }
 
-/// From the solver's measures to the scene's, for each of its soils.
+/// [soils] from the solver's scaled quantities to the scene's.
 struct Measures {
     double softening;   ///< softening_scale [-]
-    double K, K_drawn;  ///< bulk modulus, scaled and as the scene has it [Pa]
+    double K, K_drawn;  ///< bulk modulus, scaled and in the scene [Pa]
 };
 
 std::vector<Measures> measures_of(const scene::Scene& scene) {

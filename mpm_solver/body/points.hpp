@@ -1,5 +1,4 @@
-// The material points as structure of arrays, in the order of the zones; a zone is the range of
-// points with one law.
+// The material points as structure of arrays, ordered by zone: the points with one law.
 #pragma once
 
 #include <cmath>
@@ -13,30 +12,30 @@
 
 namespace breach::mpm {
 
-/// Data not used in steps but written to the outputs.
+/// Data for the outputs that steps do not use.
 struct Carried {
-    std::vector<exchange::StressMeasure> stress_of_soils;  ///< by soils_of(scene); empty: effective
-    std::vector<double> r_u;  ///< at the transfer, in the order of the input; empty without water
+    std::vector<exchange::StressMeasure> stress_of_soils;  ///< [soils_of(scene)]; empty: effective
+    std::vector<double> r_u;  ///< at the transfer, in the order of the input; empty if dry
 };
 
 using Reals = std::vector<double>;
 
 struct Points : PointReals<Reals> {
     std::vector<std::int32_t> region;  ///< index into soils_of(scene)
-    std::vector<std::int32_t> number;  ///< index in the input: outputs keep its order
-    std::vector<std::int32_t> home;    ///< nearest node when they were last sorted
-    std::vector<std::int32_t> cell;    ///< cell at the start of the step; anti-locking only
+    std::vector<std::int32_t> number;  ///< index in the input; outputs have its order
+    std::vector<std::int32_t> home;    ///< nearest node at the last sort
+    std::vector<std::int32_t> cell;    ///< cell at the start of the step, for anti-locking
 
     Carried carried;
 
     std::size_t size() const { return x.size(); }
-    /// Of the soil alone, without gaps that are open after tension: for depths [m3].
+    /// Volume without cracks from tension, for depths [m3].
     double soil_volume(std::size_t p) const { return volume[p] * std::exp(-gap[p]); }
     void resize(std::size_t n);
 };
 
-/// Calls visit(name, array) for every array of reals that is kept longer than a step: for
-/// checkpoints and sorting.
+/// Calls visit(name, array) for every array of reals that outlives a step, for checkpoints and
+/// sorting.
 template <class AnyPoints, class Visit>
 void for_each_real(AnyPoints& points, Visit&& visit) {
     for (const auto& real : reals_of_points<Reals>) {
@@ -53,16 +52,16 @@ void for_each_integer(AnyPoints& points, Visit&& visit) {
 /// Points [begin, end) of one material.
 struct Zone {
     std::string material;
-    materials::Law law;         ///< E and the strains of softening already scaled
+    materials::Law law;         ///< with scaled E and softening strains
     materials::LawLanes lanes;  ///< the same for the loops
     mechanics::Elasticity elasticity;
-    double K_drawn;  ///< bulk modulus of the scene [Pa]
+    double K_drawn;  ///< bulk modulus in the scene [Pa]
     VolumeRule volume_rule;
-    double softening_scale;  ///< of the law's strains of softening, and of the points' own [-]
+    double softening_scale;  ///< scale of the softening strains of law and points [-]
     double viscosity;        ///< eta [Pa s]
-    double damping;          ///< viscosity of soil that does not yield, beside it [Pa s]
-    double nonlocal_length;  ///< of softening; 0: every point softens by its own strain [m]
-    WallRows walls_y;        ///< the floor's, and the top of a bed (core/scene/beds.hpp)
+    double damping;          ///< additional viscosity of soil that does not yield [Pa s]
+    double nonlocal_length;  ///< of softening; 0: local [m]
+    WallRows walls_y;        ///< of the floor, and of the top of a bed (core/scene/beds.hpp)
     std::size_t begin;
     std::size_t end;
     double largest_specific_volume = 0.0;  ///< max V / m, for the wave speed [m3/kg]
@@ -73,21 +72,19 @@ struct ZonedPoints {
     std::vector<Zone> zones;
 };
 
-/// Points of a particle state, grouped by material; regions are matched by name. The stiffness
-/// scale changes K, so V_0 is recomputed where it is not 1: the volume stays. Throws BadInput
-/// naming `file`.
+/// Points of a particle state, grouped by material; matches regions by name. The stiffness scale
+/// changes K: then V_0 is recomputed, and the volume stays. Throws BadInput with `file`.
 ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleState& state,
                          const std::string& file);
 
-/// Throws BadInput naming `file` where a soil's points lack the strengths of their own that they
-/// need.
+/// Throws BadInput with `file` if points lack the individual strengths that their soil needs.
 void refuse_without_strength(const scene::Scene& scene, const Points& points,
                              const std::string& file);
 
-/// The zones alone, for points already grouped (a checkpoint).
+/// The zones, for points that are already grouped (a checkpoint).
 std::vector<Zone> zones_of(const scene::Scene& scene, const Points& points);
 
-/// Converts back to the exchange's form, in the order of the input.
+/// Converts to the exchange's form, in the order of the input.
 exchange::ParticleState particle_state(const scene::Scene& scene, const Points& points);
 
 }  // namespace breach::mpm

@@ -15,7 +15,7 @@ void permute(std::vector<Value>& values, const std::vector<std::int32_t>& order,
     values.swap(scratch);
 }
 
-/// Counting sort by home; stable, so the order depends on the points alone. `starts`: scratch.
+/// Stable counting sort by home, so the order depends on the points alone. `starts`: scratch.
 void order_zone(const Grid& grid, const Points& points, const Zone& zone,
                 std::vector<std::int32_t>& starts, std::vector<std::int32_t>& order) {
     starts.assign(static_cast<std::size_t>(grid.nodes()) + 1, 0);
@@ -43,7 +43,7 @@ void mark_reachable(const Grid& grid, const Points& points, const Zone& zone,
     }
 }
 
-/// In their order, and no room for more: there are as many as points.
+/// Indices of the marked nodes, ascending; without spare capacity.
 std::vector<std::int32_t> marked(const std::vector<std::uint8_t>& nodes) {
     std::vector<std::int32_t> found;
     found.reserve(static_cast<std::size_t>(std::ranges::count(nodes, 1)));
@@ -59,7 +59,7 @@ void Strips::sort(Grid& grid, Points& points, const std::vector<Zone>& zones) {
     for (std::size_t p = 0; p < points.size(); ++p) {
         points.home[p] = grid.nearest_node(grid.xi(points.x[p]), grid.eta(points.y[p]));
     }
-    // Scratch of its own: a sort is due once in some hundred steps.
+    // Local scratch memory: sorts are rare.
     std::vector<std::int32_t> starts;
     std::vector<std::int32_t> order(points.size());
     for (const Zone& zone : zones) order_zone(grid, points, zone, starts, order);
@@ -100,7 +100,7 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
     find_active_nodes(grid, points, zones);
 }
 
-/// The 5 x 5 nodes about every home: what a point can reach from at most a cell away.
+/// The 5 x 5 nodes around every home: those that a point can reach.
 void Strips::find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
     clear(grid);
     std::vector<std::uint8_t> of_any(static_cast<std::size_t>(grid.nodes()), 0);

@@ -1,8 +1,7 @@
-// The order of the points: by zone, then by the node next to them, column by column, so that points
-// that share their 3 x 3 nodes are neighbours in memory. Columns are divided into strips; while no
-// point has moved far from where it was sorted, every second strip shares no node with another, and
-// the active nodes are known. So a strip is a thread's unit of work, and the sums over strips do not
-// depend on the number of threads.
+// Order of the points: by zone, then by nearest node, column by column, so that points with the
+// same 3 x 3 nodes are adjacent in memory. Columns are divided into strips, the units of work of
+// threads. As long as no point has moved far from its home, every second strip shares no node with
+// another, and the active nodes are known. Sums over strips do not depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -15,24 +14,23 @@ namespace breach::mpm {
 
 class Strips {
   public:
-    /// Columns of nodes in a strip: two strips with another one between them never share a
-    /// node.
+    /// Columns of nodes per strip: strips with one in between never share a node.
     static constexpr std::int32_t width = 4;
-    /// Largest distance of points from their home before they are sorted again [cells].
+    /// Largest distance of points from their homes before the next sort [cells].
     static constexpr double largest_stray = 0.5;
 
-    /// Sorts the points, gives them new homes and divides them into strips.
+    /// Sorts the points, sets their homes and divides them into strips.
     void sort(Grid& grid, Points& points, const std::vector<Zone>& zones);
-    /// Divides points that are already sorted into strips, and finds the active nodes.
+    /// Divides sorted points into strips, and finds the active nodes.
     void cut(Grid& grid, const Points& points, const std::vector<Zone>& zones);
 
     std::size_t count() const { return count_; }
     /// Points of a zone in a strip.
     Span span(std::size_t strip, std::size_t zone) const { return spans_[strip * zones_ + zone]; }
-    /// Strips that share no node with one another: the even ones, the odd ones.
+    /// Strips that share no nodes: the even ones, the odd ones.
     const std::array<std::vector<std::size_t>, 2>& apart() const { return apart_; }
     const std::vector<std::size_t>& all() const { return all_; }
-    /// Possible cells (as their nodes) of a zone's points; every active node belongs to some zone.
+    /// Possible cells (index of a node) of a zone's points.
     const std::vector<std::int32_t>& cells(std::size_t zone) const { return cells_[zone]; }
 
   private:

@@ -8,14 +8,14 @@ namespace breach::mpm {
 
 namespace {
 
-/// Longer than any grid: the first and last slope go on this far [m].
+/// Length of the extrapolated first and last segments, longer than any grid [m].
 constexpr double far_away = 1e6;
 
 double distance_to(const Vec2& from, const Vec2& to, const Vec2& place) {
     return geometry::distance_to_segment(place, from, to);
 }
 
-/// Stops what enters the plane and slows what slides along it; returns the impulse of friction.
+/// Removes velocity into the plane and reduces sliding along it; returns the impulse of friction.
 Vec2 press_on(const Vec2& normal, double mu, double m, Vec2& v) {
     const double into = -normal.dot(v);
     if (into <= 0.0) return Vec2::Zero();  // lifts off
@@ -26,7 +26,7 @@ Vec2 press_on(const Vec2& normal, double mu, double m, Vec2& v) {
     return m * (slides - free) * along;
 }
 
-/// More than round-off of the projection onto the other slope.
+/// By more than the round-off of the projection onto the other slope.
 bool enters(const Vec2& normal, const Vec2& v) { return normal.dot(v) < -1e-12 * v.norm(); }
 
 }  // namespace
@@ -58,7 +58,7 @@ double Terrain::level(double x) const {
 
 double Terrain::distance(const Vec2& place) const {
     const double height = place.y() - level(place.x());
-    // The nearest edge is no farther than the ground straight below or above.
+    // The nearest segment is at most as far as the ground straight below or above.
     const auto [first, last] = beside(place.x(), std::abs(height));
     double nearest = std::abs(height);
     for (std::size_t k = first; k < last; ++k) {
@@ -106,7 +106,7 @@ double rub(const Contact& contact, double m, const Vec2& v_before, Vec2& v) {
     Vec2 impulse = press_on(contact.normal, contact.friction, m, v);
     if (contact.second) {
         impulse += press_on(*contact.second, contact.friction, m, v);
-        // Pressed into both slopes: the corner is the only place that is left.
+        // Pressed into both slopes: the node stays in the corner.
         if (enters(contact.normal, v)) v.setZero();
     }
     return -0.5 * impulse.dot(v_before + v);

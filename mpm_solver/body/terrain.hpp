@@ -1,5 +1,4 @@
-// The terrain below the flow, a polyline that cuts square cells: the nodes near it, and their
-// normals.
+// The terrain below the flow, a polyline through square cells: the nodes near it and their normals.
 #pragma once
 
 #include <optional>
@@ -22,7 +21,7 @@ struct Contact {
 
 class Terrain {
   public:
-    /// `profile` ascends in x; its first and last edge are extended beyond its ends.
+    /// `profile` ascends in x; its first and last segments are extrapolated.
     explicit Terrain(const std::vector<Vec2>& profile);
 
     /// y of the ground at x [m].
@@ -30,9 +29,9 @@ class Terrain {
     /// Distance from the ground, positive above [m].
     double distance(const Vec2& place) const;
 
-    /// Contact of a node that lies at most `reach` above the ground, or anywhere below it; none
-    /// further up. In a valley that reaches it from both sides a node has both slopes' normals; on
-    /// a ridge one that turns from the left slope's to the right one's within `reach` of the kink.
+    /// Contact of a node at most `reach` above the ground, or anywhere below; none higher up. In a
+    /// valley within reach of both slopes a node has both normals; at a ridge one normal that
+    /// rotates from the left to the right slope's within `reach` of the vertex.
     std::optional<Contact> contact(const Vec2& node, double reach, double friction) const;
 
   private:
@@ -41,7 +40,7 @@ class Terrain {
         Vec2 to;
         Vec2 normal;  ///< upwards
     };
-    /// Edges that may be nearest to a place: those within `width` of x.
+    /// Segments that may be nearest to a place: those within `width` of x.
     std::pair<std::size_t, std::size_t> beside(double x, double width) const;
     bool near(const Vec2& place, double reach) const;
     Vec2 ridge_normal(const Vec2& node, double nearest, double reach) const;
@@ -53,7 +52,7 @@ class Terrain {
 /// 2 [J], exact for the node's kinetic energy.
 double rub(const Contact& contact, double m, const Vec2& v_before, Vec2& v);
 
-/// v without its component into the ground, without friction.
+/// v without its component into the ground, and without friction.
 Vec2 kept_out(const Contact& contact, const Vec2& v);
 
 }  // namespace breach::mpm

@@ -5,14 +5,14 @@
 
 namespace breach::mpm {
 
-/// Nodal motion (vx, vy, dvx, dvy) at the points of a block and its derivatives per cell.
+/// Nodal motion (vx, vy, dvx, dvy) at the points of a block, and its derivatives per cell.
 template <int N>
 struct Gathered {
     Lanes<N> vx, vy, dvx, dvy;
     Lanes<N> Lxx, Lyx, Lxy, Lyy;  ///< times h
 };
 
-/// Contribution of point k's nodes: the value, and d/dx and d/dy of vx and vy.
+/// Adds the nodes of point k: the value, and d/dx and d/dy of vx and vy.
 template <int N>
 [[gnu::always_inline]] inline void gather_point(const GridArrays& grid, const Weights<N>& w, int k,
                                                 Quad<N>& value, Quad<N>& gradient) {
@@ -34,7 +34,7 @@ template <int N>
     }
     gradient = low_halves(d_x, d_y);
 }
-/// The same in registers of eight: a column's values and its d/dy side by side.
+/// The same with registers of eight: a column's values beside its d/dy.
 [[gnu::always_inline]] inline void gather_point(const GridArrays& grid, const Weights<8>& w, int k,
                                                 Lanes<4>& value, Lanes<4>& gradient) {
     using Four = Lanes<4>;
@@ -68,9 +68,10 @@ template <int N>
     return at;
 }
 
-/// Velocity that moves the points: that of their own place, which at walls is not their domain's
-/// centroid. Nodal velocities are bilinear there, so value, gradient and (in corners) the mixed
-/// derivative give it exactly: a point on a wall stays on it. dx, dy: place less centroid [cells].
+/// Velocity that moves the points: at their own position, which at walls is not the centroid of
+/// their domain. Nodal velocities are bilinear there, so value, gradient and (in corners) the mixed
+/// derivative give it exactly: a point on a wall stays on it. dx, dy: position minus centroid
+/// [cells].
 template <int N>
 [[gnu::always_inline]] inline void move_to_place(const GridArrays& grid, const Weights<N>& w,
                                                  const Gathered<N>& at, const Lanes<N>& dx,
@@ -122,7 +123,7 @@ template <int N>
     }
 }
 
-/// Moves the points; finds the farthest move and points that left the grid.
+/// Moves the points; records the largest move and points that left the grid.
 template <int N>
 [[gnu::always_inline]] inline void move(const ZoneWork& work, const Block& block, const Lanes<N>& x,
                                         const Lanes<N>& y, const Lanes<N>& vx, const Lanes<N>& vy,
@@ -147,8 +148,8 @@ template <int N>
     }
 }
 
-/// Velocity (affine FLIP drawn to affine PIC at the rate beta), its gradient and, unless MUSL, the
-/// position of the points.
+/// Updates velocity (affine FLIP relaxed to affine PIC at the rate beta), velocity gradient and,
+/// unless MUSL, position of the points.
 template <class Isa, class Kernel, UpdateOrder order, Averages averages>
 void gather(const ZoneWork& work, Span span, Totals& sums) {
     using namespace materials::lanes;
@@ -209,7 +210,8 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
     sums.farthest = largest_of(larger(farthest, Real(sums.farthest)));
 }
 
-/// The gradient alone: USF before the stress, MUSL after the second mapping, where the points move.
+/// Velocity gradient only: USF before the stress, MUSL after the second mapping, which also moves
+/// the points.
 template <class Isa, class Kernel, UpdateOrder order, Averages averages>
 void gradient(const ZoneWork& work, Span span, Totals& sums) {
     constexpr int N = Isa::lanes;

@@ -1,5 +1,5 @@
-// Conversion between memory, where points lie component by component and a node's numbers side by
-// side, and lanes. Compiled once per instruction set, hence always inline.
+// Converts between lanes and memory, in which points are stored by component and the values of a
+// node together. Compiled once per instruction set, therefore always inline.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@ namespace breach::mpm {
 
 using materials::Lanes;
 
-/// Four numbers in two registers, for CPUs with registers of two: there, a vector of four would be
-/// split through memory, with a stall each time.
+/// Four numbers in two registers, for CPUs with registers of two: a vector of four would be split
+/// through memory, with a stall each time.
 struct Pairs {
     Lanes<2> low;
     Lanes<2> high;
@@ -38,16 +38,16 @@ template <>
 struct QuadFor<2> {
     using Type = Pairs;
 };
-/// The four numbers of a node, or any four that belong to one point, where registers hold N.
+/// The four values of a node or point, for registers of N.
 template <int N>
 using Quad = typename QuadFor<N>::Type;
 
 template <int N>
 using Integers [[gnu::vector_size(N * sizeof(std::int32_t))]] = std::int32_t;
 
-/// Numbers in memory, at the alignment of one. By such a reference, because GCC 12 copies bytes through
-/// memory even if they are in a register. Packed, because clang ignores a smaller alignment of the vector
-/// itself.
+/// Numbers in memory, with the alignment of one. Accessed through this struct, because GCC 12
+/// copies bytes through memory even from a register. Packed, because clang ignores a smaller
+/// alignment of the vector type.
 template <int N>
 struct [[gnu::packed, gnu::may_alias]] InMemory {
     typename Lanes<N>::Vector v;
@@ -71,7 +71,7 @@ template <int N>
     store(to + 2, a.high);
 }
 
-/// Whole numbers toward zero.
+/// Truncates to integers.
 template <int N>
 [[gnu::always_inline]] inline Integers<N> integers(const Lanes<N>& a) {
     return __builtin_convertvector(a.v, Integers<N>);
@@ -150,7 +150,7 @@ template <int N>
     d.v = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-/// Two fours side by side, one beside itself, and each of them again.
+/// Lanes of both, one after the other.
 [[gnu::always_inline]] inline Lanes<8> joined(const Lanes<4>& low, const Lanes<4>& high) {
     return Lanes<8>(__builtin_shufflevector(low.v, high.v, 0, 1, 2, 3, 4, 5, 6, 7));
 }

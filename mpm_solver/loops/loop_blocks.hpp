@@ -1,4 +1,4 @@
-// Points in blocks as wide as the registers. Compiled once per instruction set.
+// Points in blocks of register width. Compiled once per instruction set.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace breach::mpm {
 
-/// A block: `arrays` + p are its points, `first` is the number of its first one; `count` of its
-/// lanes have points of their own.
+/// A block: its points are `arrays` + p, `first` is the index of its first one; `count` lanes have
+/// points.
 struct Block {
     const PointArrays& arrays;
     std::size_t p;
@@ -20,8 +20,8 @@ struct Block {
     int count;
 };
 
-/// The last points of a span, fewer than a block, in arrays of their own; the lanes left over
-/// repeat the last point.
+/// The last points of a span, fewer than a block, in separate arrays; the other lanes repeat the
+/// last point.
 template <class Isa>
 class Tail {
   public:
@@ -56,7 +56,7 @@ class Tail {
     PointArrays arrays_{};
 };
 
-/// Calls each(Block) for all points of the span, as many at a time as the registers hold.
+/// Calls each(Block) for all points of the span.
 template <class Isa, class Each>
 [[gnu::always_inline]] inline void for_each_block(const PointArrays& points, Span span,
                                                   Each&& each) {
@@ -71,21 +71,21 @@ template <class Isa, class Each>
     }
 }
 
-/// Prefetches the numbers of later points. They lie in a dozen arrays, more than a CPU prefetches by
-/// itself, and those of 20,000 points do not fit into its own cache.
+/// Prefetches later points: they are in a dozen arrays, more than a CPU prefetches by itself, and
+/// 20,000 points exceed its cache.
 [[gnu::always_inline]] inline void ask_ahead(const Block& block,
                                              std::initializer_list<const double*> arrays) {
     constexpr std::size_t points = 32;
     for (const double* from : arrays) __builtin_prefetch(from + block.p + points);
 }
 
-/// 1 in the lanes with points of their own.
+/// 1 in lanes with points.
 template <class Real>
 [[gnu::always_inline]] inline materials::MaskOf<Real> own_lanes(const Block& block) {
     return counting<materials::LaneTraits<Real>::count>() < Real(block.count);
 }
 
-/// The weights of a block's points on their 3 x 3 nodes, ready to be read one by one.
+/// The weights of a block's points at their 3 x 3 nodes, for scalar reads.
 template <int N>
 struct Weights {
     double Nx[3][N];

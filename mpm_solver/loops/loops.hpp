@@ -1,6 +1,6 @@
-// The inner loops over points and their data: bare arrays and numbers. They are compiled once per
-// instruction set, so this file must not contain a type or an inline function whose layout or code
-// depends on compiler flags (no Eigen, no containers). A zone's loop is chosen before the first
+// The inner loops over points, and their data as plain arrays and numbers. Compiled once per
+// instruction set: this file must not contain types or inline functions whose layout or code
+// depends on compiler flags (no Eigen, no containers). A zone's loops are selected before the first
 // step.
 #pragma once
 
@@ -27,12 +27,12 @@ struct Span {
     std::size_t end;
 };
 
-/// The arrays of Points; null where it has none.
+/// The arrays of Points; null if not used.
 struct PointArrays : PointReals<double*> {
     std::int32_t* cell;
 };
 
-/// The arrays of Grid; see there.
+/// The arrays of Grid.
 struct GridArrays {
     double* mass;
     double* motion;  ///< four per node
@@ -47,25 +47,25 @@ struct GridArrays {
 /// Volume-weighted sums over the points of one zone in a cell; see Body::averages.
 struct CellSum {
     double V = 0.0;        ///< [m3]
-    double trD = 0.0;      ///< sum of V tr D, then its average [1/s]
-    double sigma_m = 0.0;  ///< sum of V sigma_m, then its average [Pa]
+    double trD = 0.0;      ///< sum of V tr D, then average [1/s]
+    double sigma_m = 0.0;  ///< sum of V sigma_m, then average [Pa]
 };
 
 /// Data of one zone's loops in one step.
 struct ZoneWork {
     PointArrays points;
     GridArrays grid;
-    CellSum* cells;   ///< null when nothing is averaged
-    const void* law;  ///< of the type in materials::LaneLaws that the loops were chosen for
+    CellSum* cells;   ///< null without averages
+    const void* law;  ///< of the type in materials::LaneLaws for which the loops were selected
     materials::Moduli moduli;
     double eta;             ///< viscosity [Pa s]
-    double damping;         ///< viscosity of soil that does not yield, beside it [Pa s]
-    double damping_return;  ///< share of it that returns per step after yielding [-]
+    double damping;         ///< additional viscosity of soil that does not yield [Pa s]
+    double damping_return;  ///< share restored per step after yielding [-]
     double gimp_half_size;
     double dt;
     double blend;         ///< beta dt, at most 1 [-]
     double overlap_rate;  ///< [1/s]
-    double widest;        ///< volume beyond which a point expands no further [m3]
+    double widest;        ///< volume beyond which a point does not expand [m3]
 };
 
 /// Sums of a loop over its points.
@@ -73,7 +73,7 @@ struct Totals {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     double kinetic = 0.0;  ///< [J]
     double fastest_squared = 0.0;
-    double farthest = 0.0;  ///< largest step of a point along an axis [m]
+    double farthest = 0.0;  ///< largest move of a point along an axis [m]
     std::size_t lost = none;
     double plastic = 0.0;
     double viscous = 0.0;
@@ -83,7 +83,7 @@ struct Totals {
 
 using Loop = void (*)(const ZoneWork&, Span, Totals&);
 
-/// One zone's loops in the order of the step; null where the scheme has none.
+/// One zone's loops in the order of the step; null if not used.
 struct Loops {
     Loop scatter = nullptr;   ///< mass, momentum and (unless USF) force
     Loop gradient = nullptr;  ///< USF: velocity gradient before the stress
@@ -101,8 +101,9 @@ enum class Overlap { left_alone, corrected };
 enum class Viscosity { none, newtonian };
 /// The volume in the internal force.
 enum class VolumeRule {
-    tracked,  ///< V = volume: laws that never open, or gap closure switched off
-    /// V = V_0 (1 + sigma_m / K): opened gaps carry no stress (docs/reference/methods/mpm.md, *One step*)
+    tracked,  ///< V = volume: laws without cracks, or gap closure off
+    /// V = V_0 (1 + sigma_m / K): opened gaps carry no stress (docs/reference/methods/mpm.md, *One
+    /// step*)
     from_stress,
 };
 

@@ -1,4 +1,4 @@
-// The inner loops for CPUs with AVX2 and fused multiply-add; the flags stand in CMakeLists.txt.
+// The inner loops for CPUs with AVX2 and fused multiply-add; flags in CMakeLists.txt.
 #include "mpm_solver/loops/loops_of.hpp"
 
 namespace breach::mpm {

@@ -1,4 +1,4 @@
-// The inner loops for CPUs with AVX-512; the flags stand in CMakeLists.txt.
+// The inner loops for CPUs with AVX-512; flags in CMakeLists.txt.
 #include "mpm_solver/loops/loops_of.hpp"
 
 namespace breach::mpm {

@@ -1,5 +1,5 @@
-// Selects a zone's loops for one instruction set. Included by one source per set, which is compiled
-// with that set's flags; `Isa` makes every function its own.
+// Selects a zone's loops for one instruction set. Included by one source per set, compiled with its
+// flags; the parameter `Isa` makes all functions distinct.
 #pragma once
 
 #include <type_traits>

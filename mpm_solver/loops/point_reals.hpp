@@ -1,6 +1,6 @@
-// The real numbers of every material point: a member and a row each. Checkpoints, sorting, the last
-// good state and the loops' arrays are generated from the rows. Included by the loops, so this file
-// must not contain functions or containers.
+// The real numbers of every material point: one member and one row each. Checkpoints, sorting, the
+// last good state and the loops' arrays are generated from the rows. Included by the loops: this
+// file must not contain functions or containers.
 #pragma once
 
 #include <iterator>
@@ -15,30 +15,30 @@ struct PointReals {
     Array Lxx, Lxy, Lyx, Lyy;  ///< velocity gradient, row = component [1/s]
     Array m;                   ///< [kg]
     Array V_0;                 ///< volume at zero mean stress [m3]
-    Array V;                   ///< volume that the force uses [m3]
-    Array volume;              ///< volume followed through every strain increment [m3]
+    Array V;                   ///< volume in the force [m3]
+    Array volume;              ///< volume integrated from the strain increments [m3]
     Array sxx, syy, szz, sxy;  ///< effective stress [Pa], tension positive
     Array epsilon_q;           ///< total, accumulated sqrt(2/3 e:e) [-]
-    Array epsilon_q_plastic;   ///< the strain that drives softening [-]
-    /// The same when it was last averaged over neighbourhoods; where softening is nonlocal
+    Array epsilon_q_plastic;   ///< softening variable [-]
+    /// The same at the last nonlocal averaging; only with nonlocal softening.
     Array epsilon_q_shared;
-    Array gap;  ///< volume strain to be closed after tension [-]
-    /// Viscosity in force: the material's and, for soil that did not yield in the last step, its
-    /// damping's; where there is either [Pa s]
+    Array gap;  ///< volumetric strain opened in tension, to be closed again [-]
+    /// Present viscosity: that of the material plus, for soil that did not yield in the last step,
+    /// that of damping; only with either [Pa s].
     Array eta;
-    /// Overlap beyond the tolerance, see OverlapMeter; where the body corrects it [-]
+    /// Overlap beyond the tolerance, see OverlapMeter; only with the correction [-].
     Array excess;
-    /// Strengths before and after softening, of soils whose material has a profile, 0 of others;
-    /// where there is one [Pa, -]
+    /// Peak and residual strengths of soils with a strength profile, 0 of others; only with such
+    /// soils [Pa, -].
     Array c, tan_phi, c_residual, tan_phi_residual;
     Array drift_x, drift_y;  ///< velocity that moves the points, of MUSL [m/s]
 };
 
-/// How long a number is kept.
+/// Lifetime of a number.
 enum class Life {
-    step,    ///< computed and used within a step
+    step,    ///< within a step
     run,     ///< sorted with the points and in checkpoints
-    output,  ///< that, and it changes and is in the outputs: in the last good state, too
+    output,  ///< as run, and also in the outputs and the last good state
 };
 
 template <class Array>
@@ -47,7 +47,7 @@ struct RealOfPoints {
     const char* name;  ///< in checkpoints
     Member array;
     Life life;
-    Member only_with = nullptr;  ///< is empty where this one is; null: every run has it
+    Member only_with = nullptr;  ///< empty if this one is; null: always present
 };
 
 template <class Array, class P = PointReals<Array>>

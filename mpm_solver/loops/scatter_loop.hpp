@@ -116,7 +116,7 @@ class Giver {
           B_(gifts.B[k]),
           C_(gifts.C[k]) {}
 
-    /// To the next column, left to right.
+    /// Adds the contribution to the next column, from left to right.
     [[gnu::always_inline]] void give(Column<N>& column, double Nx_of_column, double dNx) {
         const Four Nx(Nx_of_column);
         const Four P = halves(Nx, Four(dNx)) * A_;
@@ -135,8 +135,8 @@ class Giver {
     Four A_, B_, C_;
 };
 
-/// Contributions of points that share their nodes, summed in registers: for CPUs with enough of
-/// them. The order of the points makes neighbours share nodes (strips.hpp).
+/// Sums contributions of points with the same nodes in registers, for CPUs with enough of them. The
+/// order of points makes neighbours share nodes (strips.hpp).
 template <bool masses>
 class Shared {
     static constexpr int N = 8;

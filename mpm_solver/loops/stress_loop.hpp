@@ -6,7 +6,7 @@
 
 namespace breach::mpm {
 
-/// A number of each point's cell.
+/// A value of each point's cell.
 template <int N>
 [[gnu::always_inline]] inline Lanes<N> of_cells(const CellSum* cells, const std::int32_t* cell,
                                                 double CellSum::*number) {
@@ -50,19 +50,19 @@ void dissipate(const ZoneWork& work, Span span, Totals& sums) {
     sums.viscous += 2.0 * work.dt * sum_of(V_eta_D_D);
 }
 
-/// A block's strain in the step for its law.
+/// Strain of a block in the step, for its law.
 template <class Real>
 struct Increment {
-    materials::StressOf<Real> trial;  ///< turned with the soil, then strained elastically
-    Real d_epsilon_q;                 ///< total [-]
-    Real sigma_m;                     ///< before it [Pa]
-    Real hidden;                      ///< compression that the overlap correction adds [-]
-    Real gap;                         ///< volume strain that is still open [-]
-    materials::MaskOf<Real> opens;    ///< it may open further
+    materials::StressOf<Real> trial;  ///< rotated with the soil, then strained elastically
+    Real d_epsilon_q;                 ///< of the total strain [-]
+    Real sigma_m;                     ///< before the step [Pa]
+    Real hidden;                      ///< compression added by the overlap correction [-]
+    Real gap;                         ///< volumetric strain still open [-]
+    materials::MaskOf<Real> opens;    ///< may open further
 };
 
-/// Computes the increments from the velocity gradients; advances the tracked volume and the total
-/// strain, which no law changes.
+/// Computes the increments from the velocity gradients; updates volume and total strain, which do
+/// not depend on the law.
 template <class Isa, Averages averages, Overlap overlap, VolumeRule volume_rule>
 class Increments {
     static constexpr int N = Isa::lanes;
@@ -95,14 +95,14 @@ class Increments {
         if constexpr (averages == Averages::per_cell) {
             d_epsilon_v = of_cells<N>(work_.cells, a.cell + p, &CellSum::trD) * dt_;
         }
-        // The law gets an additional compression that the soil's points do not have.
+        // Additional compression for the law only, not for the point's volume.
         if constexpr (overlap == Overlap::corrected) {
             made.hidden = Real(work_.overlap_rate) * load<Real>(a.excess + p) * dt_;
             d_epsilon_v = d_epsilon_v - made.hidden;
         }
         const Real volume = load<Real>(a.volume + p);
         const Real grown = volume * (Real(1.0) + d_epsilon_v);
-        // Volume strain that the soil opened in tension closes first; the law gets the rest.
+        // Compression first closes the volumetric strain opened in tension; the law gets the rest.
         made.gap = none;
         made.opens = none < none;
         if constexpr (volume_rule == VolumeRule::tracked) {
@@ -135,7 +135,7 @@ class Increments {
     const Real dt_, lambda_, G_, two_G_;
 };
 
-/// The law's result, with the points' own strengths where they have some.
+/// The law's result, with the individual strengths of the points if they have them.
 template <class Law, class Real, class InLoop>
 [[gnu::always_inline]] inline materials::UpdateOf<Real> answer(InLoop& law, const Block& block,
                                                                const Increment<Real>& increment) {
@@ -151,7 +151,7 @@ template <class Law, class Real, class InLoop>
     }
 }
 
-/// Stores the block's results of the step.
+/// Stores the results of the step.
 template <class Law, VolumeRule volume_rule, class Real>
 [[gnu::always_inline]] inline void keep(const Block& block, const Increment<Real>& increment,
                                         const materials::UpdateOf<Real>& update) {
@@ -170,8 +170,8 @@ template <class Law, VolumeRule volume_rule, class Real>
     }
 }
 
-/// Damping ends where the law returns a stress and comes back while it leaves the soil elastic:
-/// flowing soil has the law's dissipation alone.
+/// Damping ends when the law returns a stress and is restored gradually while the soil is elastic:
+/// flowing soil has only the law's dissipation.
 template <class Real>
 [[gnu::always_inline]] inline void damp(const Block& block, const ZoneWork& work,
                                         const materials::StressOf<Real>& trial,
@@ -197,7 +197,7 @@ template <int N>
     for (int k = 0; k < count; ++k) cells[a.cell[p + k]].sigma_m += V_sigma_m.v[k];
 }
 
-/// Increment, law, storage; sums up the dissipation.
+/// Increment, law, storage; sums the dissipation.
 template <class Isa, class Law, Averages averages, Overlap overlap, VolumeRule volume_rule>
 void stress(const ZoneWork& work, Span span, Totals& sums) {
     using Real = Lanes<Isa::lanes>;
@@ -228,7 +228,7 @@ void stress(const ZoneWork& work, Span span, Totals& sums) {
     sums.pushed_in += sum_of(pushed_in);
 }
 
-/// Replaces the mean stress by its cell's average, then computes the volume in the force.
+/// Replaces the mean stress by its cell's average, then sets the volume in the force.
 template <class Isa, Averages averages, VolumeRule volume_rule>
 void settle(const ZoneWork& work, Span span, Totals& sums) {
     using namespace materials::lanes;

@@ -3,15 +3,15 @@
 
 namespace breach::mpm {
 
-/// Components of a stress in the plane [Pa], of one point or of several side by side.
+/// In-plane components of a stress [Pa], of one point or several side by side.
 template <class Real>
 struct InPlane {
     Real xx, yy, xy;
 };
 
-/// R sigma R^T for a small turn by `angle` [rad], counter-clockwise. The matrix is a rotation to
-/// round-off at any angle; its tangent is the series of tan to the seventh order: the error of the
-/// turn is 2e-11 rad at 0.1 rad, and below round-off below 0.01 rad. No trigonometry in the loop.
+/// R sigma R^T for a small rotation by `angle` [rad], counter-clockwise. R is orthogonal up to
+/// round-off at any angle; its tangent is the series of tan to the seventh order: error 2e-11 rad
+/// at 0.1 rad, round-off below 0.01 rad.
 template <class Real>
 [[gnu::always_inline]] inline InPlane<Real> turned(const InPlane<Real>& sigma, const Real& angle) {
     const Real one(1.0);

@@ -28,7 +28,8 @@ Flag still_moving(const Ending& ending) {
             bound};
 }
 
-/// Soil without tensile strength falls apart in its stress waves at any cell size.
+/// Appends a hint: soil without tensile strength disintegrates in its stress waves, with any cell
+/// size.
 std::string or_tension(const Ending& ending, const std::string& remedy) {
     if (ending.tension_share >= usual_tension_share) return remedy;
     return "write \"tension_share\": " + three_digits(usual_tension_share) +
@@ -70,8 +71,8 @@ Flag overlap_work(const Ending& ending) {
             "/mpm/overlap_correction/rate"};
 }
 
-/// Of soil that stands: settling releases next to nothing, and the scheme's part of that says nothing
-/// of a runout.
+/// For soil that did not fail: it releases almost no energy, and the numerical share of that is
+/// irrelevant for a runout.
 Flag share_of_settling(const Ending& ending) {
     return {"numerical_share", Severity::warning,
             "the soil stands: it fell by a few centimetres on the mean and its fronts stayed "

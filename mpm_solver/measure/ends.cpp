@@ -20,7 +20,7 @@ using words::text_of;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A rise of the mobile soil's depth that is a flow's and not a settlement's.
+/// Rise of the mobile soil's depth that indicates a flow and not a settlement.
 double told_rise(const FlowView& view, double first) {
     return std::max(0.1 * view.width, 0.02 * first);
 }
@@ -57,7 +57,7 @@ std::vector<Flag> walls_reached(const scene::Mpm& mpm, const FlowView& view, con
     return flags;
 }
 
-/// Downstream end of the soil that does not count for the runout, and its levels there.
+/// Downstream end of the immobile soil, and its levels there.
 struct GroundEnd {
     double x = -infinity;
     double top = -infinity;
@@ -79,7 +79,7 @@ std::optional<GroundEnd> ground_end(const scene::Scene& scene) {
     return end;
 }
 
-/// The ground ends in a step down, and soil went over it.
+/// Flags soil that flowed over a step at the end of the ground.
 std::optional<Flag> ground_left(const scene::Scene& scene, const FlowView& view,
                                 const Depths& depths) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
@@ -107,7 +107,7 @@ std::optional<Flag> ground_left(const scene::Scene& scene, const FlowView& view,
                 "/section/regions"};
 }
 
-/// Farthest downstream place where the mobile soil stood about as high as anywhere: the crest's edge.
+/// The crest's edge: farthest downstream place where the mobile soil was about as high as anywhere.
 double crest_edge(const std::vector<double>& places, const std::vector<double>& depth) {
     const double highest = *std::ranges::max_element(depth);
     std::size_t k = depth.size() - 1;
@@ -115,14 +115,14 @@ double crest_edge(const std::vector<double>& places, const std::vector<double>& 
     return places[k];
 }
 
-/// Soil that has left lowers the surface.
+/// Flags a lower surface at the upstream end, where soil has left.
 std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowView& view,
                                          const Depths& depths) {
     const double H = scene::mobile_height(scene, scene::mpm_of(scene));
     const std::vector<double> places = profile_places(view);
     std::size_t k = 0;
     while (k < places.size() && depths.first[k] < told_rise(view, 0.0)) ++k;
-    if (k > 1) return std::nullopt;  // a free face, or no soil that counts
+    if (k > 1) return std::nullopt;  // a free face, or no mobile soil
     const double end = places[k];
     const double told = std::max(0.05 * H, 0.5 * view.width);
     while (k < places.size() && depths.first[k] - depths.last[k] <= told) ++k;

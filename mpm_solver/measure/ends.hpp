@@ -1,4 +1,4 @@
-// Ends of the model inside the flow: walls reached by the flow, the end of the firm ground, and the
+// Ends of the model within the flow: walls reached by the flow, the end of the firm ground, the
 // upstream end reached by the failure.
 #pragma once
 
@@ -10,8 +10,8 @@ namespace breach::mpm {
 /// Depths of the mobile soil over the columns of profile_places [m].
 struct Depths {
     std::vector<double> first;    ///< at time 0
-    std::vector<double> largest;  ///< so far
-    std::vector<double> last;     ///< now
+    std::vector<double> largest;  ///< maximum so far
+    std::vector<double> last;     ///< present
 };
 
 /// Flags `reached_wall` and `upstream_wall`.

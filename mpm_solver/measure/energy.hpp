@@ -5,36 +5,36 @@
 
 namespace breach::mpm {
 
-/// Energies of the points now, and dissipation so far [J].
+/// Present energies of the points, and dissipation so far [J].
 struct Energy {
     double kinetic = 0.0;
-    double gravitational = 0.0;  ///< against y = 0
+    double gravitational = 0.0;  ///< relative to y = 0
     double elastic = 0.0;
     double plastic = 0.0;   ///< dissipated by plastic strain
     double friction = 0.0;  ///< dissipated by the floor's friction
     double viscous = 0.0;   ///< dissipated by viscosity
-    double shaking = 0.0;   ///< added by the moving frame's force; negative: removed
+    double shaking = 0.0;   ///< added by the moving frame; negative: removed
 };
 
 Energy energy_of(const Body& body);
 
-/// Loss without a physical cause [J]: positive when the scheme lost energy, negative when it
-/// created some.
+/// Energy without physical cause [J]: positive if the scheme lost energy, negative if it created
+/// some.
 double numerical_loss(const Energy& start, const Energy& now);
 
-/// Potential energy released since the start, plus kinetic energy at the start and the energy that
-/// the shaking added since [J].
+/// Potential energy released since the start, plus initial kinetic energy, plus energy added by the
+/// shaking [J].
 double released(const Energy& start, const Energy& now);
 
-/// numerical_loss / released; 0 while nothing has been released.
+/// numerical_loss / released; 0 if nothing was released.
 double numerical_share(const Energy& start, const Energy& now);
 
 /// Kinetic energy [J] and mass [kg] of the points of these soils.
 double kinetic_energy_of(const Points& points, const std::vector<std::uint8_t>& counts);
 double mass_of(const Points& points, const std::vector<std::uint8_t>& counts);
 
-/// Volume of the soil of these regions (followed through every strain increment) [m3]; an empty
-/// list counts all.
+/// Volume of the soil of these regions, integrated from the strain increments [m3]; an empty list
+/// counts all.
 double volume_of(const Points& points, const std::vector<std::uint8_t>& counts);
 
 }  // namespace breach::mpm

@@ -9,7 +9,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Every second row goes; the time between them is then that of what is left.
+/// Drops every second row and doubles the interval.
 void thin(Envelope& envelope, std::size_t columns) {
     std::size_t kept = 0;
     for (std::size_t row = 0; row < envelope.row_times.size(); row += 2, ++kept) {
@@ -26,7 +26,7 @@ void thin(Envelope& envelope, std::size_t columns) {
 
 void add_row(Envelope& envelope, double now, const std::vector<Flow>& profile) {
     std::vector<double>& times = envelope.row_times;
-    // Sums of steps miss round times by round-off.
+    // Summed time steps differ from round times by round-off.
     const auto early = [&] {
         return !times.empty() && now < times.back() + (1.0 - 1e-9) * envelope.interval;
     };
@@ -39,7 +39,7 @@ void add_row(Envelope& envelope, double now, const std::vector<Flow>& profile) {
     for (const Flow& flow : profile) envelope.row_depths.push_back(flow.depth);
 }
 
-/// What a checkpoint holds per column. Calls visit(name, array).
+/// Arrays per column in a checkpoint. Calls visit(name, array).
 template <class AnyEnvelope, class Visit>
 void for_each_column_array(AnyEnvelope& envelope, Visit&& visit) {
     visit("depth", envelope.depth), visit("velocity", envelope.velocity);

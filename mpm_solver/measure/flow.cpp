@@ -9,7 +9,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Volume, mass and momentum, weighted.
+/// Weighted volume, mass and momentum.
 struct Sums {
     double V = 0.0;
     double m = 0.0;
@@ -31,7 +31,7 @@ struct Sums {
     Flow over(double area) const { return {V / area, m > 0.0 ? mv / m : 0.0, count}; }
 };
 
-/// Integral of the hat about x over what of its width lies inside the grid [m].
+/// Integral of the hat function about x within the grid [m].
 double hat_width(const FlowView& view, double x) {
     const auto half = [&](double room) {
         const double s = std::clamp(room / view.width, 0.0, 1.0);
@@ -64,7 +64,7 @@ std::vector<Flow> flow_profile(const Points& points, const FlowView& view) {
     std::vector<Sums> sums(columns(view));
     const auto last_cell = static_cast<std::int32_t>(sums.size()) - 2;
     const double per_width = 1.0 / view.width;
-    // Of the cells between two columns: neighbours in memory mostly lie in the same.
+    // Sums of the cell between two columns: successive points are mostly in the same one.
     std::int32_t cell = 0;
     Sums to_left;
     Sums to_right;

@@ -1,5 +1,4 @@
-// The soil as a flow: depth and mean velocity over x, at places (gauges) and as the deposit's
-// profile.
+// The soil as a flow: depth and mean velocity over x, at gauges and as profile.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +10,9 @@
 
 namespace breach::mpm {
 
-/// The flowing soil, and the width over which its depth is averaged.
+/// The mobile soil, and the width over which depths are averaged.
 struct FlowView {
-    std::vector<std::uint8_t> mobile;  ///< per soil of the scene
+    std::vector<std::uint8_t> mobile;  ///< [soils of the scene]
     double width;                      ///< one cell [m]
     double thickness;                  ///< of the section [m]
     double low;                        ///< ends of the grid [m]
@@ -23,47 +22,46 @@ struct FlowView {
 FlowView flow_view(const scene::Scene& scene, const Grid& grid);
 
 struct Flow {
-    double depth = 0.0;       ///< volume of soil over the plan area [m]
-    double velocity = 0.0;    ///< mass-weighted mean of v_x; 0 where there is no soil [m/s]
+    double depth = 0.0;       ///< soil volume over plan area [m]
+    double velocity = 0.0;    ///< mass-weighted mean of v_x; 0 without soil [m/s]
     std::int32_t points = 0;  ///< number of averaged points
 };
 
-/// Mean with the hat function of half width `width` about x, cut at the ends of the grid.
+/// Mean with the hat function of half width `width` about x, clipped at the grid's ends.
 Flow flow_at(const Points& points, const FlowView& view, double x);
 
-/// flow_at every column of the grid's nodes, in one pass over the points.
+/// flow_at for every column of the grid, in one pass over the points.
 std::vector<Flow> flow_profile(const Points& points, const FlowView& view);
 
-/// Fewer points than these within a cell of a column are grains, not a flow: a layer one point
-/// thick has four.
+/// Fewer points within a cell of a column are grains and no flow: a layer one point thick has four.
 inline constexpr std::int32_t fewest_points_of_a_flow = 3;
 
-/// Zero where there are only grains.
+/// Zero if there are only grains.
 Flow without_grains(const Flow& flow);
 std::vector<Flow> without_grains(std::vector<Flow> profile);
 
-/// Largest |velocity| of the readings with at least the given depth: soil that flies ahead of a
-/// flow is faster, and no flow; 0 when there is none [m/s].
+/// Largest |velocity| of the readings with at least this depth; soil thrown ahead of a flow is
+/// faster. 0 if there are none [m/s].
 double fastest_of(const std::vector<double>& depths, const std::vector<double>& velocities,
                   double depth);
 
 /// x of the columns of a profile [m].
 std::vector<double> profile_places(const FlowView& view);
 
-/// Surface below the flow over the same columns [m]: `bottom` (floor or terrain) plus the depth of
-/// the soil that is not mobile.
+/// Surface below the flow at the same columns [m]: `bottom` (floor or terrain) plus the depth of
+/// immobile soil.
 std::vector<double> ground_profile(const Points& points, const FlowView& view,
                                    std::vector<double> bottom);
 
-/// Upper edge of the highest soil, mobile or not, within half a cell of each column [m]; `ground`
-/// where there is none. A grain in flight is soil: compare with the depth.
+/// Top of the highest soil, mobile or not, within half a cell of each column [m]; `ground` if there
+/// is none. Soil in flight counts: compare with the depth.
 std::vector<double> surface_profile(const Points& points, const FlowView& view,
                                     std::vector<double> ground);
 
-/// Front of a flow that is nowhere deep enough: a finite number, as checkpoints need one [m].
+/// Front of a flow that is nowhere deep enough: a finite number, for checkpoints [m].
 inline constexpr double nowhere = -1e30;
 
-/// Farthest x with this depth of the flow, linear between columns; or `nowhere` [m].
+/// Farthest x with this flow depth, linear between columns [m]; or `nowhere`.
 double front_of(const std::vector<Flow>& profile, const FlowView& view, double depth);
 
 /// Profiles at several times, one after the other.
@@ -75,7 +73,7 @@ struct Profiles {
     void add(double time, const std::vector<Flow>& profile);
 };
 
-/// "<prefix>profile.x", "<prefix>profile.times" and so on, and back.
+/// Stores and loads "<prefix>profile.x", "<prefix>profile.times" and so on.
 void store(const Profiles& profiles, const FlowView& view, const std::string& prefix,
            exchange::Archive& archive);
 Profiles load_profiles(const exchange::Archive& archive, const std::string& prefix);

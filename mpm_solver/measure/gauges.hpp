@@ -1,4 +1,4 @@
-// Records of the scene's gauges: one depth and velocity per row of the history.
+// Records of the scene's gauges: depth and velocity per row of the history.
 #pragma once
 
 #include <optional>
@@ -17,16 +17,15 @@ struct GaugeRecord {
 /// In the order of Mpm::gauges.
 using GaugeRecords = std::vector<GaugeRecord>;
 
-/// Adds the present reading of every gauge; zero for grains (flow.hpp).
+/// Adds the present readings; zero for grains (flow.hpp).
 void read_gauges(const std::vector<scene::Gauge>& gauges, const Points& points,
                  const FlowView& view, GaugeRecords& records);
 
-/// First time at which the depth reached `arrival_depth`, linear between readings; none when it
-/// never did.
+/// First time with the depth `arrival_depth`, linear between readings; none if never reached.
 std::optional<double> arrival_time(const std::vector<double>& times,
                                    const std::vector<double>& depth, double arrival_depth);
 
-/// "<prefix>gauge.<name>.depth" and so on, and back.
+/// Stores and loads "<prefix>gauge.<name>.depth" and so on.
 void store(const std::vector<scene::Gauge>& gauges, const GaugeRecords& records,
            const std::string& prefix, exchange::Archive& archive);
 GaugeRecords load_gauges(const std::vector<scene::Gauge>& gauges, const exchange::Archive& archive,

@@ -9,7 +9,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Soil that has opened everywhere (spray) may well take this multiple of its volume; more is
+/// Soil that has opened everywhere (spray) may reach this multiple of its volume; more is
 /// numerical.
 constexpr double largest_volume_ratio = 2.5;
 /// Multiple of wave speed plus free fall through the whole grid.

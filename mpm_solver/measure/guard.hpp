@@ -1,5 +1,4 @@
-// Blow-up guard: ends a run that has gone wrong, and reports where and when. A run that has lost
-// its mass must not end well.
+// Ends a run that has gone wrong (blow-up, lost mass), and reports where and when.
 #pragma once
 
 #include <optional>
@@ -10,22 +9,22 @@
 namespace breach::mpm {
 
 struct Limits {
-    double speed;         ///< a point faster than this has run away [m/s]
+    double speed;         ///< a faster point counts as runaway [m/s]
     double energy_gain;   ///< relative to energy_scale [-]
-    double energy_floor;  ///< smaller gains are noise, for any energy released [J]
-    double volume_ratio;  ///< the soil's volume over the initial one [-]
+    double energy_floor;  ///< smaller gains are noise [J]
+    double volume_ratio;  ///< soil volume over the initial one [-]
 };
 
-/// Limits for a body at the start. `swing`: largest change of the ground's velocity to come [m/s].
+/// Limits for a body at the start. `swing`: largest later change of the ground's velocity [m/s].
 Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start, double swing = 0.0);
 
-/// After every step: lost point, NaN, runaway velocity. Empty when all is well.
+/// After every step: lost point, NaN, runaway velocity. Empty: none.
 std::optional<std::string> step_complaint(const Body& body, const Limits& limits);
 
-/// At every look: a point that sank a cell deep into the terrain. Empty when there is none.
+/// At every measurement: a point more than a cell deep in the terrain. Empty: none.
 std::optional<std::string> ground_complaint(const Body& body);
 
-/// At every look: energy without a source, increased or vanished volume.
+/// At every measurement: energy without source, volume gained or lost.
 std::optional<std::string> budget_complaint(const Limits& limits, const Energy& start,
                                             const Energy& now, double volume_ratio);
 

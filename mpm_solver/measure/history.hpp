@@ -18,21 +18,21 @@ struct Row {
     double runout_beyond_toe_50 = 0.0;
     double runout_largest = 0.0;
     double runout_by_count = 0.0;  ///< 99th percentile over points, not weighted by mass
-    double runout_front = 0.0;     ///< farthest place with the front's depth, beyond the toe
+    double runout_front = 0.0;     ///< farthest place with the front's depth, from the toe
     double area_beyond_toe = 0.0;  ///< of the section
     double kinetic_energy = 0.0;
-    double kinetic_mobile = 0.0;  ///< of the soil that counts for the runout
+    double kinetic_mobile = 0.0;  ///< of the mobile soil
     double gravitational_energy = 0.0;
     double elastic_energy = 0.0;
     double plastic_dissipation = 0.0;
     double friction_dissipation = 0.0;
     double viscous_dissipation = 0.0;
-    double shaking_work = 0.0;  ///< of the moving frame's force
+    double shaking_work = 0.0;  ///< of the moving frame
     double energy_numerical = 0.0;
-    double energy_numerical_share = 0.0;  ///< of energy_scale
+    double energy_numerical_share = 0.0;  ///< over energy_scale
     double volume_ratio = 0.0;
     double overlap = 0.0;
-    double overlap_energy = 0.0;  ///< added by the overlap correction, part of the numerical
+    double overlap_energy = 0.0;  ///< by the overlap correction, part of the numerical energy
     double fastest = 0.0;
 };
 
@@ -63,7 +63,7 @@ void for_each_column(AnyRow& row, Visit&& visit) {
 
 using History = std::vector<Row>;
 
-/// The rows as arrays "<prefix><column>" of an archive, and back.
+/// Stores and loads the rows as arrays "<prefix><column>".
 void store(const History& history, const std::string& prefix, exchange::Archive& archive);
 History load(const exchange::Archive& archive, const std::string& prefix);
 

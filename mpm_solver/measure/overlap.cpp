@@ -7,7 +7,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Integral of every node's weight over the places a point can take, by the midpoint rule.
+/// Integral of every node's weight over the possible positions of a point, by the midpoint rule.
 std::vector<double> capacities(const Body& body, const WallRows& walls, std::int32_t rows) {
     constexpr int samples = 200;  // per cell; the weights are quadratic
     std::vector<double> capacity(rows, 0.0);
@@ -44,7 +44,7 @@ void for_each_weight(const Body& body, Span span, Visit&& visit) {
     });
 }
 
-/// Over all points, shared out: `work` writes no point outside its span.
+/// Over all points, on several threads: `work` writes only points in its span.
 template <class Work>
 void for_spans(const Body& body, Work&& work) {
     const std::size_t points = body.points.size();
@@ -65,7 +65,7 @@ void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& fill) const
     fill.assign(body.grid.nodes(), 0.0);
     const Points& points = body.points;
     const std::int32_t rows = body.grid.rows;
-    // Not shared out: a node's sum must not depend on the threads.
+    // On one thread: a node's sum must not depend on the number of threads.
     for_each_weight(body, {0, points.size()},
                     [&](std::size_t p, std::int32_t i, std::int32_t j, double N) {
                         fill[i * rows + j] += points.V[p] * N;

@@ -1,5 +1,5 @@
-// Overlap of soil. Points may cluster although every tracked volume is right
-// (docs/reference/methods/mpm.md, *One step*), so a run reports it.
+// Overlap of soil: points may cluster although every integrated volume is right
+// (docs/reference/methods/mpm.md, *One step*).
 #pragma once
 
 #include <vector>
@@ -8,35 +8,35 @@
 
 namespace breach::mpm {
 
-/// Steps between two marks of the correction: soil crosses a small part of a cell in that time.
+/// Steps between two updates of the correction: soil moves by a small part of a cell.
 constexpr std::int64_t steps_between_marks = 8;
 
 class OverlapMeter {
   public:
     explicit OverlapMeter(const Body& body, double thickness);
 
-    /// Volume-weighted mean over the mobile points of max(0, fill - 1) of their nodes, fill_i =
+    /// Volume-weighted mean over the mobile points of max(0, fill - 1) at their nodes, fill_i =
     /// sum_p V_p N_i / capacity_i of all points [-]. mobile: [regions].
     double measure(const Body& body, const std::vector<std::uint8_t>& mobile) const;
 
     /// Sets every point's excess: the mean over its nodes of max(0, fill - 1 - tolerance) [-].
     void mark(Body& body, double tolerance);
 
-    /// Closes gaps without room. Debris that lands between other points meets no compression there,
-    /// so its gap would stay although its neighbours have filled it: an opened point keeps at most
-    /// V / fill of it, where fill is that of its nodes.
+    /// Closes gaps without space. Debris that lands between other points is not compressed there,
+    /// so its gap would stay although neighbours have filled it: an opened point keeps at most V /
+    /// fill of its nodes.
     void hold_gaps_to_room(Body& body);
 
   private:
-    /// Of every node, sum_p V_p N_i / capacity_i [-].
+    /// [nodes] sum_p V_p N_i / capacity_i [-].
     void fill_nodes(const Body& body, std::vector<double>& fill) const;
 
-    /// Integral of the nodal weight over the domain, per column [m]
+    /// Integral of the nodal weight over the domain, per column [m].
     std::vector<double> capacity_x_;
     std::vector<double> capacity_y_;
     double thickness_;
-    std::vector<double> fill_;        ///< of nodes; empty in runs without marks and gaps [-]
-    std::vector<double> fill_about_;  ///< each point; empty in runs that leave gaps alone [-]
+    std::vector<double> fill_;        ///< [nodes]; empty without correction and gap closure [-]
+    std::vector<double> fill_about_;  ///< [points]; empty without gap closure [-]
 };
 
 }  // namespace breach::mpm

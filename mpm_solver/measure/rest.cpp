@@ -10,7 +10,8 @@ namespace breach::mpm {
 
 namespace {
 
-/// More than this times as lively in the second half of the window as in the first is a start.
+/// Growth of the kinetic energy from the first to the second half of the window that counts as
+/// acceleration.
 constexpr double growth = 1.5;
 
 struct Heap {
@@ -37,7 +38,7 @@ Heaps fast_soil(const Body& body, const std::vector<std::uint8_t>& counts, doubl
     return heaps;
 }
 
-/// Takes a cell and all that it is connected with out of `heaps` and returns their sum.
+/// Removes the connected cells from `heaps` and returns their sum.
 Heap flood(Heaps& heaps, std::int32_t rows) {
     Heap whole;
     std::vector<std::int32_t> open{heaps.begin()->first};
@@ -71,11 +72,11 @@ std::string number(double value) {
     return text.str();
 }
 
-/// Over the last window.
+/// The last window.
 struct Window {
     double early = 0.0;   ///< largest kinetic energy of the mobile soil in its first half [J]
-    double late = 0.0;    ///< and in its second
-    double change = 0.0;  ///< farthest that a percentile was from where it is now [m]
+    double late = 0.0;    ///< the same in its second half [J]
+    double change = 0.0;  ///< largest distance of a percentile from its present value [m]
 };
 
 Window window_of(const History& history, double from) {
@@ -99,7 +100,7 @@ std::string within(const scene::Rest& rest) {
     return " within the last " + number(rest.window) + " s";
 }
 
-/// The kinetic energy's two limits.
+/// Checks both limits of the kinetic energy.
 std::optional<std::string> why_lively(const History& history, const Window& window, double scale,
                                       double mass, const scene::Rest& rest) {
     const double kinetic = std::max(window.early, window.late);

@@ -8,7 +8,7 @@ namespace breach::mpm {
 
 namespace {
 
-/// Half the edge of a point's square, cut where the section stands nearer to the grid's end [m].
+/// Half the edge of a point's square, clipped if the section is nearer to the grid's end [m].
 double half_edge(const Points& points, std::size_t p, const FlowView& view, double x) {
     const double room = std::max(0.0, std::min(x - view.low, view.high - x));
     return std::min(0.5 * std::sqrt(points.V_0[p] / view.thickness), room);
@@ -31,7 +31,7 @@ Beyond beyond(const Points& points, const FlowView& view, double x) {
 
 double flux_at(const Body& body, const FlowView& view, double x) {
     const Points& points = body.points;
-    // Those within a cell are at home at most two columns away.
+    // Points within a cell have homes at most two columns away.
     const auto column = static_cast<std::int32_t>(body.grid.xi(x));
     const std::int32_t first = std::max(column - 2, 0) / Strips::width;
     const std::int32_t last =
@@ -115,7 +115,7 @@ std::optional<double> closure_of(const SectionRecord& record) {
         moved += std::abs(volume - before);
         before = volume;
     }
-    // To and fro of what stands: round-off of a sum over all that lies beyond.
+    // Without flow: round-off of the sum beyond the section.
     if (moved <= 1e-9 * std::max(1.0, record.start.volume)) return std::nullopt;
     return (record.by_momentum - before) / moved;
 }
@@ -142,7 +142,7 @@ SectionRecords load_sections(const std::vector<scene::FlowSection>& sections,
     SectionRecords records;
     for (const scene::FlowSection& section : sections) {
         const std::string name = prefix + "section." + section.name + ".";
-        if (rows == 0 && !archive.reals.contains(name + "state")) return {};  // nobody has looked
+        if (rows == 0 && !archive.reals.contains(name + "state")) return {};  // no measurement yet
         const std::vector<double>& state = archive.reals.at(name + "state");
         SectionRecord record;
         record.start = {state.at(0), state.at(1)};

@@ -1,6 +1,5 @@
 // Drucker-Prager with a cut-off of mean tension for one point: elastic, perfectly plastic, the cone
-// fitted to c, phi and psi of Mohr-Coulomb in plane strain. A smooth surface in place of a hexagon:
-// one tangent, no edges.
+// fitted to c, phi and psi of Mohr-Coulomb in plane strain. The surface has no edges.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +10,8 @@
 
 namespace breach::materials {
 
-/// In plastic flow in plane strain it has Mohr-Coulomb's strength and dilatancy; in other directions
-/// it has its own (in triaxial compression more, in extension less).
+/// Has Mohr-Coulomb's strength and dilatancy in plastic flow in plane strain; in triaxial
+/// compression it is stronger, in extension weaker.
 struct DruckerPrager {
     mechanics::Elasticity elasticity;
     double c;               ///< cohesion [Pa]
@@ -21,9 +20,9 @@ struct DruckerPrager {
     double tension_cutoff;  ///< largest mean stress allowed [Pa], clipped to the cone's apex
 };
 
-/// Plastic flow in plane strain, elastic strains at rest: s_zz = -2 beta q, so the in-plane radius
-/// is r = q sqrt(1 - 3 beta^2) about the centre p + beta q. With r = c cos(phi) - centre sin(phi)
-/// and dilatancy sin(psi) that gives (for psi = phi Drucker & Prager 1952)
+/// Fit in plastic flow in plane strain with constant elastic strains: s_zz = -2 beta q, so the
+/// in-plane radius is r = q sqrt(1 - 3 beta^2) about the centre p + beta q. r = c cos(phi) - centre
+/// sin(phi) and dilatancy sin(psi) give (Drucker & Prager 1952 for psi = phi)
 ///     beta = sin(psi) / sqrt(9 + 3 sin^2(psi)),     s = sqrt(1 - 3 beta^2),
 ///     alpha = sin(phi) / (3 (s + beta sin(phi))),   k = c cos(phi) (1 - 3 alpha beta) / s.
 inline DruckerPragerNumbers ready(const DruckerPrager& law) {
@@ -65,7 +64,6 @@ inline ConeReturnOf<double> returned(const DruckerPragerNumbers& law, const Voig
     return return_to_cone<double>(law, {trial[0], trial[1], trial[2], trial[3]});
 }
 
-/// New state after the strain increment d_epsilon.
 inline Update integrate(const DruckerPragerNumbers& law, const State& old, const Voigt& d_epsilon) {
     const State trial = strained(law, old, d_epsilon);
     return updated(law, returned(law, trial.sigma), trial);
@@ -115,7 +113,7 @@ inline Traits traits(const DruckerPrager& law) {
             .symmetric_tangent = law.psi == law.phi,
             .tells_plastic_strain = true};
 }
-/// In plane strain, to which the cone is fitted.
+/// Strength in plane strain, for which the cone is fitted.
 inline std::optional<Strength> limit_strength(const DruckerPrager& law) {
     return Strength{law.c, std::tan(law.phi)};
 }

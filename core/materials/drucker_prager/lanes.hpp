@@ -1,24 +1,24 @@
-// Drucker-Prager with a cut-off of mean tension for one point or several side by side: the return to
-// the cone in closed form. Knows neither Eigen nor containers, so that it can be compiled once per
-// instruction set.
+// Drucker-Prager with a cut-off of mean tension for one point or several side by side: closed-form
+// return to the cone. Includes neither Eigen nor containers: it is compiled once per instruction
+// set.
 #pragma once
 
 #include "core/materials/lane_law.hpp"
 
 namespace breach::materials {
 
-/// The law resolved for a loop over points. With q = sqrt(J_2) and the mean stress p, tension
-/// positive:  q + 3 alpha p <= k  and  p <= T; flow on the cone is that of q + 3 beta p.
+/// Constants of the law. With q = sqrt(J_2) and the mean stress p, tension positive: yield q + 3
+/// alpha p <= k and p <= T; the flow potential on the cone is q + 3 beta p.
 struct DruckerPragerNumbers {
     Moduli moduli;
     double alpha;  ///< [-]
     double beta;   ///< [-], <= alpha
     double k;      ///< [Pa]
-    double T;      ///< largest mean stress [Pa]: the cut-off, or the apex if that is lower
-    double Q;      ///< q where cone and cut-off meet [Pa]; 0 at the apex
+    double T;      ///< largest mean stress [Pa]: the lower of cut-off and apex
+    double Q;      ///< q at which cone and cut-off intersect [Pa]; 0 at the apex
 };
 
-/// A stress in its invariants, before and after the return.
+/// Invariants of a stress before and after the return.
 template <class Real>
 struct ConeReturnOf {
     Real p, q;          ///< of the trial stress [Pa]
@@ -27,8 +27,8 @@ struct ConeReturnOf {
     MaskOf<Real> at_cut_off;  ///< ended on the cut-off, its rim or the apex
 };
 
-/// Koiter's rule in the (p, q) plane: the cone; where that ends beyond the cut-off, the cut-off or
-/// the rim where both meet, which is the apex when the cut-off lies beyond it.
+/// Koiter's rule in the (p, q) plane. Returns to the cone; if that point lies beyond the cut-off,
+/// to the cut-off or to the rim where both meet (the apex if the cut-off lies beyond it).
 template <class Real>
 [[gnu::always_inline]] inline ConeReturnOf<Real> return_to_cone(const DruckerPragerNumbers& law,
                                                                 const StressOf<Real>& trial) {
@@ -53,7 +53,7 @@ template <class Real>
             at_cut_off};
 }
 
-/// Share of the trial's deviator that is left [-].
+/// Remaining share of the trial deviator [-].
 template <class Real>
 [[gnu::always_inline]] inline Real deviator_left(const ConeReturnOf<Real>& r) {
     const auto has_deviator = r.q > Real(0.0);

@@ -1,21 +1,19 @@
-// The Mohr-Coulomb cone with tension cut-off at one strength, as bare numbers.
+// The Mohr-Coulomb cone with tension cut-off at one strength, as plain numbers.
 #pragma once
 
 namespace breach::materials {
 
-/// The yield surface at one strength:  k s1 - s3 <= q  and  s1 <= T  for every order of the axes.
-/// Flow is m e_i - e_j on the cone (associated when m = k) and e_i on the cut-off (always
-/// associated).
+/// Yield surface  k s1 - s3 <= q  and  s1 <= T  for every order of the axes. Plastic flow is m e_i
+/// - e_j on the cone (associated if m = k) and e_i on the cut-off (always associated).
 struct Cone {
     double k;  ///< (1 + sin phi) / (1 - sin phi) [-], >= 1
-    double m;  ///< the same of psi [-], 1 <= m <= k
+    double m;  ///< (1 + sin psi) / (1 - sin psi) [-], 1 <= m <= k
     double q;  ///< uniaxial compressive strength 2 c sqrt(k) [Pa]
-    double T;  ///< largest principal stress [Pa]: the cut-off, or the apex if that is lower; may be
-               ///< infinite
-    enum class Tip { apex, cut_off } tip;  ///< which of the two T is
+    double T;  ///< largest principal stress [Pa]: the lower of cut-off and apex; may be infinite
+    enum class Tip { apex, cut_off } tip;  ///< which of the two is T
 };
 
-/// Tension that a soil carries: a number, and at least a share of its unconfined compressive strength.
+/// Tensile strength: the larger of a value and a share of the unconfined compressive strength.
 struct Tension {
     double cutoff;       ///< [Pa] >= 0
     double share = 0.0;  ///< of q [-] >= 0

@@ -1,6 +1,6 @@
 // Mohr-Coulomb with tension cut-off for several points side by side: the formulas of
-// principal_return.hpp lane by lane. Knows neither Eigen nor containers, so that it can be compiled
-// once per instruction set. The answers are those of materials::integrate to round-off.
+// principal_return.hpp lane by lane. Includes neither Eigen nor containers: it is compiled once per
+// instruction set. Equal to materials::integrate up to round-off.
 #pragma once
 
 #include "core/materials/lane_law.hpp"
@@ -8,7 +8,7 @@
 
 namespace breach::materials {
 
-/// The law resolved for a loop over points, in the FEM (mohr_coulomb.hpp) and here: [Pa], psi <=
+/// Constants of the law for a loop over points, here and in the FEM (mohr_coulomb.hpp) [Pa]; psi <=
 /// phi.
 struct MohrCoulombNumbers {
     Moduli moduli;
@@ -18,7 +18,7 @@ struct MohrCoulombNumbers {
     // unused without softening
     double epsilon_q_start, epsilon_q_end;
     double c_residual, tan_phi_residual;
-    Cone peak;  ///< of c, phi, psi
+    Cone peak;  ///< at peak strength
 };
 
 namespace mohr_coulomb_lanes {
@@ -46,7 +46,7 @@ template <class Real>
     return {root_k * root_k, root_m * root_m, q, smaller(cutoff, apex), !(cutoff < apex)};
 }
 
-/// Share of the way from peak to residual strength, 0 to 1 [-].
+/// Linear softening: 0 at peak, 1 at residual strength [-].
 template <class Real>
 [[gnu::always_inline]] inline Real softened_by(const MohrCoulombNumbers& law,
                                                const Real& epsilon_q) {
@@ -55,7 +55,7 @@ template <class Real>
     return smaller(positive((epsilon_q - Real(law.epsilon_q_start)) * per_way), Real(1.0));
 }
 
-/// Strength in force at epsilon_q.
+/// The cone at the strength for epsilon_q.
 template <Softens softens, class Real>
 [[gnu::always_inline]] inline ConeOf<Real> cone_at(const MohrCoulombNumbers& law,
                                                    const Real& epsilon_q) {
@@ -73,7 +73,7 @@ template <Softens softens, class Real>
     }
 }
 
-/// The same of points that have strengths of their own.
+/// The same for points with individual strengths.
 template <class Real>
 [[gnu::always_inline]] inline ConeOf<Real> cone_at(const MohrCoulombNumbers& law,
                                                    const StrengthOfPoint<Real>& of,
@@ -99,7 +99,7 @@ template <class Real>
     return lanes::larger(lanes::larger(a, b), lanes::larger(c, d));
 }
 
-/// A facet's return and by how much it breaks the conditions that would make it the right one [Pa].
+/// The return to one facet, and by how much it violates that facet's conditions [Pa].
 template <class Real>
 struct CandidateOf {
     TripleOf<Real> sigma;
@@ -107,7 +107,8 @@ struct CandidateOf {
     Real violation;
 };
 
-/// The trial points seen from their cones: builds candidate after candidate (principal_return.cpp).
+/// Returns of trial points to the facets of their cones, one candidate after another
+/// (principal_return.cpp).
 template <class Real>
 class CandidatesOf {
   public:
@@ -219,7 +220,7 @@ class CandidatesOf {
         return deviators * per_two_G_ + mean_u * mean_v * per_K_;
     }
 
-    /// Place on an edge from which the flow vectors reach the trial point.
+    /// Point on an edge from which the flow vectors lead to the trial point.
     [[gnu::always_inline]] Real along_line(const TripleOf<Real>& from_base,
                                            const TripleOf<Real>& flow_direction,
                                            const TripleOf<Real>& direction) const {
@@ -227,7 +228,7 @@ class CandidatesOf {
                compliance_product(flow_direction, direction);
     }
 
-    /// Plastic strain D^-1 (trial - sigma), deviator and volume apart.
+    /// Plastic strain D^-1 (trial - sigma), from deviator and volume.
     [[gnu::always_inline]] CandidateOf<Real> from_stress(const TripleOf<Real>& sigma) const {
         const Real a = trial_.a - sigma.a;
         const Real b = trial_.b - sigma.b;
@@ -259,8 +260,8 @@ struct ReturnOf {
     MaskOf<Real> opens;  ///< ended on the cut-off or at the tip
 };
 
-/// Koiter's rule: the one facet on which nothing is violated; the least violated if round-off
-/// leaves none. Lanes that are not `outside` may hold anything.
+/// Koiter's rule: takes the facet without violation, or the least violated one if round-off leaves
+/// none. Lanes that are not `outside` may contain anything.
 template <class Real>
 [[gnu::always_inline]] inline ReturnOf<Real> return_to_cone(const ConeOf<Real>& cone,
                                                             const MohrCoulombNumbers& law,
@@ -306,7 +307,7 @@ template <class Real>
 
 }  // namespace mohr_coulomb_lanes
 
-/// Principal values of a stress, in the plane and sorted.
+/// Principal stresses, in-plane and sorted.
 template <class Real>
 struct PrincipalOf {
     Real centre, difference, radius;
@@ -381,7 +382,7 @@ template <Softens softens, class Real>
     return update;
 }
 
-/// Not inlined: it is long, and blocks that stay elastic skip it.
+/// Not inlined: it is long, and elastic blocks skip it.
 template <class Isa, Softens softens>
 [[gnu::noinline]] void return_block(const MohrCoulombNumbers& law,
                                     const mohr_coulomb_lanes::ConeOf<Lanes<Isa::lanes>>& cone,
@@ -423,7 +424,7 @@ struct MohrCoulombLanes {
     };
 };
 
-/// The law where every point has a strength of its own.
+/// The law with an individual strength for each point.
 template <Softens softens_>
 struct MohrCoulombOfPointsLanes {
     using Numbers = MohrCoulombNumbers;

@@ -8,7 +8,7 @@ namespace {
 
 Tension tension_of(const MohrCoulomb& law) { return {law.tension_cutoff, law.tension_share}; }
 
-/// c and tan(phi) at a strain between the two of softening.
+/// Interpolates c and tan(phi) between peak and residual.
 template <class Strain>
 Strength softened(const Strength& peak, const Strength& residual, const Strain& of,
                   double epsilon_q) {
@@ -24,8 +24,7 @@ Softens softens_of(const MohrCoulomb& law) {
                                                            : Softens::with_plastic_strain;
 }
 
-/// In-plane principal values of a stress with the direction of the larger one (as
-/// mechanics::Principal).
+/// In-plane principal stresses and the direction of the larger (as mechanics::Principal).
 struct PlanePrincipal {
     double centre;
     double radius;
@@ -55,7 +54,7 @@ Order order_of(const PlanePrincipal& p) {
     return {0, 2, 1};
 }
 
-/// A trial stress, its return and the axes both share.
+/// A trial stress, its return, and their common axes.
 struct Turned {
     PlanePrincipal trial;
     Order order;
@@ -116,9 +115,9 @@ Update update_from(const MohrCoulombNumbers& law, const Cone& cone, const State&
     return update;
 }
 
-/// Shear stiffness in the trial's principal axes: the axes turn with the trial stress, so a shear
-/// strain moves the returned stress by (s_major - s_minor) / (trial major - trial minor) of what it
-/// moves the trial.
+/// Shear stiffness in the trial's principal axes, which turn with the trial stress. A shear strain
+/// changes the returned stress by (s_major - s_minor) / (trial major - trial minor) times the
+/// change of the trial.
 double shear_tangent(const Moduli& moduli, const Turned& turned, const Matrix3& principal) {
     const auto& [p, order, back] = turned;
     const double apart = 2.0 * p.radius;
@@ -126,13 +125,13 @@ double shear_tangent(const Moduli& moduli, const Turned& turned, const Matrix3& 
     if (apart > 1e-9 * scale) {
         return moduli.G * (back.sigma[order.major] - back.sigma[order.minor]) / apart;
     }
-    // The axes coalesce: the ratio becomes the derivative of the difference.
+    // Equal principal stresses: the ratio becomes a derivative.
     const int a = order.major;
     const int b = order.minor;
     return 0.25 * (principal(a, a) - principal(a, b) - principal(b, a) + principal(b, b));
 }
 
-/// From the trial's principal axes (major, minor, normal, shear between the first two) to x, y.
+/// From principal axes (major, minor, normal, in-plane shear) to x, y.
 Matrix4 to_section_axes(const PlanePrincipal& p, const Matrix4& in_principal_axes) {
     const double C = p.cos_2a;
     const double S = p.sin_2a;
@@ -161,7 +160,7 @@ MohrCoulombNumbers ready(const MohrCoulomb& law) {
     const double tan_phi = std::tan(law.phi);
     const double tan_psi = law.strength_of == StrengthOf::law
                                ? std::min(std::tan(law.psi), tan_phi)
-                               : std::tan(law.psi);  // each point's own phi bounds it
+                               : std::tan(law.psi);  // the phi of each point limits it
     const Softening softening = law.softening.value_or(Softening{});
     return {.moduli = make_moduli(law.elasticity),
             .c = law.c,

@@ -1,5 +1,5 @@
-// Mohr-Coulomb with tension cut-off for one point. What is the same for all points is
-// resolved once (`ready`), and the elastic step is inline.
+// Mohr-Coulomb with tension cut-off for one point. `ready` computes once what all points share; the
+// elastic step is inline.
 #pragma once
 
 #include <algorithm>
@@ -20,19 +20,19 @@ struct MohrCoulomb {
     double tension_cutoff;  ///< largest principal stress allowed [Pa], clipped to the cone's apex c
                             ///< / tan(phi)
     std::optional<Softening> softening;
-    /// point: in the MPM c, phi and their residuals are each point's own (strength/profile.hpp);
-    /// code without points uses the law's
+    /// point: in the MPM each point has its own c, phi and residuals (strength/profile.hpp); other
+    /// code uses those of the law.
     StrengthOf strength_of = StrengthOf::law;
-    double tension_share = 0.0;  ///< see Tension
+    double tension_share = 0.0;  ///< tensile over compressive strength, at least: see Tension
 };
 
-/// The law of one point that has a strength of its own.
+/// The law with the strength of one point.
 MohrCoulomb with_strength(MohrCoulomb law, const StrengthOfPoint<double>& strength);
 
-/// psi is lowered to phi where softening brings phi below it.
+/// Lowers psi to phi where softening brings phi below it.
 MohrCoulombNumbers ready(const MohrCoulomb& law);
 
-/// Strength in force at a given epsilon_q.
+/// Strength at this epsilon_q.
 Strength strength(const MohrCoulomb& law, double epsilon_q);
 
 Traits traits(const MohrCoulomb& law);
@@ -45,10 +45,9 @@ double yield_excess(const MohrCoulomb& law, const State& state);
 Voigt return_to_surface(const MohrCoulomb& law, const State& state);
 std::optional<LawLanes> for_particles(const MohrCoulomb& law);
 
-/// The cone in force at this epsilon_q.
 Cone cone_at(const MohrCoulombNumbers& law, double epsilon_q);
 
-/// The plastic half of integrate: `trial` lies outside `cone`.
+/// The plastic part of integrate: `trial` lies outside `cone`.
 Update return_from(const MohrCoulombNumbers& law, const Cone& cone, const State& trial);
 
 inline bool lies_inside(const Cone& cone, const Voigt& sigma) {
@@ -60,8 +59,7 @@ inline bool lies_inside(const Cone& cone, const Voigt& sigma) {
     return cone.k * s1 - s3 <= cone.q && s1 <= cone.T;
 }
 
-/// New state after the strain increment d_epsilon; softening is explicit (strength at the old
-/// epsilon_q).
+/// New state after the strain increment. Softening is explicit: strength at the old epsilon_q.
 inline Update integrate(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon) {
     State trial{trial_stress(law.moduli, old.sigma, d_epsilon), old.epsilon_q};
     if (law.softens == Softens::never) {

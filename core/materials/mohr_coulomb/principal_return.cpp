@@ -19,15 +19,14 @@ Cone make_cone(double c, double tan_phi, double tan_psi, const Tension& tension)
 
 namespace {
 
-/// Plastic strain D^-1 (trial - sigma); split into deviator and volume so that nu -> 0.5 loses no
-/// digits.
+/// Plastic strain D^-1 (trial - sigma), from deviator and volume: no loss of digits for nu -> 0.5.
 Triple plastic_strain(const Moduli& moduli, const Triple& trial, const Triple& sigma) {
     const Triple removed = trial - sigma;
     const double mean = removed.sum() / 3.0;
     return (removed.array() - mean) / (2.0 * moduli.G) + mean / (3.0 * moduli.K);
 }
 
-/// a : D^-1 b, again deviator and volume apart.
+/// a : D^-1 b, from deviator and volume.
 double compliance_product(const Moduli& moduli, const Triple& a, const Triple& b) {
     const double mean_a = a.sum() / 3.0;
     const double mean_b = b.sum() / 3.0;
@@ -38,7 +37,7 @@ double compliance_product(const Moduli& moduli, const Triple& a, const Triple& b
 
 struct Line {
     Triple base;
-    Triple direction;       ///< along which both planes stay satisfied
+    Triple direction;       ///< of the line on which both planes are satisfied
     Triple flow_direction;  ///< normal to both flow vectors
 };
 
@@ -49,20 +48,20 @@ Line edge_minor(const Cone& cone) {
     return {{0.0, -cone.q, -cone.q}, {1.0, cone.k, cone.k}, {1.0, cone.m, cone.m}};
 }
 
-/// The point of the line from which the flow vectors reach the trial point.
+/// Point on the line from which the flow vectors lead to the trial point.
 Triple on_line(const Moduli& moduli, const Line& line, const Triple& trial) {
     const double t = compliance_product(moduli, line.flow_direction, trial - line.base) /
                      compliance_product(moduli, line.flow_direction, line.direction);
     return line.base + t * line.direction;
 }
 
-/// A facet's return and by how much it breaks the conditions that would make it the right one [Pa].
+/// The return to one facet, and by how much it violates that facet's conditions [Pa].
 struct Candidate {
     PrincipalReturn point;
     double violation;
 };
 
-/// The trial point seen from one cone: builds candidate after candidate.
+/// Returns of a trial point to the facets of a cone, one candidate after another.
 class Candidates {
   public:
     Candidates(const Cone& cone, const Moduli& moduli, const Triple& trial)
@@ -77,8 +76,7 @@ class Candidates {
             f / (moduli_.lambda * (k - 1.0) * (m - 1.0) + two_G_ * (k * m + 1.0));
         Triple sigma =
             trial_ - multiplier * Triple(volumetric + two_G_ * m, volumetric, volumetric - two_G_);
-        sigma[0] =
-            (cone_.q + sigma[2]) / k;  // on the plane to the last digit, however far the trial was
+        sigma[0] = (cone_.q + sigma[2]) / k;  // exactly on the plane, for any distance of the trial
         const double violation =
             std::max({sigma[1] - sigma[0], sigma[2] - sigma[1], sigma[0] - cone_.T, -f});
         return {{sigma, {multiplier * m, 0.0, -multiplier}, Facet::cone_plane}, violation};
@@ -143,7 +141,7 @@ class Candidates {
         return each;
     }
 
-    /// Where all three axes meet: only the cut-off flows below the apex, everything flows at it.
+    /// At T all axes meet. Below the apex only the cut-off is active; at the apex everything.
     Candidate tip() const {
         Candidate each = from_stress(Triple::Constant(cone_.T), Facet::tip);
         const Triple& e = each.point.d_epsilon_plastic;
@@ -171,9 +169,8 @@ class Candidates {
 
 PrincipalReturn return_to_cone(const Cone& cone, const Moduli& moduli, const Triple& trial) {
     const Candidates facets(cone, moduli, trial);
-    // Exactly one facet is right up to round-off; on the border between two, both give the same
-    // point. So the order of trying is only a matter of speed, and the least violation is the
-    // answer if round-off leaves none.
+    // Exactly one facet is right up to round-off; on a border, both give the same point. The order
+    // only affects speed, and the least violation decides if round-off leaves none.
     const double tolerance = 1e-12 * (trial.cwiseAbs().maxCoeff() + cone.q);
     Candidate best = facets.cone_plane();
     const auto settled = [&](const Candidate& next) {
@@ -215,7 +212,7 @@ Matrix3 plane_tangent(const Moduli& moduli, const Triple& n, const Triple& g) {
     return D - Dg * Dn.transpose() / n.dot(Dg);
 }
 
-/// On a line only stress along it can change.
+/// On a line, only the stress component along it can change.
 Matrix3 line_tangent(const Moduli& moduli, const Triple& direction, const Triple& flow_direction) {
     return direction * flow_direction.transpose() /
            compliance_product(moduli, flow_direction, direction);

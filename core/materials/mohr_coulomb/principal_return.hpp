@@ -1,6 +1,5 @@
-// Exact return to the Mohr-Coulomb cone with tension cut-off, in sorted principal stresses. No
-// tensors, no softening: one strength, one trial point, the facet of the polyhedron on which the
-// return ends.
+// Exact return to the Mohr-Coulomb cone with tension cut-off, in sorted principal stresses: one
+// strength, one trial point, the facet of the polyhedron on which the return ends.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,12 +9,11 @@
 
 namespace breach::materials {
 
-/// Principal values s1 >= s2 >= s3: stresses [Pa], tension positive, or strains [-] of the same
-/// axes.
+/// Sorted principal values s1 >= s2 >= s3: stresses [Pa], tension positive, or strains [-].
 using Triple = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
 
-/// Where on the polyhedron a return ends; Q = k T - q is s3 where cone and cut-off meet.
+/// The facet on which a return ends; Q = k T - q is s3 where cone and cut-off meet.
 enum class Facet {
     cone_plane,             ///< k s1 - s3 = q
     cone_edge_major,        ///< and s1 = s2
@@ -34,9 +32,9 @@ struct PrincipalReturn {
     Facet facet;
 };
 
-/// Returns a trial point that lies outside. Solves Koiter's rule exactly: the one facet on which
-/// every multiplier is non-negative and no other plane is violated (Clausen, Damkilde & Andersen
-/// 2006, extended by the cut-off).
+/// Returns a trial point that lies outside by Koiter's rule: the one facet with non-negative
+/// multipliers that violates no other plane (Clausen, Damkilde & Andersen 2006, extended by the
+/// cut-off).
 PrincipalReturn return_to_cone(const Cone& cone, const Moduli& moduli, const Triple& trial);
 
 /// d sigma / d epsilon of the return in principal axes [Pa].

@@ -1,5 +1,5 @@
-// The undrained strength of level ground as a function of place: of the law's own path in simple
-// shear from sigma'_v0, K_0 and psi_0 there, tabulated once.
+// Undrained strength of level ground as a function of place: the law's path in simple shear from
+// sigma'_v0, K_0 and psi_0, tabulated once.
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,11 @@ namespace breach::materials {
 
 namespace {
 
-constexpr double least_stress = 1e3, most_stress = 1e7;  // of the table [Pa]; held beyond
-constexpr int stresses = 41;                             // ten in a decade
+constexpr double least_stress = 1e3, most_stress = 1e7;  // ends of the table [Pa]; constant beyond
+constexpr int stresses = 41;                             // ten per decade
 constexpr double psi_step = 0.005;
 
-/// Where x stands in an ascending table: the index before it and its share of the way to the next.
+/// Position of x in an ascending table: index before it, and share of the interval.
 struct Spot {
     std::size_t before;
     double share;
@@ -30,10 +30,10 @@ Spot spot_in(const std::vector<double>& table, double x) {
 
 class StrengthByState {
   public:
-    /// S, K_0 and the state parameter are the law's.
+    /// S, K_0 and the state parameter are those of the law.
     StrengthByState(const NorSand& law, OnPath part);
 
-    /// tau on a plane along level ground [Pa]. Never above tau of the critical state at p' + u.
+    /// tau on horizontal planes [Pa]; at most the critical tau at p' + u.
     double operator()(const Place& place, double u) const;
 
   private:
@@ -42,8 +42,8 @@ class StrengthByState {
 
     NorSand law_;
     OnPath part_;
-    double tau_over_p_;              ///< at the critical state
-    std::vector<double> psi_;        ///< ascending; one: the same everywhere, or of e_0
+    double tau_over_p_;              ///< at critical state
+    std::vector<double> psi_;        ///< ascending; one value: psi is constant, or from e_0
     std::vector<double> ln_stress_;  ///< ascending
     std::vector<double> ln_ratio_;   ///< [psi][stress] of tau / sigma'_v0
 };
@@ -67,7 +67,7 @@ StrengthByState::StrengthByState(const NorSand& law, OnPath part) : law_(law), p
 }
 
 double StrengthByState::ratio_from(double psi, double sigma_v0) const {
-    constexpr double far = 20.0;  // times p: farther than any u but that of deep water
+    constexpr double far = 20.0;  // in units of p: more than any u except in deep water
     NorSand law = law_;
     law.psi_0_profile.reset();
     if (!law.e_0) law.psi_0 = psi;
@@ -80,7 +80,7 @@ double StrengthByState::ratio_from(double psi, double sigma_v0) const {
 
 double StrengthByState::operator()(const Place& place, double u) const {
     const double sigma_v0 = std::max(place.sigma_v0, 0.0);
-    // Below the table soil is as strong as at its least stress: that is the floor p_min's.
+    // Below the table, the strength is that at its least stress, as p_min limits it.
     const Spot row = spot_in(psi_, psi_at(law_, place));
     const Spot column = spot_in(ln_stress_, std::log(std::max(sigma_v0, least_stress)));
     const auto of_row = [&](std::size_t i) {

@@ -20,7 +20,7 @@ Components<double> direction_of(const Strain& d) {
     Components<double> dev = deviator(d, trace(d) / 3.0);
     dev.xy *= 0.5;
     const double size = shear_measure(dev);
-    // What round-off leaves of a volumetric strain is no direction.
+    // The round-off of a volumetric strain is no direction.
     if (!(size > 1e-12 * norm(d))) return {0.0, 0.0, 0.0, 0.0};
     return (1.0 / size) * dev;
 }
@@ -30,7 +30,7 @@ namespace {
 constexpr double near_surface = 1e-7;   ///< |F| / p that counts as on the surface
 constexpr double found_surface = 1e-9;  ///< section 10
 
-/// The size of the surface through a stress [Pa].
+/// Size of the yield surface through a stress [Pa].
 double size_through(const Ready& law, const State& state) {
     const Components<double> sigma = stress_of(state);
     const double p = trace(sigma) / 3.0;
@@ -39,8 +39,8 @@ double size_through(const Ready& law, const State& state) {
     return image_size(law, {p, shear_measure(s) / p, M, state.e, state.chi_i});
 }
 
-/// What `Unloading::capped` does on an elastic path: the surface shrinks to the limiting size, and
-/// the stress may come to lie on it; or it shrinks no farther than to the stress.
+/// Yield surface on an elastic path with `Unloading::capped`. shrinks: to the limiting size, so
+/// that the stress may meet it; follows: no smaller than through the stress.
 enum class Cap { shrinks, follows };
 
 /// Elastic strain from a state, section 10.
@@ -61,7 +61,7 @@ class ElasticPath {
         K_floor_ = law.K_over_G * norsand::shear_modulus(law, par.p_min, ln_floor);
     }
 
-    /// The state after the share `a` of the strain; its size follows the cap where there is one.
+    /// State after the share `a` of the strain, with the capped surface.
     State at(double a) const {
         const double volume = a * volume_;
         const double p = mean_stress(volume);
@@ -84,7 +84,7 @@ class ElasticPath {
         return out;
     }
 
-    /// Yield function over p_min or p, whichever is larger; tension lies outside.
+    /// Yield function over max(p, p_min); positive in tension.
     double excess(const State& state) const {
         const double p = trace(stress_of(state)) / 3.0;
         const double scale = std::max(p, law_.parameters.p_min);
@@ -127,8 +127,8 @@ class ElasticPath {
     double G_0_, K_floor_;
 };
 
-/// The share of the path at which the surface is met, between `a` (inside) and `b` (outside):
-/// Pegasus.
+/// Share of the path at which it meets the yield surface, between `a` (inside) and `b` (outside),
+/// by the Pegasus method.
 double crossing(const ElasticPath& path, double a, double F_a, double b, double F_b) {
     double at = b;
     for (int pass = 0; pass < 100; ++pass) {
@@ -147,7 +147,7 @@ double crossing(const ElasticPath& path, double a, double F_a, double b, double 
     return at;
 }
 
-/// Section 8.
+/// Section 8: p = p_min.
 void hold_at_floor(const Ready& law, State& state) {
     const double p_min = law.parameters.p_min;
     const Components<double> sigma = stress_of(state);
@@ -161,8 +161,8 @@ void hold_at_floor(const Ready& law, State& state) {
     state.on_floor = true;
 }
 
-/// Section 8: no principal stress is tension. The deviator shrinks until the least one is 0; the
-/// size of the surface stays, and the point lies inside it. True if there was tension.
+/// Section 8: removes tension by scaling the deviator until the least principal stress is 0. The
+/// yield surface stays; the point is inside. True if there was tension.
 bool cut_off_tension(State& state) {
     const Components<double> sigma = stress_of(state);
     const double p = trace(sigma) / 3.0;
@@ -176,11 +176,12 @@ bool cut_off_tension(State& state) {
     return true;
 }
 
-/// Section 11: strain that every state can follow; where one cannot, cutting it on would not help.
+/// Section 11: smallest strain to subdivide; if it cannot be integrated, smaller parts would not
+/// help.
 constexpr double least_followed = 1e-6;
 
-/// Section 11: where the surface shrinks faster than strain can follow (A <= 0), the stress falls
-/// at constant strain, to the critical state of the void ratio or the floor.
+/// Section 11: if the surface shrinks faster than strain can follow (A <= 0), the stress falls at
+/// constant strain to the critical state of the void ratio, or to the floor.
 void fall(const Ready& law, State& state) {
     const Components<double> sigma = stress_of(state);
     const double p_old = trace(sigma) / 3.0;
@@ -207,7 +208,7 @@ bool open_call(const Ready& law, const State& old, const Strain& d, Task& task) 
     *task.update = {old, Outcome::done, {}};
     State& state = task.update->state;
     task.plastic = d;
-    // An opened point waits until it is closed again.
+    // At the floor p_min, dilation does not change the stress.
     if (old.on_floor && trace(d) < 0.0) return false;
     state.on_floor = false;
     const ElasticPath path(law, old, d, Cap::shrinks);

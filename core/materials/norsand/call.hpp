@@ -1,6 +1,6 @@
-// A call around its walk (walk.hpp): the elastic part before the surface is met, unloading on the
-// way, and the closing at the floor (sections 4, 8, 10). One point and several side by side share
-// this text.
+// What surrounds the walk (walk.hpp) in a call: the elastic part up to the yield surface,
+// unloading, and closing at the floor p_min (sections 4, 8, 10). Shared by one point and several
+// side by side.
 #pragma once
 
 #include <algorithm>
@@ -13,31 +13,31 @@ namespace breach::materials::norsand {
 
 using Strain = Components<double>;
 
-/// Compression positive strain increment of a tension positive one.
+/// The strain increment with compression positive, from one with tension positive.
 Strain inward(const Voigt& d_epsilon);
 bool may_be_tried(const Strain& d, const Options& options);
 
-/// The direction of a strain's deviator as a stress of unit measure; zero for a zero deviator.
+/// Deviator of a strain, scaled as a stress with q = 1; zero for a zero deviator.
 Components<double> direction_of(const Strain& d);
 
-/// Lower limit of the guessed sub-step: after a call with a strain of round-off (or zero) a smaller
+/// Lower limit of the guessed sub-step. After a call with a strain of round-off size, a smaller
 /// guess would cost the next call all its evaluations in doublings.
 inline constexpr double least_guess = 1e-8;  // strain
 
-/// One call in progress: the data that a lane of a walk does not carry.
+/// One call in progress: the data that a walk's lane does not contain.
 struct Task {
-    Update* update;  ///< the state being changed, and what is counted
-    Strain plastic;  ///< strain that is left after the elastic part
+    Update* update;  ///< new state and counts
+    Strain plastic;  ///< strain after the elastic part
 };
 
-/// Elastic part. True if there is plastic strain to walk through.
+/// Integrates the elastic part. True if plastic strain remains.
 bool open_call(const Ready& law, const State& old, const Strain& d, Task& task);
 
-/// Takes a state on the surface that unloads along the strain `rest`; returns the elastic share. 1:
-/// all of it; 0: none, the apparent unloading was neutral. Moves the state.
+/// Moves a state that unloads along the strain `rest` and returns the elastic share. 1: all of it;
+/// 0: none, the apparent unloading was neutral loading.
 double unload(const Ready& law, const Strain& rest, State& state);
 
-/// Closes a call: void ratio, floor, tension, and the old state if it failed.
+/// Closes a call: void ratio, floor, tension; restores the old state if the call failed.
 void finish_call(const Ready& law, const State& old, const Strain& d, Task& task);
 
 template <class R>
@@ -62,7 +62,7 @@ inline void set_stress(State& state, const Components<double>& sigma) {
     state.xy = sigma.xy;
 }
 
-/// Puts an opened task into lane i.
+/// Copies an opened task into lane i.
 template <class R>
 [[gnu::always_inline]] inline void load(const Task& task, int i, Walk<R>& walk) {
     using lanes::set_lane;
@@ -84,7 +84,7 @@ template <class R>
     for (R* count : walk.counts()) set_lane(*count, i, 0.0);
 }
 
-/// Writes lane i back into its task.
+/// Copies lane i back into its task.
 template <class R>
 [[gnu::always_inline]] inline void store(const Ready&, int i, const Walk<R>& walk, Task& task) {
     using lanes::lane;
@@ -103,7 +103,7 @@ template <class R>
                             .cut_off = 0};
 }
 
-/// What lane i does after `begin` found that it unloads.
+/// Handles lane i after `begin` found that it unloads.
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
                                                    Task& task) {
@@ -128,7 +128,7 @@ template <class R>
     return Next::again;
 }
 
-/// Whether lane i has ended, after `advance` or before `begin`, and how.
+/// Whether lane i has ended after `advance` or before `begin`, and with which outcome.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
                                         const Options& options, Task& task) {
@@ -139,7 +139,6 @@ template <class R>
     return stuck || over;
 }
 
-/// The interface of calls.hpp.
 struct Calls {
     using Ready = norsand::Ready;
     using State = norsand::State;

@@ -12,7 +12,7 @@ void for_each_real(AnyState& s, Visit visit) {
     visit(s.p_i), visit(s.e), visit(s.chi_i), visit(s.epsilon_q), visit(s.sub_step);
 }
 
-/// Calls visit(x) for every number of the state: on_floor and has_fallen come last, as 0 or 1.
+/// Calls visit(x) for every number of the state; on_floor and has_fallen come last, as 0 or 1.
 template <class Visit>
 void for_each_number(const State& s, Visit visit) {
     for_each_real(s, visit);

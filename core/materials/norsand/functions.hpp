@@ -1,5 +1,5 @@
-// The state functions of NorSand, sections 1 to 7 of docs/reference/methods/norsand.md, for one point or for
-// several side by side. Pure formulas: no integration in here. Compression positive.
+// State functions of NorSand, sections 1 to 7 of docs/reference/methods/norsand.md, for one point
+// or several side by side. Compression positive.
 #pragma once
 
 #include <cmath>
@@ -11,12 +11,13 @@
 namespace breach::materials::norsand {
 
 inline constexpr double kPa = 1000.0;
-inline constexpr double least_f = 0.2;          ///< guard of section 3
-inline constexpr double least_eta_L = 0.05;     ///< guard of section 6, as a share of M_i
-inline constexpr double least_H = 10.0;         ///< section 6
-inline constexpr double no_deviator = 1e-7;     ///< q/p below which a stress has no direction
-inline constexpr double on_axis = 3e-9;         ///< cos 3 theta within 1e-9 of the triaxial lines
-inline constexpr double least_dilation = -1.2;  ///< of the triaxial lines in js; guard of section 5
+inline constexpr double least_f = 0.2;       ///< guard of section 3: least M_i / M
+inline constexpr double least_eta_L = 0.05;  ///< guard of section 6, as a share of M_i
+inline constexpr double least_H = 10.0;      ///< least hardening modulus, section 6
+inline constexpr double no_deviator = 1e-7;  ///< q/p below which a stress has no direction
+inline constexpr double on_axis = 3e-9;  ///< cos 3 theta below which a stress counts as triaxial
+/// least dilatancy on the triaxial lines, flow rule js; guard of section 5
+inline constexpr double least_dilation = -1.2;
 
 /// A symmetric tensor in plane strain: a stress, or a strain with engineering shear.
 template <class R>
@@ -50,7 +51,6 @@ template <class R>
 [[gnu::always_inline]] inline R trace(const Components<R>& a) {
     return a.xx + a.yy + a.zz;
 }
-/// Of a stress.
 template <class R>
 [[gnu::always_inline]] inline R norm(const Components<R>& a) {
     return lanes::root(a.xx * a.xx + a.yy * a.yy + a.zz * a.zz + R(2.0) * a.xy * a.xy);
@@ -59,7 +59,7 @@ template <class R>
 [[gnu::always_inline]] inline Components<R> deviator(const Components<R>& a, const R& mean) {
     return {a.xx - mean, a.yy - mean, a.zz - mean, a.xy};
 }
-/// sqrt(3/2 s:s) of a deviatoric stress.
+/// q = sqrt(3/2 s:s) of a deviatoric stress.
 template <class R>
 [[gnu::always_inline]] inline R shear_measure(const Components<R>& s) {
     return lanes::root(R(1.5) * (s.xx * s.xx + s.yy * s.yy + s.zz * s.zz) + R(3.0) * s.xy * s.xy);
@@ -68,17 +68,17 @@ template <class R>
 /// The principal axes and the Lode angle of a deviator, sections 1 and 3.
 template <class R>
 struct Axes {
-    R m_1, m_2, m_3;               ///< principal deviators over q, falling
-    R cos_2a, sin_2a;              ///< direction of the larger one in the plane
-    MaskOf<R> zz_first, zz_third;  ///< where the zz axis stands among the three
-    MaskOf<R> isotropic;           ///< no direction at all
+    R m_1, m_2, m_3;               ///< principal deviatoric stresses over q, descending
+    R cos_2a, sin_2a;              ///< a: angle of the larger in-plane direction
+    MaskOf<R> zz_first, zz_third;  ///< zz is the largest or the smallest of the three
+    MaskOf<R> isotropic;           ///< no direction
     R sine_3;                      ///< sin 3 theta
     R cosine_3;                    ///< cos 3 theta
     R half_cosine;                 ///< cos(3 theta / 2 + 45 deg)
     R half_sine;
 };
 
-/// s: deviatoric stress; q: its measure where `has_direction`.
+/// Principal axes of the deviatoric stress s.
 template <class R>
 [[gnu::always_inline]] inline Axes<R> axes_of(const Components<R>& s) {
     using namespace lanes;
@@ -113,7 +113,7 @@ template <class R>
     return a;
 }
 
-/// Principal values along the axes, back in the plane. Shear: both values apart by sin 2a.
+/// The tensor with these principal values along the axes, as in-plane components.
 template <class R>
 [[gnu::always_inline]] inline Components<R> along(const Axes<R>& a, const R& v_1, const R& v_2,
                                                   const R& v_3) {
@@ -127,7 +127,7 @@ template <class R>
     return {centre + turned, centre - turned, third, apart * a.sin_2a};
 }
 
-/// Section 2 at ln(p / 1 kPa).
+/// The critical state line at ln(p / 1 kPa), section 2.
 template <class R>
 struct OnLine {
     R e_c;
@@ -153,14 +153,14 @@ template <class R>
     return R(par.G_ref) * lanes::exponential(R(par.m) * (ln_p - R(law.ln_p_ref)));
 }
 
-/// Where formulas are evaluated.
+/// State at which the formulas are evaluated.
 template <class R>
 struct Place {
     Components<R> sigma;
     R p_i, e, chi_i;
 };
 
-/// Sections 3 and 4.
+/// Stress ratios and image state, sections 3 and 4.
 template <class R>
 struct Surface {
     R p, q;
@@ -176,7 +176,7 @@ struct Surface {
     Axes<R> axes;
 };
 
-/// direction: replaces the deviatoric stress where that vanishes (section 5).
+/// direction: used if the deviatoric stress vanishes (section 5).
 template <class R>
 [[gnu::always_inline]] inline Surface<R> surface_at(const Ready& law, const Place<R>& at,
                                                     const Components<R>& direction) {
@@ -186,7 +186,7 @@ template <class R>
     out.p = trace(at.sigma) * R(1.0 / 3.0);
     out.s = deviator(at.sigma, out.p);
     out.q = shear_measure(out.s);
-    // Far below the floor values have no meaning; logarithms must exist all the same.
+    // Far below the floor p_min the values are meaningless, but the logarithms must exist.
     const R p = larger(out.p, R(1e-3 * par.p_min));
     const auto flat = out.q < R(no_deviator) * p;
     out.axes = axes_of(choose(flat, direction, out.s));
@@ -210,15 +210,15 @@ template <class R>
 struct Flow {
     R G, K;
     R D;
-    Components<R> r;  ///< deviator of the plastic strain per unit of epsilon_q, engineering shear
-    Components<R> n;  ///< deviator of the gradient of F, the same
+    Components<R> r;  ///< deviatoric plastic strain per unit of epsilon_q, engineering shear
+    Components<R> n;  ///< deviatoric gradient of F, engineering shear
     R F_e;
     R h;  ///< d p_i per unit of epsilon_q [Pa]
-    R A;  ///< [Pa]
+    R A;  ///< denominator of the plastic multiplier, section 7 [Pa]
     MaskOf<R> guarded;
 };
 
-/// Section 5, js: principal strain rates over their work-conjugate measure.
+/// Section 5, flow rule js: deviatoric ratios of the principal strain rates.
 template <class R>
 [[gnu::always_inline]] inline Components<R> ratios_of_js(const Ready& law, const Surface<R>& at,
                                                          const R& D) {
@@ -242,7 +242,7 @@ template <class R>
     return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz;
 }
 
-/// Section 6, d p_i per unit of epsilon_q.
+/// Section 6: d p_i per unit of epsilon_q.
 template <class R>
 [[gnu::always_inline]] inline R hardening(const Ready& law, const Place<R>& at,
                                           const Surface<R>& surface, const R& K, const R& D,
@@ -285,7 +285,7 @@ template <class R>
     out.K = R(law.K_over_G) * out.G;
     out.D = -surface.M_i * surface.ln_ratio;
 
-    // On the surface F_theta / q = -(dM / d theta) / M; on the triaxial lines nothing turns.
+    // On the surface F_theta / q = -(dM / d theta) / M; 0 on the triaxial lines.
     const R slope = R(1.5 * law.M_fall) * a.half_sine;
     const R pull = select(magnitude(a.cosine_3) < R(on_axis), none, -slope / surface.M);
     // t_k of section 7: cos(60 + theta), -cos theta, cos(60 - theta) from the deviators.
@@ -303,7 +303,7 @@ template <class R>
     const Components<R> r_k = choose(a.isotropic, nothing, r);
 
     out.h = hardening(law, at, surface, out.K, out.D, out.guarded);
-    // sign(0) = 0, and none while the guard holds f.
+    // dM_i / d psi: sign(0) = 0, and 0 while the guard limits f.
     const R side =
         select(surface.psi_i > none, R(1.0), select(surface.psi_i < none, R(-1.0), none));
     const R M_psi =
@@ -317,7 +317,7 @@ template <class R>
     return out;
 }
 
-/// g . d of section 7: how much a strain increment d loads the surface.
+/// g . d of section 7: the drive of a strain increment d; negative: unloading.
 template <class R>
 [[gnu::always_inline]] inline R loading(const Flow<R>& flow, const R& e, const Components<R>& d) {
     const R volume = trace(d);
@@ -325,7 +325,7 @@ template <class R>
     return (flow.K * flow.D - (R(1.0) + e) * flow.F_e) * volume + R(2.0) * flow.G * shear;
 }
 
-/// D_e applied to a strain whose deviator and volume are given. Shear of the deviator: engineering.
+/// D_e applied to a strain with this deviator (engineering shear) and volume.
 template <class R>
 [[gnu::always_inline]] inline Components<R> elastic(const R& G, const R& K,
                                                     const Components<R>& dev, const R& volume) {

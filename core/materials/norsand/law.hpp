@@ -1,5 +1,5 @@
-// NorSand (norsand.hpp) as one of the laws. Its points remember a norsand::State (memory.hpp), from
-// which its undrained strength follows (state_parameter.hpp).
+// NorSand (norsand.hpp) in the interface of a law. A point's memory is a norsand::State
+// (memory.hpp), which determines its undrained strength (state_parameter.hpp).
 #pragma once
 
 #include <algorithm>
@@ -17,18 +17,20 @@ struct NorSand {
     using Update = norsand::Update;
     static constexpr bool has_state_parameter = true;
 
-    mechanics::Elasticity elasticity;  ///< of the stages before norsand::initialise: G = G_ref
-    norsand::Ready ready;              ///< S is the material's; stages may set another (with_S)
+    /// of the elastic stages before norsand::initialise: G = G_ref
+    mechanics::Elasticity elasticity;
+    norsand::Ready ready;  ///< with the material's S; stages may set another (with_S)
     norsand::Options options;
-    std::optional<double> psi_0;  ///< initial state parameter [-]; exactly one of the three
-    std::optional<double> e_0;    ///< initial void ratio [-]
-    double R = 1.0;               ///< overconsolidation [-]
+    /// initial state parameter [-]; give exactly one of psi_0, e_0, psi_0_profile
+    std::optional<double> psi_0;
+    std::optional<double> e_0;             ///< initial void ratio [-]
+    double R = 1.0;                        ///< overconsolidation [-]
     std::optional<Table> psi_0_profile{};  ///< psi_0 along depth or elevation
 };
 
 inline const NorSand& ready(const NorSand& law) { return law; }
 
-/// sigma'_h / sigma'_v of level ground [-], by the elastic stages.
+/// sigma'_h / sigma'_v of level ground after elastic stages [-].
 inline double K_0(const NorSand& law) { return law.elasticity.nu / (1.0 - law.elasticity.nu); }
 /// p' of level ground under sigma'_v0 [Pa].
 inline double level_ground_p(const NorSand& law, double sigma_v0) {
@@ -43,7 +45,7 @@ inline double psi_at(const NorSand& law, const Place& place) {
            norsand::critical_void_ratio(law.ready, std::max(p, law.ready.parameters.p_min));
 }
 
-/// Its tangent in the FEM is the elastic predictor's, which is symmetric.
+/// The FEM uses the tangent of the elastic predictor, which is symmetric.
 inline Traits traits(const NorSand&) {
     return {.type = "norsand",
             .name = "NorSand",
@@ -56,13 +58,13 @@ inline Traits traits(const NorSand&) {
 }
 /// Sine of the friction angle of triaxial compression at the stress ratio eta = q/p.
 inline double sine_at(double eta) { return 3.0 * eta / (6.0 + eta); }
-/// Soil at critical state: friction alone.
+/// At critical state: friction only.
 inline std::optional<Strength> limit_strength(const NorSand& law) {
     return Strength{0.0, std::tan(std::asin(sine_at(law.ready.parameters.M_tc)))};
 }
 inline const Softening* softening(const NorSand&) { return nullptr; }
 inline StrengthEntries strength_entries(NorSand&) { return {}; }
-/// Its surface depends on the memory of its points: a stress alone is neither inside nor outside.
+/// The surface depends on the point's memory: from a stress alone nothing can be said.
 inline double yield_excess(const NorSand&, const State&) {
     return -std::numeric_limits<double>::infinity();
 }
@@ -84,22 +86,22 @@ NorSand at_place(const NorSand& law, const PlaceOf& place_of) {
             .e_0 = {},
             .R = law.R};
 }
-/// The initial stress of a point as the law reads it.
+/// How the law reads the initial stress of a point.
 inline norsand::Beginning beginning(const NorSand& law, const Voigt& sigma) {
     const double p = mean_stress(law, sigma);
     const double e_0 =
         law.e_0 ? *law.e_0 : law.psi_0.value_or(0.0) + critical_void_ratio(law.ready, p);
     return norsand::initialise(law.ready, sigma, e_0, law.R);
 }
-/// The volume strain of elastic stages is ignored: psi_0 belongs to the initial stress.
+/// Ignores the volumetric strain of elastic stages: psi_0 applies to the initial stress.
 inline norsand::State first_memory(const NorSand& law, const Voigt& sigma, double) {
     return beginning(law, sigma).state;
 }
 inline Voigt stress(const NorSand&, const norsand::State& memory) {
     return norsand::stress(memory);
 }
-/// Halves a call that the law wants cut, and the halves again, until the evaluations are used up; strains of round-off size
-/// change nothing.
+/// Halves a strain increment that the law could not integrate, and the halves again, until the
+/// evaluations are used up. Ignores strain of round-off size.
 inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::State& old,
                                           const Voigt& d_epsilon, int cuts_left,
                                           int& evaluations_left) {
@@ -120,7 +122,7 @@ inline norsand::Update integrate_in_parts(const NorSand& law, const norsand::Sta
 inline void integrate(const NorSand& law, std::span<const norsand::State> old,
                       std::span<const Voigt> d_epsilon, std::span<norsand::Update> updates) {
     norsand::integrate(law.ready, old, d_epsilon, law.options, updates);
-    constexpr int most_cuts = 10, most_calls = 50;  // cost of so many calls at their limit
+    constexpr int most_cuts = 10, most_calls = 50;  // cost of most_calls calls at their limit
     for (std::size_t i = 0; i < updates.size(); ++i) {
         if (updates[i].outcome != norsand::Outcome::unresolved) continue;
         int evaluations_left = most_calls * law.options.most_evaluations;
@@ -133,12 +135,12 @@ inline Matrix4 elastic_tangent(const NorSand& law, const norsand::State& memory)
 inline double shear_modulus(const NorSand& law, const norsand::State& memory) {
     return norsand::read(law.ready, memory).G;
 }
-/// For the stress ratio that `initialise` allows.
+/// For the largest stress ratio that `initialise` allows.
 inline double friction(const NorSand& law, const norsand::State& memory) {
     const norsand::Reading reading = norsand::read(law.ready, memory);
     return sine_at(0.98 * std::max(std::min(reading.eta_L, reading.M_i), 0.05));
 }
-/// Nothing is kept separately: a stress outside the limit was reduced to it.
+/// 0: a stress outside the limit is reduced to it, nothing is kept separately.
 inline double stress_outside(const NorSand&, const norsand::State&) { return 0.0; }
 inline bool has_fallen(const NorSand&, const norsand::State& memory) { return memory.has_fallen; }
 
@@ -148,7 +150,7 @@ inline Instability instability(const NorSand& law, const norsand::State& state) 
     Instability out{at.psi, ratio, false};
     const double half = 0.5 * (state.yy - state.xx);  // tension positive, like the strain
     if (std::hypot(half, state.xy) <= 1e-7 * at.p) return out;
-    // The tangent's response to a strain in the plane along the deviator at constant volume.
+    // Response of the tangent to in-plane strain along the deviator at constant volume.
     const Voigt along(half, -half, 0.0, -2.0 * state.xy);
     const Voigt s(at.p - state.xx, at.p - state.yy, at.p - state.zz, -state.xy);
     const Voigt rate = plastic_tangent(law.ready, state, along) * along;
@@ -167,7 +169,7 @@ inline UndrainedStrength undrained_strength(const NorSand& law, const Voigt& sig
     const auto begun = norsand::initialise(law.ready, sigma, e, 1.0);
     return norsand::undrained_strength(law.ready, begun.state, p + std::max(u, 0.0));
 }
-/// From a table that is made once.
+/// Interpolates a table that is computed once.
 UndrainedByPlace undrained_by_place(const NorSand& law, OnPath part);
 inline void set_s(NorSand& law, double S) {
     norsand::Parameters parameters = law.ready.parameters;

@@ -1,4 +1,4 @@
-// The public interface: one call, and the tangents.
+// Public functions: integration and tangents.
 #include "core/materials/norsand/norsand.hpp"
 
 #include "core/materials/norsand/call.hpp"
@@ -7,7 +7,7 @@ namespace breach::materials::norsand {
 
 namespace {
 
-/// Surface and flow of a state that loading goes on from in the direction d.
+/// Surface and flow of a state for loading in the direction d.
 struct There {
     Place<double> place;
     Surface<double> surface;

@@ -1,4 +1,4 @@
-// What follows from the parameters, the beginning of a point, and what can be read off it.
+// Derived parameters, initial state, and quantities read from a state.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -91,7 +91,7 @@ double image_size(const Ready& law, const Bullet& at) {
         x = next;
         if (settled) return at.p * std::exp(x);
     }
-    // Steep lines: no contraction, but a sign change between the tip and the guard.
+    // Steep lines: the iteration diverges; bisect, as the sign changes between tip and guard.
     double low = -1.0, high = at.eta / (least_f * at.M);
     for (int round = 0; round < 200; ++round) {
         x = 0.5 * (low + high);
@@ -119,7 +119,7 @@ double capped_size(const Ready& law, double p, double e, double chi_i, double p_
 
 namespace {
 
-/// Section 9: the largest stress ratio that the image state of this one lets stand.
+/// Section 9: the largest stress ratio that the image state of `at` allows.
 double largest_ratio(const Ready& law, const Bullet& at) {
     const double psi_i = at.e - critical_void_ratio(law, image_size(law, at));
     const double M_i = at.M * image_share(law, at.chi_i, psi_i);

@@ -14,16 +14,16 @@ namespace {
 constexpr double first_step = 1e-4, growth = 1.05, largest_step = 5e-3;  // strain
 constexpr double farthest = 0.3, past = 0.9;                             // strain; of the peak
 
-/// A state on its way.
+/// A state on its path.
 struct Sheared {
-    Voigt along;  ///< unit of strain
+    Voigt along;  ///< unit strain
     double peak, most;
     double step = first_step, gone = 0.0;
 
     bool goes_on() const { return gone < farthest && peak < most; }
 };
 
-/// How states are sheared: the unit of strain, and the shear stress that counts.
+/// Unit strain of a kind of shear, and its shear stress.
 struct Way {
     Voigt (*along)(const State&);
     double (*shear)(const State&);
@@ -32,7 +32,7 @@ struct Way {
 Voigt along_deviator(const State& state) {
     const double half = 0.5 * (state.yy - state.xx);  // tension positive, like the strain
     const double size = std::hypot(half, state.xy);
-    // Without a direction of its own it is compressed along y.
+    // Without an in-plane deviator: compression along y.
     const bool turned = size > 1e-7 * (state.xx + state.yy + state.zz);
     return turned ? Voigt(half / size, -half / size, 0.0, -2.0 * state.xy / size)
                   : Voigt(1.0, -1.0, 0.0, 0.0);
@@ -42,7 +42,7 @@ Voigt along_level(const State&) { return {0.0, 0.0, 0.0, 1.0}; }
 constexpr Way in_the_plane{along_deviator, plane_shear};
 constexpr Way in_simple_shear{along_level, simple_shear};
 
-/// At the critical state simple shear and shear in the plane are one.
+/// At the critical state, simple shear and in-plane shear have the same strength.
 std::vector<UndrainedStrength> strengths(const Ready& law, const Way& way,
                                          std::span<const State> states,
                                          std::span<const double> bounds) {

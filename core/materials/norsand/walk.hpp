@@ -1,6 +1,6 @@
 // The plastic part of a call, section 11, for one point (double) or several side by side (Lanes):
-// modified Euler with error control (Sloan, Abbo & Sheng 2001) and a return to the surface after
-// each sub-step.
+// modified Euler with error control (Sloan, Abbo & Sheng 2001) and a return to the yield surface
+// after each sub-step.
 #pragma once
 
 #include <array>
@@ -14,28 +14,28 @@ class Walk {
   public:
     Walk(const Ready& law, const Options& options) : law_(law), options_(options) {}
 
-    // Where the points are.
+    // Present state.
     Components<R> sigma;
     R p_i, epsilon_q;
-    R e;  ///< at time 0
+    R e;  ///< void ratio at time 0
     R chi_i;
-    R time, step;             ///< time: done part of the call's plastic strain; step: next part
-    R proposed;               ///< step that the error control would take next
-    Components<R> d;          ///< the call's plastic strain
-    R volume;                 ///< of d
-    Components<R> direction;  ///< of its deviator, as a stress of unit measure
-    R floored;                ///< 1: p has come down to p_min
+    R time, step;     ///< time: share of the call's plastic strain that is done; step: next share
+    R proposed;       ///< next step by the error control
+    Components<R> d;  ///< the call's plastic strain
+    R volume;         ///< of d
+    Components<R> direction;  ///< of its deviator, scaled as a stress with q = 1
+    R floored;                ///< 1: p has fallen to p_min
     R evaluations, sub_steps, rejected, guarded;
     std::array<R*, 4> counts() { return {&evaluations, &sub_steps, &rejected, &guarded}; }
 
-    /// Rates at the current place; returns the lanes that want to unload.
+    /// Evaluates the rates at the present state; returns the lanes that unload.
     [[gnu::always_inline]] MaskOf<R> begin(const MaskOf<R>& busy);
-    /// One trial sub-step from there, accepted or not lane by lane. Returns the lanes that cannot
-    /// go on.
+    /// Tries one sub-step and accepts or rejects it lane by lane. Returns the lanes that cannot
+    /// continue.
     [[gnu::always_inline]] MaskOf<R> advance(const MaskOf<R>& moving);
 
   private:
-    /// Per unit of time.
+    /// Rates per unit of `time`.
     struct Rates {
         Components<R> sigma;
         R p_i, epsilon_q;
@@ -47,7 +47,7 @@ class Walk {
     }
     [[gnu::always_inline]] Rates rates_at(const Components<R>& stress, const R& size,
                                           const R& at) const;
-    /// Back to the surface from a trial place, along the flow of its last stage.
+    /// Returns a trial state to the yield surface along the flow direction of its last stage.
     [[gnu::always_inline]] MaskOf<R> correct(Place<R>& place, const Flow<R>& flow,
                                              const MaskOf<R>& busy);
 
@@ -67,7 +67,7 @@ inline typename Walk<R>::Rates Walk<R>::rates_at(const Components<R>& stress, co
     const Flow<R>& flow = out.flow;
     const R drive = loading(flow, place.e, d);
     out.unloads = drive < R(0.0);
-    // A <= 0 is refused by `advance`; the rates only have to exist.
+    // `advance` rejects A <= 0; the rates must only be finite.
     out.epsilon_q = positive(drive) / select(flow.A > R(0.0), flow.A, flow.G);
     const Components<R> dev = deviator(d, volume * R(1.0 / 3.0));
     out.sigma =
@@ -124,7 +124,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const R error = larger(gap, size_gap);
     MaskOf<R> stands =
         first_stands & (trace(place.sigma) > none) & (place.p_i > none) & (second.flow.A > none);
-    // A rejected step shrinks as far as it may; an exact one grows as far as it may.
+    // A trial without a valid state counts as an error of 1e6 times the tolerance.
     const R room = select(stands, error, R(1e6) * tolerance);
     const R growth = R(0.9) * root(tolerance / larger(room, R(1e-6) * tolerance));
     const R factor = larger(smaller(growth, R(2.0)), R(0.1));
@@ -140,7 +140,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const R rest = one - next;
     const MaskOf<R> over = stands & (rest <= R(1e-12));
     time = select(over, one, select(stands, next, time));
-    // The error estimate of a place too far off the surface was too small: halve.
+    // Too far off the surface for its error estimate to be valid: halve.
     const R shrunk = step * smaller(factor, R(0.5));
     proposed = select(moving, select(stands, step * factor, shrunk), proposed);
     step = select(moving, smaller(proposed, one - time), step);

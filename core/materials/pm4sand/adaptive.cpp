@@ -7,8 +7,8 @@ namespace breach::materials::pm4sand {
 
 namespace {
 
-/// The plastic direction at the end of an elastic path; the direction of loading where the stress
-/// sits on the axis of the cone.
+/// Plastic direction at the end of an elastic path; the direction of loading if the stress is on
+/// the cone's axis.
 Plane direction(const Ready& law, const Stress& sigma, const Plane& alpha,
                 const Strain<double>& d) {
     const Plane across = sigma.s - sigma.p * alpha;
@@ -44,7 +44,7 @@ Excursion unload(const Ready& law, const Stress& sigma, const Plane& alpha, doub
         return {Excursion::End::inside, {std::max(trial.p, floor), trial.s}, {0.0, 1.0}, 1.0};
     }
     const double t = last_crossing(law, sigma, alpha, change);
-    // Shorter paths are round-off on the cone itself.
+    // Shorter paths are round-off.
     if (t <= 1e-9) return {Excursion::End::nowhere, sigma, {0.0, 1.0}, 0.0};
     const Stress there{sigma.p + t * change.p, sigma.s + t * change.s};
     return {Excursion::End::on_cone,

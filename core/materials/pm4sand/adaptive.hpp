@@ -1,5 +1,5 @@
-// The adaptive scheme around its walk: opening of a call, unloading inside it, closing of it. One
-// point and several side by side share this code.
+// What surrounds the adaptive scheme's walk in a call: opening, unloading, closing. Shared by one
+// point and several side by side.
 #pragma once
 
 #include "core/materials/calls.hpp"
@@ -8,28 +8,28 @@
 
 namespace breach::materials::pm4sand {
 
-/// One call in progress: the data that a lane of a walk does not carry.
+/// One call in progress: the data that a walk's lane does not contain.
 struct Task {
-    Update* update;          ///< the state being changed, and what is counted
-    Strain<double> plastic;  ///< strain that is left after the elastic part
-    double epsilon_v;        ///< before the plastic part
-    Plane n;                 ///< plastic direction where the plastic part begins
+    Update* update;          ///< new state and counts
+    Strain<double> plastic;  ///< strain after the elastic part
+    double epsilon_v;        ///< volumetric strain before the plastic part
+    Plane n;                 ///< plastic direction at the beginning of the plastic part
 };
 
-/// The elastic part. True if there is plastic strain to walk through.
+/// Integrates the elastic part. True if plastic strain remains.
 bool open_call(const Ready& law, const State& old, const Strain<double>& d, Task& task);
 
-/// Takes a point that unloads from (p, alpha, n) along the elastic path.
+/// Elastic path of a point that unloads from the yield cone.
 struct Excursion {
     enum class End { nowhere, inside, on_cone } end;
-    Stress sigma;     ///< where it ends
-    Plane n;          ///< normal there, if on the cone
-    double fraction;  ///< of the strain given
+    Stress sigma;     ///< at its end
+    Plane n;          ///< normal at its end, if on the cone
+    double fraction;  ///< share of the given strain that it used
 };
 Excursion unload(const Ready& law, const Stress& sigma, const Plane& alpha, double G,
                  const Strain<double>& rest, double floor);
 
-/// Closes a call whose update holds the final p, s, alpha, z and sums.
+/// Closes a call whose update contains the final p, s, alpha, z and fabric sums.
 void finish_call(const Ready& law, const State& old, const Strain<double>& d, Task& task);
 
 template <class R>
@@ -42,7 +42,7 @@ template <class R>
     return {lanes::lane(a.d, i), lanes::lane(a.x, i)};
 }
 
-/// Puts what a reversal changes into lane i.
+/// Copies into lane i what a reversal changes.
 template <class R>
 [[gnu::always_inline]] inline void load_reversal(const State& s, int i, Fixed<R>& f) {
     pm4sand::set_lane(f.alpha_app, i, deviator(s.alpha_app));
@@ -52,7 +52,7 @@ template <class R>
     lanes::set_lane(f.p_zp, i, s.p_zp);
 }
 
-/// Puts an opened task into lane i.
+/// Copies an opened task into lane i.
 template <class R>
 [[gnu::always_inline]] inline void load(const Task& task, int i, Walk<R>& walk) {
     using lanes::set_lane;
@@ -81,7 +81,7 @@ template <class R>
     for (R* count : walk.counts()) set_lane(*count, i, 0.0);
 }
 
-/// Writes lane i back into its task.
+/// Copies lane i back into its task.
 template <class R>
 [[gnu::always_inline]] inline void store(const Ready& law, int i, const Walk<R>& walk, Task& task) {
     using lanes::lane;
@@ -104,7 +104,7 @@ template <class R>
                             .stalled = number(walk.stalled)};
 }
 
-/// Change of a walk's lane by an excursion.
+/// Applies an elastic excursion to lane i.
 template <class R>
 [[gnu::always_inline]] inline Excursion::End excursion(const Ready& law, int i, Walk<R>& walk,
                                                        Task& task) {
@@ -132,8 +132,8 @@ template <class R>
     return path.end;
 }
 
-/// Section 11 on the plastic path, anywhere in a call: the memory of a point does not depend on how
-/// its strain is cut into calls.
+/// Tests for a reversal (section 11) anywhere on the plastic path: a point's history does not
+/// depend on how its strain is divided into calls.
 template <class R>
 [[gnu::always_inline]] inline bool reverses(const Ready& law, int i, Walk<R>& walk, Task& task) {
     State& s = task.update->state;
@@ -148,7 +148,7 @@ template <class R>
     return true;
 }
 
-/// What lane i does after `begin` found that it unloads or reverses.
+/// Handles lane i after `begin` found that it unloads or reverses.
 template <class R>
 [[gnu::always_inline]] inline Next after_unloading(const Ready& law, int i, Walk<R>& walk,
                                                    Task& task) {
@@ -166,7 +166,7 @@ template <class R>
     return Next::leave;
 }
 
-/// Whether lane i has ended, after `advance` or before `begin`, and how.
+/// Whether lane i has ended after `advance` or before `begin`, and with which outcome.
 template <class R>
 [[gnu::always_inline]] inline bool ends(int i, const Walk<R>& walk, bool lost,
                                         const Options& options, Task& task) {
@@ -177,7 +177,6 @@ template <class R>
 
 inline bool may_be_tried(const Strain<double>& d, const Options&) { return is_finite(d); }
 
-/// The interface of calls.hpp.
 struct Calls {
     using Ready = pm4sand::Ready;
     using State = pm4sand::State;

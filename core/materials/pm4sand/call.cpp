@@ -33,7 +33,7 @@ namespace {
 double& part(InPlane& a, int i) { return i == 0 ? a.xx : i == 1 ? a.yy : a.xy; }
 double part(const InPlane& a, int i) { return i == 0 ? a.xx : i == 1 ? a.yy : a.xy; }
 
-/// Section 10.
+/// Section 10: updates p_zp.
 void remember_pressure(State& state) {
     const double p = std::max(state.p, state.p_min);
     const double product = norm(state.z) * p;
@@ -60,7 +60,7 @@ void reverse(const Plane& n, State& state) {
             part(state.alpha_max, i) = std::max(part(state.alpha_max, i), part(alpha, i));
         }
     }
-    // Departs from: the published model, which uses the history always (section 11, as OpenSees).
+    // Departs from: the published model, which always uses the history (section 11, as OpenSees).
     if (alpha.xy * state.alpha_prev_xy <= 0.0) {
         state.alpha_app = alpha;
         return;
@@ -75,8 +75,8 @@ void reverse(const Plane& n, State& state) {
 
 namespace {
 
-/// Fractions at which the elastic path meets the cone: |A + a B|^2 = (m/sqrt2)^2 (p + a p')^2 on
-/// the branch p >= 0.
+/// Shares at which the elastic path meets the cone: |A + a B|^2 = (m/sqrt2)^2 (p + a p')^2 with p
+/// >= 0.
 struct Crossings {
     double first;  ///< smallest root in (0, 1], or 1
     double last;   ///< largest root in (0, 1], or 0

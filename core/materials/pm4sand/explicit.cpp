@@ -1,5 +1,5 @@
-// Sections 13.2, 13.4 and 13.5 of docs/reference/methods/pm4sand_integration.md, as OpenSees does
-// them, its quirks included.
+// Sections 13.2, 13.4 and 13.5 of docs/reference/methods/pm4sand_integration.md, exactly as in
+// OpenSees.
 #include "core/materials/pm4sand/explicit.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Part {
         epsilon_v = committed.epsilon_v;
     }
 
-    /// Integrates one part d of the strain; false if the evaluations are used up.
+    /// Integrates one part d of the strain; false: evaluations used up.
     bool advance(const Strain<double>& d);
 
     Stress sigma;
@@ -62,13 +62,13 @@ class Part {
     Counts& counts_;
     Fixed<double> fixed_;
     double M_b_, M_d_;
-    double G_ = 0.0, M_cur_ = 0.0;  ///< of the part's start
-    double multiplier_ = 0.0;       ///< of the last second stage, read by the drift correction
+    double G_ = 0.0, M_cur_ = 0.0;  ///< at the start of the part
+    double multiplier_ = 0.0;       ///< of the last second stage, for the drift correction
 };
 
 double size_of(const Stress& a) { return std::sqrt(2.0 * a.p * a.p + dot(a.s, a.s)); }
 
-/// Section 8 over the strain d.
+/// Rates of section 8 for the strain d.
 Increment Part::rates(const Stress& at, const Plane& alpha_at, const Plane& z_at,
                       const Strain<double>& d, double D) {
     ++counts_.evaluations;
@@ -125,7 +125,7 @@ bool Part::advance(const Strain<double>& d) {
         const Trial trial = trial_step({dT * d.v, dT * d.e}, D);
         const double growth = 0.8 * std::sqrt(error_tolerance / std::max(trial.error, 1e-300));
         if (!trial.possible) {
-            if (dT <= least_time_step) {  // gives up on this part, as OpenSees does in silence
+            if (dT <= least_time_step) {  // accepts this part without message, as OpenSees
                 sigma = start;
                 alpha = start_alpha;
                 z = start_z;
@@ -159,8 +159,8 @@ bool Part::advance(const Strain<double>& d) {
     return true;
 }
 
-/// Departs from: OpenSees, which sets a positive shear far outside the surfaces; the direction is
-/// kept here (section 13.4). Rarely reached.
+/// Departs from: OpenSees, which sets a positive shear far outside the surfaces; here the direction
+/// stays (section 13.4). Rarely used.
 void Part::correct_low_pressure(double f) {
     const double least = fixed_.p_min / 5.0;
     if (f < 1e-8 * law_.unit) {
@@ -190,7 +190,8 @@ void Part::correct_drift(double D) {
         M_b_ = surface.M_b;
         M_d_ = surface.M_d;
         const double nr = dot(point.n, sigma.s) / sigma.p;
-        // A = n - (n:r) m / 2; P = dGamma C_e (n + D/3 m) with the multiplier left in, as there.
+        // A = n - (n:r) m / 2; P = dGamma C_e (n + D/3 m), which contains the multiplier as in
+        // OpenSees.
         const double P_m = multiplier_ * flow.D * (2.0 / 3.0 * K + 2.0 / 9.0 * G);
         const Plane P_n = (multiplier_ * 2.0 * G) * point.n;
         const Plane a_bar = (2.0 / 3.0) * flow.h * flow.b;
@@ -209,7 +210,7 @@ void Part::correct_drift(double D) {
     }
 }
 
-/// Section 11, once per call: by the normal at the end of the elastic path.
+/// Section 11, once per call, with the normal at the end of the elastic path.
 void detect_reversal(const Ready& law, const Strain<double>& d, State& state) {
     const Stress change = elastic_change(law, state.G, d);
     const Plane n = normal(law, {state.p + change.p, state.s + change.s}, state.alpha);
@@ -231,7 +232,7 @@ Update integrate_reference(const Ready& law, const State& old, const Strain<doub
     if (a < 1.0) {
         const Strain<double> rest{(1.0 - a) * d.v, (1.0 - a) * d.e};
         const double largest = largest_component(rest);
-        // Whoever asks for more parts than an int holds is refused like any unresolved call.
+        // More parts than an int holds: unresolved.
         if (largest > 1e3) return {old, Outcome::unresolved, update.counts};
         const int parts = largest > part_size ? static_cast<int>(largest / part_size) + 1 : 1;
         const Strain<double> each{rest.v / parts, (1.0 / parts) * rest.e};

@@ -5,7 +5,7 @@
 
 namespace breach::materials::pm4sand {
 
-/// Calls visit(x) for every double of the state, all but p_zp_unset.
+/// Calls visit(x) for every double of the state, without p_zp_unset.
 template <class AnyState, class Visit>
 void for_each_real(AnyState& s, Visit visit) {
     const auto plane = [&](auto& a) { visit(a.d), visit(a.x); };
@@ -18,7 +18,7 @@ void for_each_real(AnyState& s, Visit visit) {
     visit(s.A_do), visit(s.z_max), visit(s.p_min), visit(s.p_min2), visit(s.sub_step);
 }
 
-/// Calls visit(x) for every number of the state: p_zp_unset is the last of them, as 0 or 1.
+/// Calls visit(x) for every number of the state; p_zp_unset comes last, as 0 or 1.
 template <class Visit>
 void for_each_number(const State& s, Visit visit) {
     for_each_real(s, visit);

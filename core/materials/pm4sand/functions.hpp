@@ -1,5 +1,5 @@
-// The state functions of PM4Sand, sections 4 to 9 of docs/reference/methods/pm4sand.md, for one point or for
-// several side by side. Pure formulas: no integration in here. Compression positive.
+// State functions of PM4Sand, sections 4 to 9 of docs/reference/methods/pm4sand.md, for one point
+// or several side by side. Compression positive.
 #pragma once
 
 #include <numbers>
@@ -41,12 +41,12 @@ template <class R>
 inline InPlane components(const Plane& a) {
     return {a.d * inverse_sqrt2, -a.d * inverse_sqrt2, a.x * inverse_sqrt2};
 }
-/// Deviatoric part; a projection on a deviatoric direction sees no more.
+/// Deviatoric part; enough for any projection on a deviatoric direction.
 inline Plane deviator(const InPlane& a) {
     return {(a.xx - a.yy) * inverse_sqrt2, std::numbers::sqrt2 * a.xy};
 }
 
-/// A strain increment, compression positive: e.n of the model is dot(e, n).
+/// A strain increment, compression positive; the model's e:n is dot(e, n).
 template <class R>
 struct Strain {
     R v;            ///< volumetric
@@ -59,7 +59,7 @@ template <class R>
     return R(law.parameters.D_R) + R(law.density_rate) * epsilon_v;
 }
 
-/// M_cur = q / p^.
+/// M_cur = q / max(p, p_min).
 template <class R>
 [[gnu::always_inline]] inline R stress_ratio(const R& p, const Deviator<R>& s, const R& p_min) {
     return R(std::numbers::sqrt2) * norm(s) / lanes::larger(p, p_min);
@@ -77,20 +77,20 @@ template <class R>
 [[gnu::always_inline]] inline Surfaces<R> surfaces(const Ready& law, const R& p_hat, const R& D) {
     using namespace lanes;
     const Parameters& par = law.parameters;
-    // Beyond p_atm exp(Q) / 100 Bolton's line has no meaning; the floor keeps the ratio finite.
+    // Above p_atm exp(Q) / 100 Bolton's line has no meaning; the floor keeps the ratio finite.
     const R depth = larger(R(par.Q) - logarithm(p_hat * R(100.0 / par.p_atm)), R(0.01));
     const R xi = R(par.R) / depth - D;
     const auto dense = xi <= R(0.0);
-    // For soil that has expanded without limit (an inverted element) it would lie within the cone,
-    // and every projection would move alpha to the cone's other side.
+    // Unlimited expansion (an inverted element) would bring M_b inside the cone, and every
+    // projection would then move alpha to the opposite side.
     const R M_b = larger(
         R(law.M_c) * exponential(xi * select(dense, R(-par.n_b), R(-0.25 * par.n_b))), R(par.m));
     const R M_d = R(law.M_c) * exponential(xi * select(dense, R(par.n_d), R(4.0 * par.n_d)));
     return {xi, M_b, M_d};
 }
 
-/// Constants while rates are evaluated (updated once per call or per sub-step), and the factors of
-/// sections 5 to 7 that follow from them alone.
+/// Quantities that are constant while rates are evaluated (updated once per call or sub-step), and
+/// the factors of sections 5 to 7 that depend on them alone.
 template <class R>
 struct Fixed {
     Deviator<R> alpha_app, alpha_true, alpha_prev, z_in;
@@ -126,7 +126,7 @@ template <class R>
 template <class R>
 Fixed<R> fixed_of(const State& state);
 
-/// Section 5, with section 16 where it is on.
+/// Section 5; with section 16 if reconsolidation is on.
 template <class R>
 [[gnu::always_inline]] inline R shear_modulus(const Ready& law, const Fixed<R>& f, const R& p,
                                               const R& M_cur, const R& M_b, const R& M_d) {
@@ -145,18 +145,18 @@ template <class R>
     return G * smaller(F_sed, R(1.0));
 }
 
-/// Plastic modulus, dilatancy and the quantities that the rates need from them.
+/// Plastic modulus, dilatancy and the quantities that the rates need.
 template <class R>
 struct Flow {
     R B;  ///< b:n
     R h;
     R K_p;
-    R D;            ///< > 0 contracts
+    R D;            ///< > 0: contraction
     R X_d;          ///< (alpha^d - alpha):n
     Deviator<R> b;  ///< alpha^b - alpha
 };
 
-/// Where rates are evaluated.
+/// State at which rates are evaluated.
 template <class R>
 struct Point {
     R p;
@@ -164,7 +164,7 @@ struct Point {
     R G, M_cur;
 };
 
-/// Section 6 without the clip. nearest: least distance of the back-stress from its bound [-].
+/// Section 6 without the clip. nearest: least distance of the back-stress ratio from the bound [-].
 template <class R>
 [[gnu::always_inline]] inline void plastic_modulus(const Ready& law, const Fixed<R>& f,
                                                    const Point<R>& at, const R& p_hat, const R& M_b,
@@ -191,7 +191,7 @@ template <class R>
     flow.K_p = R(2.0 / 3.0) * p_hat * flow.h * flow.B;
 }
 
-/// Section 7.1. M_d, X_R, C_zin1 and zm as there.
+/// Section 7.1, with its M_d, X_R, C_zin1 and zm.
 template <class R>
 struct Dilating {
     R M_b, M_d, X_R, C_zin1, zm;
@@ -210,7 +210,7 @@ template <class R>
     const R C_zin2 = (one + w) / (one + R(3.0) * w);
     const R open = one - in.zm * R(inverse_sqrt2) / f.z_peak;
     const R c(par.c_epsilon * par.c_epsilon);
-    // C_pzp and C_pmin enter by their reciprocals.
+    // C_pzp and C_pmin, as their reciprocals.
     const R memory = f.z_cum * f.z_cum * f.inverse_z * open * open * open * c * in.C_zin1 /
                      ((one + pressure2 * pressure2 * pressure) * (one + low * low));
     const R A_d = f.A_do * C_zin2 / (memory + one);
@@ -242,7 +242,7 @@ template <class R>
     return D * smaller(positive(C_pmin2), one);
 }
 
-/// Sections 6 and 7 at a point whose surfaces are known. nearest: see plastic_modulus; 0: as OpenSees.
+/// Sections 6 and 7 at a point with known surfaces. nearest: see plastic_modulus; 0: as OpenSees.
 template <class R>
 [[gnu::always_inline]] inline Flow<R> flow(const Ready& law, const Fixed<R>& f, const Point<R>& at,
                                            const Surfaces<R>& surface, double nearest = 0.0) {
@@ -276,7 +276,7 @@ template <class R>
     return out;
 }
 
-/// Section 9: z' for the multiplier L, zero unless the point dilates.
+/// Section 9: z' for the multiplier L; zero unless the point dilates.
 template <class R>
 [[gnu::always_inline]] inline Deviator<R> fabric_rate(const Fixed<R>& f, const Point<R>& at,
                                                       const Flow<R>& flow, const R& L) {

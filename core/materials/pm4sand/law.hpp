@@ -1,4 +1,5 @@
-// PM4Sand (pm4sand.hpp) as one of the laws. Its points remember a pm4sand::State (memory.hpp).
+// PM4Sand (pm4sand.hpp) in the interface of a law. A point's memory is a pm4sand::State
+// (memory.hpp).
 #pragma once
 
 #include <algorithm>
@@ -15,14 +16,15 @@ struct PM4Sand {
     using Memory = pm4sand::State;
     using Update = pm4sand::Update;
 
-    mechanics::Elasticity elasticity;  ///< of the stages before pm4sand::initialise: G = G_0 p_atm
+    /// of the elastic stages before pm4sand::initialise: G = G_0 p_atm
+    mechanics::Elasticity elasticity;
     pm4sand::Ready ready;
     pm4sand::Options options;
 };
 
 inline const PM4Sand& ready(const PM4Sand& law) { return law; }
 
-/// Its tangent in the FEM is the elastic predictor's, which is symmetric.
+/// The FEM uses the tangent of the elastic predictor, which is symmetric.
 inline Traits traits(const PM4Sand&) {
     return {.type = "pm4sand",
             .name = "PM4Sand",
@@ -33,13 +35,13 @@ inline Traits traits(const PM4Sand&) {
             .symmetric_tangent = true,
             .tells_plastic_strain = false};
 }
-/// Sand at critical state: friction alone.
+/// At critical state: friction only.
 inline std::optional<Strength> limit_strength(const PM4Sand& law) {
     return Strength{0.0, std::tan(law.ready.parameters.phi_cv)};
 }
 inline const Softening* softening(const PM4Sand&) { return nullptr; }
 inline StrengthEntries strength_entries(PM4Sand&) { return {}; }
-/// Its surfaces depend on the memory of its points: a stress alone is neither inside nor outside.
+/// The surfaces depend on the point's memory: from a stress alone nothing can be said.
 inline double yield_excess(const PM4Sand&, const State&) {
     return -std::numeric_limits<double>::infinity();
 }
@@ -60,13 +62,13 @@ inline Matrix4 elastic_tangent(const PM4Sand& law, const pm4sand::State& memory)
     return pm4sand::elastic_tangent(law.ready, memory);
 }
 inline double shear_modulus(const PM4Sand&, const pm4sand::State& memory) { return memory.G; }
-/// The bounding surface, q/p = M_b in the plane.
+/// On the bounding surface: q/p = M_b in the plane.
 inline double friction(const PM4Sand&, const pm4sand::State& memory) { return 0.5 * memory.M_b; }
 inline bool has_fallen(const PM4Sand&, const pm4sand::State&) { return false; }
 inline double stress_outside(const PM4Sand&, const pm4sand::State& memory) {
     const auto& b = memory.sigma_b;
     const double size = std::max({std::abs(b.xx), std::abs(b.yy), std::abs(b.xy)});
-    // A stress inside the surfaces leaves the round-off of its own split into mean and deviator.
+    // Round-off of the split into mean and deviator: the stress was inside the surfaces.
     return size <= 1e-9 * memory.p ? 0.0 : size;
 }
 

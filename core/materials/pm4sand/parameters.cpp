@@ -1,4 +1,4 @@
-// Secondary parameters, initialisation from a stress state, and what can be read off a state.
+// Secondary parameters, initial state from a stress, and quantities read from a state.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -70,8 +70,8 @@ Counts& Counts::operator+=(const Counts& other) {
 
 namespace {
 
-/// A_do from the initial surfaces. At xi_R = 0 the expression tends to
-/// 1.25 n_b / ((n_b + n_d) cos phi_cv), which the loose side keeps; 1.24 with the default surfaces.
+/// A_do from the initial surfaces. For xi_R -> 0 it tends to 1.25 n_b / ((n_b + n_d) cos phi_cv),
+/// used for all looser states; 1.24 with default surfaces.
 double initial_dilatancy(const Ready& law, const Surfaces<double>& at) {
     const Parameters& par = law.parameters;
     if (at.xi < 0.0) {
@@ -83,7 +83,7 @@ double initial_dilatancy(const Ready& law, const Surfaces<double>& at) {
     return 1.25 * par.n_b / ((par.n_b + par.n_d) * std::cos(par.phi_cv));
 }
 
-/// Puts the stress inside the surfaces; what is left over becomes sigma_b.
+/// Moves the stress inside the surfaces; the rest becomes sigma_b.
 void place_stress(const Ready& law, double p_0, const Plane& s_0, State& state) {
     const double m = law.parameters.m;
     if (p_0 < state.p_min) {
@@ -107,7 +107,7 @@ void place_stress(const Ready& law, double p_0, const Plane& s_0, State& state) 
                      p_0 - state.p - (s_0.d - state.s.d) / sqrt2, (s_0.x - state.s.x) / sqrt2};
 }
 
-/// alpha, but no farther than the bound lets it go.
+/// alpha, moved onto the bound if it is outside.
 Plane within_bound(const Ready& law, const State& state) {
     const double bound = (state.M_b - law.parameters.m) / sqrt2;
     const double reached = norm(state.alpha);

@@ -1,4 +1,4 @@
-// The public interface of both schemes, and the tangents.
+// Public functions of both schemes, and the tangents.
 #include "core/materials/pm4sand/pm4sand.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
 
 namespace {
 
-/// C_e of section 1.4 with the out-of-plane row that the model itself does not have.
+/// C_e of section 1.4, with the out-of-plane row that the model lacks.
 Matrix4 elastic_matrix(double G, double K) {
     const double M = K + 4.0 / 3.0 * G, lambda = K - 2.0 / 3.0 * G;
     Matrix4 C = Matrix4::Zero();
@@ -53,7 +53,7 @@ Matrix4 plastic_tangent(const Ready& law, const State& state, const Voigt& d_eps
     const double nr = dot(n, state.s) / state.p;
     const double Hd = plastic.K_p + 2.0 * G - K * plastic.D * nr;
     if (!(Hd > 0.0) || 2.0 * G * dot(n, d.e) - K * nr * d.v <= 0.0) return elastic;
-    // Signs of stress and strain cancel. zz takes its elastic part and follows the mean stress.
+    // Signs of stress and strain cancel. zz is elastic and follows the mean stress.
     const InPlane N = components(n);
     const Voigt direction(2.0 * G * N.xx + K * plastic.D, 2.0 * G * N.yy + K * plastic.D,
                           K * plastic.D, 2.0 * G * N.xy);

@@ -1,6 +1,6 @@
 // PM4Sand (Boulanger & Ziotopoulou 2017) for one material point in plane strain: parameters, state,
-// and the pure function from (parameters, state, strain increment) to a new state. 'Elastic first'
-// is another law in the zone (`elastic_stage`), never a flag in here.
+// and the pure function (parameters, state, strain increment) -> new state. Elastic stages give the
+// zone another law (`elastic_stage`).
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ namespace breach::materials::pm4sand {
 using mechanics::Matrix4;
 using mechanics::Voigt;
 
-/// Post-shaking reconsolidation: moduli reduced by F_sed.
+/// Post-shaking reconsolidation: F_sed reduces the moduli.
 enum class Reconsolidation { off, on };
 
-/// Everything the model reads. `defaults` fills it; whoever builds it may then overwrite any entry.
+/// Start from `defaults` and overwrite entries.
 struct Parameters {
     double D_R;   ///< relative density [-]
     double G_0;   ///< shear modulus number [-], G = G_0 p_atm sqrt(p/p_atm)
@@ -47,15 +47,16 @@ struct Parameters {
     Reconsolidation reconsolidation = Reconsolidation::off;
 };
 
-/// All secondary parameters from the three primary ones (docs/reference/methods/pm4sand.md, section 2).
-/// Departs from: OpenSees, which lets C_DR fall to 0 and below for D_R < 0.15; here it stays >= 1.
+/// Derives all secondary parameters from the three primary ones (docs/reference/methods/pm4sand.md,
+/// section 2). Departs from: OpenSees, where C_DR falls to 0 and below for D_R < 0.15; here it is
+/// at least 1.
 Parameters defaults(double D_R, double G_0, double h_po);
 
-/// h_po for a density when nothing was calibrated: a parabola through the three values that the
-/// manual gives (0.53, 0.40, 0.63 at D_R 0.35, 0.55, 0.75).
+/// h_po without calibration: the parabola through the three values of the manual (0.53, 0.40, 0.63
+/// at D_R 0.35, 0.55, 0.75).
 double default_h_po(double D_R);
 
-/// Parameters with everything derived from them alone, computed once per zone.
+/// Parameters and constants derived from them, computed once per zone.
 struct Ready {
     Parameters parameters;
     double M_c;           ///< 2 sin(phi_cv)
@@ -66,7 +67,7 @@ struct Ready {
 Ready ready(const Parameters& parameters);
 
 /// A deviatoric in-plane tensor in orthonormal components ((xx - yy) / sqrt2, sqrt2 xy): the tensor
-/// product a:b is the plain dot product.
+/// product a:b is the dot product.
 template <class Real>
 struct Deviator {
     Real d;
@@ -74,7 +75,7 @@ struct Deviator {
 };
 using Plane = Deviator<double>;
 
-/// In-plane components as they are, for histories that are kept per component.
+/// In-plane components, for histories that the model keeps by component.
 struct InPlane {
     double xx, yy, xy;
 };
@@ -97,33 +98,33 @@ struct State {
     double z_peak;                      ///< largest |z| / sqrt2
     double p_zp;                        ///< p at the largest product of |z| and p
     double zp_max;                      ///< that product
-    bool p_zp_unset;                    ///< the first reversal always sets p_zp
+    bool p_zp_unset;                    ///< no reversal yet: the first one always sets p_zp
     double G;                           ///< shear modulus
     double M_b;                         ///< bounding ratio as last evaluated
     double M_cur;                       ///< stress ratio q / p
-    double epsilon_v;                   ///< volumetric strain since the point was made
-    double A_do, z_max, p_min, p_min2;  ///< fixed by `initialise`
-    double sub_step;  ///< size of the last accepted sub-step [strain]; a guess for the next
+    double epsilon_v;                   ///< volumetric strain since `initialise`
+    double A_do, z_max, p_min, p_min2;  ///< set by `initialise`
+    double sub_step;  ///< size of the last accepted sub-step [strain]; first guess of the next
 };
 
-/// Effective stress [Pa, tension positive], sigma_b included. The model does not know zz: it is
-/// nu (xx + yy) here.
+/// Effective stress [Pa, tension positive], sigma_b included. zz = nu (xx + yy), as the model has
+/// none.
 Voigt stress(const Ready& law, const State& state);
 
 /// Current void ratio [-].
 double void_ratio(const Ready& law, const State& state);
 
 enum class Scheme {
-    reference,  ///< as OpenSees: explicit, strain cut into parts of 1e-5 (compat: opensees)
+    reference,  ///< as OpenSees: explicit, strain in parts of 1e-5 (compat: opensees)
     adaptive,   ///< linearly implicit with error control, no drift (compat: corrected)
 };
 
-/// State that holds the effective stress sigma [Pa, tension positive]. epsilon_v: compressive
-/// volumetric strain that the void ratio remembers from earlier stages [-]. Stresses below p_min or
-/// outside the surfaces are moved onto them; the difference stays as sigma_b, so that `stress`
-/// returns sigma unchanged (zz apart). In soil loose of critical a stress may lie beyond the bound,
-/// up to M_d: then it has reversed on the bound, as alpha is moved onto it at once (adaptive; in
-/// the reference scheme the reversal is there). Exactly one call per point.
+/// State with the effective stress sigma [Pa, tension positive]. epsilon_v: compressive volumetric
+/// strain of earlier stages, which the void ratio includes [-]. Stresses below p_min or outside the
+/// surfaces are moved onto them; the difference stays as sigma_b, so that `stress` returns sigma
+/// unchanged (except zz). In soil looser than critical a stress may lie beyond the bound, up to
+/// M_d. Its initial reversal point alpha_in is alpha moved onto the bound (adaptive scheme) or
+/// alpha itself (reference scheme). Call exactly once per point.
 State initialise(const Ready& law, const Voigt& sigma, double epsilon_v = 0.0,
                  Scheme scheme = Scheme::adaptive);
 
@@ -136,18 +137,18 @@ struct Options {
 
 enum class Outcome {
     done,
-    refused,     ///< the strain increment is not finite; the state is the old one
-    unresolved,  ///< evaluations used up; the state is the old one: cut the step
+    refused,     ///< increment not finite; old state
+    unresolved,  ///< evaluations used up; old state: cut the time step
 };
 
-/// Cost of a call, and how often a limit of the model applied.
+/// Cost of a call, and how often limits of the model applied.
 struct Counts {
     int evaluations = 0;
     int sub_steps = 0;
     int rejected = 0;
-    int forced = 0;     ///< sub-steps accepted at the smallest size with too large an error
-    int projected = 0;  ///< stress taken back to the bounding surface
-    int softened = 0;   ///< multiplier's denominator at or below its floor
+    int forced = 0;  ///< sub-steps accepted at the smallest size although their error was too large
+    int projected = 0;  ///< returns to the bounding surface
+    int softened = 0;   ///< plastic multipliers with a denominator at or below its floor
     int stalled = 0;    ///< mean stress held at its floor
 
     Counts& operator+=(const Counts& other);
@@ -159,24 +160,24 @@ struct Update {
     Counts counts;
 };
 
-/// New state after the strain increment [-, tension positive, engineering shear]; zz is not read.
-/// Pure: the same answer for every call with the same arguments. Never returns a state with NaN.
+/// New state after the strain increment [-, tension positive, engineering shear]; zz is ignored.
+/// Pure; never returns a state with NaN.
 Update integrate(const Ready& law, const State& old, const Voigt& d_epsilon,
                  const Options& options);
 
 using materials::Width;
 
 /// The same for many points of one zone: updates[i] = integrate(law, old[i], d_epsilon[i],
-/// options), to the last bit and in any order. Points go side by side through the CPU's vector
-/// unit; one that is finished makes room for the next.
+/// options), with the same bits and in any order. Vectorised; a finished point is replaced by the
+/// next.
 void integrate(const Ready& law, std::span<const State> old, std::span<const Voigt> d_epsilon,
                const Options& options, std::span<Update> updates, Width width = Width::widest);
 
 /// d sigma / d epsilon [Pa] of the elastic predictor at `state`: symmetric positive definite.
 Matrix4 elastic_tangent(const Ready& law, const State& state);
 
-/// Continuum elastoplastic tangent at `state` if loading goes on in the direction d_epsilon, else
-/// the elastic one. Not symmetric.
+/// Continuum elastoplastic tangent at `state` for loading in the direction d_epsilon; the elastic
+/// one if that unloads. Not symmetric.
 Matrix4 plastic_tangent(const Ready& law, const State& state, const Voigt& d_epsilon);
 
 /// The elastic law of the stages before `initialise`: constant G = G_0 p_atm.

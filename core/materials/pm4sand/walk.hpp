@@ -1,7 +1,7 @@
 // The adaptive scheme of section 13.6 for one point (double) or several side by side (Lanes): a
-// linearly implicit W-method (ROS34PW2, Rang & Angermann 2005) in (p, alpha, theta, z), where theta
-// is the angle of the plastic direction n and the stress is s = p alpha + (m p / sqrt2) n by
-// construction: the point cannot drift off the yield cone. Steps are the plastic part of a call.
+// linearly implicit W-method (ROS34PW2, Rang & Angermann 2005) in (p, alpha, theta, z). theta is
+// the angle of the plastic direction n, and s = p alpha + (m p / sqrt2) n, so that the stress
+// cannot drift off the yield cone. Integrates the plastic part of a call.
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace breach::materials::pm4sand {
 
-/// y and its derivatives. The back-stress is kept along the sub-step's first normal n_0 and across
-/// it, where the stiff part of the system is block-diagonal.
+/// Unknowns y or their derivatives. The back-stress ratio has components along and across the
+/// sub-step's first normal n_0, in which the stiff part of the system is block-diagonal.
 template <class R>
 struct Unknowns {
     R p;
@@ -28,7 +28,7 @@ struct Unknowns {
     }
 };
 
-/// The stiff entries of the Jacobian; everything else is left explicit, as a W-method allows.
+/// The stiff entries of the Jacobian; a W-method may treat all others explicitly.
 template <class R>
 struct Stiffness {
     R theta_theta, theta_across, across_theta, across_across, along_along;
@@ -52,12 +52,14 @@ struct Stiffness {
     }
 };
 
-/// A point reverses where (alpha - alpha_in^true):n falls below this: a hundredth of the cone below
-/// zero, as alpha that shrinks with its bounding surface right after a reversal does not reverse.
+/// Reversal where (alpha - alpha_in^true):n falls below this: 1 % of the cone's radius below zero.
+/// With zero, alpha that shrinks with its bounding surface right after a reversal would reverse
+/// again.
 inline double reversed_below(const Ready& law) { return -0.01 * law.parameters.m; }
 
-/// The least distance of a back-stress from its bound: a hundredth of the cone. On the bound itself h is unbounded; in a step
-/// with such an h alpha turns with n, and the stress slides along the bound as if it were elastic.
+/// Least distance of the back-stress ratio from its bound: 1 % of the cone's radius. On the bound h
+/// is infinite; alpha would turn with n, and the stress slide along the bound as if it were
+/// elastic.
 inline double nearest_to_bound(const Ready& law) { return 0.01 * law.parameters.m; }
 
 template <class R>
@@ -65,26 +67,26 @@ class Walk {
   public:
     Walk(const Ready& law, const Options& options) : law_(law), options_(options) {}
 
-    // Where the points are.
-    R p, time, step;  ///< time: done part of the call's plastic strain; step: next part
+    // Present state.
+    R p, time, step;  ///< time: share of the call's plastic strain that is done; step: next share
     Deviator<R> alpha, n, z;
-    R epsilon_v;  ///< at time 0
+    R epsilon_v;  ///< volumetric strain at time 0
     Strain<R> d;  ///< the call's plastic strain
     R size;       ///< its magnitude
     Fixed<R> fixed;
     // Results of the last sub-step.
     R G;
-    R proposed;  ///< step that the error control would take next
+    R proposed;  ///< next step by the error control
     R evaluations, sub_steps, rejected, forced, projected, softened, stalled;
     std::array<R*, 7> counts() {
         return {&evaluations, &sub_steps, &rejected, &forced, &projected, &softened, &stalled};
     }
 
-    /// Surfaces, modulus and rates at the current place; returns the lanes that want to unload or
+    /// Evaluates surfaces, modulus and rates at the present state; returns the lanes that unload or
     /// reverse.
     [[gnu::always_inline]] MaskOf<R> begin(const MaskOf<R>& busy);
-    /// One trial sub-step from there, accepted or not lane by lane. Returns the lanes that cannot
-    /// go on.
+    /// Tries one sub-step and accepts or rejects it lane by lane. Returns the lanes that cannot
+    /// continue.
     [[gnu::always_inline]] MaskOf<R> advance(const MaskOf<R>& moving);
 
   private:
@@ -99,9 +101,9 @@ class Walk {
     [[gnu::always_inline]] Unknowns<R> stage(const Unknowns<R>& y, const R& time_now);
     [[gnu::always_inline]] void project(const Surfaces<R>& surface, const MaskOf<R>& busy);
     [[gnu::always_inline]] Deviator<R> t_0() const { return {-n.x, n.d}; }
-    /// Where the right-hand side jumps (low pressure, repeated projection, sign of B) no step is
-    /// exact. Each sub-step accepted all the same and each projection lets the next be 5 % larger,
-    /// up to the size of the reference scheme's parts.
+    /// Smallest sub-step [share of the call]. Where the right-hand side jumps (low pressure,
+    /// repeated projection, sign of B) no step meets the tolerance: each forced sub-step and each
+    /// projection raises the limit by 5 %, up to the sub-step of the reference scheme.
     [[gnu::always_inline]] R least_step() const {
         using namespace lanes;
         const R first(options_.least_sub_step);
@@ -113,7 +115,7 @@ class Walk {
 
     const Ready& law_;
     const Options& options_;
-    R counted_;  ///< 1 in the lanes whose evaluations count
+    R counted_;  ///< 1 in lanes whose evaluations are counted
     Unknowns<R> y_0_, f_0_;
     Stiffness<R> J_;
 };
@@ -153,7 +155,7 @@ inline typename Walk<R>::Evaluation Walk<R>::evaluate(const Unknowns<R>& y,
     const R push = nr * d.v;
     const R elastic = twice_G * ne - K_plane * push;  // f' along the elastic path
     out.unloads = elastic < R(0.0);
-    // Section 8, remark: the mean of the reference over its calls.
+    // Remark of section 8: use the average that the reference scheme has over its calls.
     const R driving = select(push > R(0.0), elastic, twice_G * ne - K * push);
     out.L = positive(driving) / larger(Hd, least);
 
@@ -183,7 +185,7 @@ inline typename Walk<R>::Evaluation Walk<R>::evaluate(const Unknowns<R>& y,
     return out;
 }
 
-/// Rates of a later stage: the fabric sums follow the fabric.
+/// Rates at a later stage, with the fabric sums at that stage.
 template <class R>
 inline Unknowns<R> Walk<R>::stage(const Unknowns<R>& y, const R& time_now) {
     using namespace lanes;
@@ -199,7 +201,7 @@ inline Unknowns<R> Walk<R>::stage(const Unknowns<R>& y, const R& time_now) {
     return evaluate(y, surface, memory).rate;
 }
 
-/// Back to the bounding surface, as at the end of a call (section 14).
+/// Returns to the bounding surface, as at the end of a call (section 14).
 template <class R>
 inline void Walk<R>::project(const Surfaces<R>& surface, const MaskOf<R>& busy) {
     using namespace lanes;
@@ -286,7 +288,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
                     R(law_.parameters.m * inverse_sqrt2) * magnitude(gap.theta) +
                     R(0.3) * norm(gap.z) * fixed.inverse_z;
 
-    // A NaN is neither exact nor finite: it shrinks the step, and the walk ends at the smallest.
+    // With a NaN the step counts as inexact and shrinks; the walk ends at the smallest step.
     const R tolerance(options_.tolerance);
     const R least = least_step();
     const MaskOf<R> exact = error <= tolerance;
@@ -305,7 +307,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     const auto turned = turn(y.theta);
     const Deviator<R> alpha_new = y.along * n + y.across * t_0();
     const Deviator<R> n_new = turned.cosine * n + turned.sine * t_0();
-    // Rotations are renormalised: thousands of them must not stretch n.
+    // Normalise n: thousands of rotations would change its length.
     alpha = choose<R>(accepted, alpha_new, alpha);
     n = choose<R>(accepted, (one / norm(n_new)) * n_new, n);
     fixed.z_cum = fixed.z_cum + select(accepted, norm(y.z - z) * R(inverse_sqrt2), zero);
@@ -316,7 +318,7 @@ inline MaskOf<R> Walk<R>::advance(const MaskOf<R>& moving) {
     time = select(accepted, time + h, time);
     proposed = select(accepted, next, proposed);
     const R rest = one - time;
-    // The last step takes what is left; one that would leave a crumb is halved before.
+    // The last step takes the rest; if it would leave a tiny rest, the rest is halved.
     const R planned = select(next >= rest, rest, select(next * R(2.0) > rest, R(0.5) * rest, next));
     step = select(moving, planned, step);
     return lost;

@@ -1,6 +1,6 @@
-// The strength of one soil, written once: its value at a place before failure (peak) and after it
-// (residual), and the strains between the two. Pure numbers; core/scene finds the place
-// (ground.hpp), and docs/reference/strengths.md says which phase uses what.
+// Strength profile of a soil: peak and residual strength at a place, and the strains between the
+// two. core/scene/ground.hpp gives the place; docs/reference/strengths.md says which phase uses
+// what.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace breach::materials {
 
-/// Quantities that strengths depend on, in the initial state.
+/// Quantities of the initial state on which strengths depend.
 struct Place {
     double depth;      ///< below ground [m]
     double elevation;  ///< y [m]
@@ -22,8 +22,8 @@ struct Place {
 
 enum class Along { depth, elevation, sigma_v0 };
 
-/// Numbers along depth [m], elevation [m] or sigma'_v0 [Pa]: straight between its points, held
-/// beyond its ends. One point: the same everywhere.
+/// Values along depth [m], elevation [m] or sigma'_v0 [Pa]: linear between the points, constant
+/// beyond them.
 struct Table {
     Along along = Along::depth;
     std::vector<std::array<double, 2>> points;  ///< ascending
@@ -31,7 +31,7 @@ struct Table {
     double at(const Place& place) const;
 };
 
-/// Drained, or undrained with phi = 0, the same at every place.
+/// Constant c and phi: drained strength, or undrained with phi = 0.
 struct Effective {
     double c;    ///< [Pa]
     double phi;  ///< [rad]
@@ -47,14 +47,14 @@ struct Undrained {
 
 struct BySounding {
     Relation relation;
-    Table sounding;  ///< of the number that the relation asks for
+    Table sounding;  ///< of the relation's sounding number
 };
 
-/// One strength by place; undrained kinds have phi = 0.
+/// Strength as a function of place; undrained kinds have phi = 0.
 struct StrengthCurve {
     std::variant<Effective, Undrained, Table, BySounding> kind;
-    double least = 0.0;   ///< of s_u [Pa]
-    double factor = 1.0;  ///< on c and s_u: for studies to vary [-]
+    double least = 0.0;   ///< lower limit of s_u [Pa]
+    double factor = 1.0;  ///< multiplies c and s_u, for parameter studies [-]
 };
 Strength strength_at(const StrengthCurve& curve, const Place& place);
 
@@ -62,9 +62,9 @@ inline bool is_undrained(const StrengthCurve& curve) {
     const auto* effective = std::get_if<Effective>(&curve.kind);
     return effective == nullptr || effective->phi == 0.0;
 }
-/// Whether it is the same at every place.
+/// Whether the strength is the same everywhere.
 bool is_uniform(const StrengthCurve& curve);
-/// Whether it depends on sigma'_v0.
+/// Whether the strength depends on sigma'_v0.
 bool needs_stress(const StrengthCurve& curve);
 
 /// Accumulated epsilon_q over which a point goes from peak to residual.
@@ -77,13 +77,13 @@ struct SofteningStrains {
 struct StrengthProfile {
     StrengthCurve peak;
     std::optional<StrengthCurve> residual{};
-    std::optional<SofteningStrains> softening{};  ///< only with a residual
+    std::optional<SofteningStrains> softening{};  ///< requires a residual strength
 };
 
-/// The strength that a material point keeps; the residual is the peak where it does not soften.
+/// Strength of a material point; without softening the residual equals the peak.
 using PointStrength = StrengthOfPoint<double>;
-/// before: softens from peak to residual, if the profile has strains for it. liquefied: has the
-/// residual strength from the start; without a residual, the peak.
+/// before: softens from peak to residual if the profile has softening strains. liquefied: residual
+/// strength from the start; the peak if there is none.
 enum class Liquefaction { before, liquefied };
 PointStrength strength_of_point(const StrengthProfile& profile, const Place& place,
                                 Liquefaction liquefaction);

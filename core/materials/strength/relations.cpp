@@ -25,8 +25,8 @@ double kramer_wang(double N, double sigma_v0) {
     return p_a * std::exp(-8.444 + 0.109 * N + 5.379 * std::pow(sigma_v0 / p_a, 0.1));
 }
 
-/// Idriss & Boulanger (2008), ratios to sigma'_v0 with significant void redistribution, and the
-/// factor where it is negligible.
+/// Idriss & Boulanger (2008): ratio to sigma'_v0 with significant void redistribution, and the
+/// factor for negligible redistribution.
 double ratio_by_spt(double N) { return std::exp(N / 16.0 + std::pow((N - 16.0) / 21.2, 3) - 3.0); }
 double undisturbed_by_spt(double N) { return 1.0 + std::exp(N / 2.4 - 6.6); }
 double ratio_by_cpt(double q) {

@@ -1,5 +1,5 @@
-// Published relations between a sounding and the strength of liquefied soil. Their equations, sources
-// and ranges: docs/reference/methods/strength.md.
+// Published relations between a sounding and the strength of liquefied soil. Equations, sources and
+// ranges: docs/reference/methods/strength.md.
 #pragma once
 
 #include <array>
@@ -18,18 +18,18 @@ enum class Relation {
     idriss_boulanger_2008_cpt_redistribution,  ///< the same, significant
 };
 
-/// Sounding and range of a relation. Values outside the range are held at its end. Nothing is held
-/// beyond the largest stress; the caller must report it.
+/// Sounding and range of a relation. Soundings outside the range take the nearest end's strength.
+/// Stress above largest_stress is not limited; the caller must report it.
 struct RelationFacts {
-    const char* name;             ///< for people
-    const char* sounding;         ///< what its number is, with the unit
+    const char* name;             ///< for display
+    const char* sounding;         ///< measured quantity, with unit
     std::array<double, 2> range;  ///< of the sounding
-    double largest_stress;        ///< sigma'_v0 of its case histories [Pa]
+    double largest_stress;        ///< largest sigma'_v0 of its case histories [Pa]
     const char* source;
 };
 const RelationFacts& facts_of(Relation relation);
 
-/// Residual strength s_r [Pa] of soil with this sounding under sigma'_v0 [Pa], not below 0.
+/// Residual strength s_r [Pa] for this sounding and sigma'_v0 [Pa]; at least 0.
 double residual_strength(Relation relation, double sounding, double sigma_v0);
 
 }  // namespace breach::materials
