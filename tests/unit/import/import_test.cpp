@@ -280,10 +280,9 @@ TEST(Import, ALineInAnotherUnitThanTheDrawingIsReported) {
     const auto remarks = [](const Request& asked) {
         return import_section(asked).report.at("remarks").dump();
     };
-    EXPECT_NE(
-        remarks(request).find("water.csv was read in m because it names no unit, the drawing "
-                              "in ft"),
-        std::string::npos)
+    EXPECT_NE(remarks(request).find("water.csv was read in m because it names no unit, the drawing "
+                                    "in ft"),
+              std::string::npos)
         << remarks(request);
     request.unit = "ft";
     EXPECT_EQ(remarks(request).find("water.csv was read"), std::string::npos);
