@@ -9,8 +9,6 @@ const properties = {
     unit: { type: "string", enum: units, description: "of the drawing; not set: what the drawing says, metres for CSV" },
     tolerance: { type: "number", unit: "m", exclusiveMinimum: 0, maximum: 10, default: 0.05, description: "what is nearer is meant to touch" },
     with_fem: { topic: "water", type: "boolean", default: false, description: "yes: shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout); the layers can liquefy" },
-    pga: { topic: "water", type: "number", unit: "g", minimum: 0.01, maximum: 1.5, default: 0.3, description: "peak acceleration of the outcrop motion, with with_fem" },
-    shaking: { topic: "water", type: "number", unit: "s", minimum: 4, maximum: 60, default: 8, description: "length of the motion, with with_fem" },
     flatten: { type: "number", unit: "m", exclusiveMinimum: 0, maximum: 10, description: "arcs become chords that are off by at most this; not set: arcs are faults" },
 };
 const pieces = (text) => (text ?? "").split(";").map((each) => each.trim()).filter(Boolean);
@@ -44,10 +42,10 @@ function need_values(soils) {
 }
 
 export class SectionImport {
-    /// panel: an OptionsPanel; drawing: the LiveDrawing, which shows the file's faults; wants_soils(): called when layers became soils
-    /// without values.
-    constructor(panel, drawing, wants_soils) {
-        Object.assign(this, { panel, drawing, wants_soils });
+    /// panel: an OptionsPanel; templates: the Templates; drawing: the LiveDrawing, which shows the file's faults; wants_soils(): called when
+    /// layers became soils without values.
+    constructor(panel, templates, drawing, wants_soils) {
+        Object.assign(this, { panel, templates, drawing, wants_soils });
     }
 
     begin(file, drawing) {
@@ -61,7 +59,7 @@ export class SectionImport {
         const asked = ({ map, layers, ...others }, own) => ({ drawing, file, map: pieces(map), layers: pieces(layers), ...others,
             materials: Object.fromEntries(Object.entries(own).map(([name, soil]) => [name, is_whole(soil) ? soil : stand_in])) });
         this.panel.open({
-            title: `Section of ${file}.`, properties, is_import: true, base: is_again ? this.panel.made : { scene: { section: study?.scene?.section } },
+            title: `Section of ${file}.`, properties: { ...properties, ...this.templates.entries("pga", "shaking") }, is_import: true, base: is_again ? this.panel.made : { scene: { section: study?.scene?.section } },
             make: async (values, signal) => {
                 let own = soils(values);
                 if (values.with_fem) need_values(own);

@@ -36,7 +36,7 @@ export class SubmitDialog {
         }, (study) => this.question.shaped(study));
         this.templates = new Templates(this.options);
         this.question = new Question((change) => this.pane.edit((text) => print(change(JSON.parse(text)))), this.templates);
-        this.sections = new SectionImport(this.options, this.drawing, () => this.path.show("soils"));
+        this.sections = new SectionImport(this.options, this.templates, this.drawing, () => this.path.show("soils"));
         this.dialog.addEventListener("dragover", (event) => event.preventDefault());
         this.dialog.addEventListener("drop", (event) => this.drop(event));
         for (const button of document.querySelectorAll("[data-opens=submit]")) {

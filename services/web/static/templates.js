@@ -27,6 +27,12 @@ export class Templates {
         by_id("templates-row").hidden = this.templates.length === 0;
     }
 
+    /// Of options that several templates share, by name.
+    entries(...names) {
+        const all = (this.templates ?? []).flatMap(({ options }) => options);
+        return Object.fromEntries(names.map((name) => all.find((each) => each.name === name)).filter(Boolean).map((each) => [each.name, entry_of(each)]));
+    }
+
     choose(name) {
         const template = this.templates.find((each) => each.name === name);
         if (!template) return this.panel.close();
