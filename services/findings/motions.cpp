@@ -82,7 +82,7 @@ json fragility(const Values& measure, const std::vector<Shaken>& known) {
     const auto refused = [&](const char* why) { return json{{"refused", why}}; };
     if (of == 0) return refused("no motion sends soil past the toe");
     if (of == known.size()) return refused("every motion sends soil past the toe");
-    if (std::ranges::min(measure) <= 0.0) return refused("a motion has none of it");
+    if (std::ranges::min(measure) <= 0.0) return refused("a motion has a value of 0");
     Values logs;
     std::vector<bool> yes;
     for (std::size_t k = 0; k < known.size(); ++k) {
@@ -90,9 +90,9 @@ json fragility(const Values& measure, const std::vector<Shaken>& known) {
         yes.push_back(passed(known[k]));
     }
     const auto fit = probit(logs, yes);
-    if (!fit)
-        return refused("one value parts the motions that send soil past the toe from the others");
-    if (fit->b <= 0.0) return refused("stronger motions send soil past the toe less often");
+    if (!fit) return refused("one value separates the motions that send soil past the toe");
+    if (fit->b <= statistics::normal_quantile_of_95 * std::sqrt(fit->bb))
+        return refused("no significant effect of this measure");
     const double median = -fit->a / fit->b;
     // Delta method: d median = -(da + median db) / b.
     const double variance =
@@ -164,8 +164,8 @@ std::string best_two(const json& measures, const char* with, const std::string& 
     const auto named = [&](const json& each) {
         return each.at("title").get<std::string>() + ", " + interval(each.at(with));
     };
-    return result + " goes best with " + named(sorted[0]) + ", then with " + named(sorted[1]) +
-           " (rank correlation and its 90 % interval).";
+    return result + " correlates best with " + named(sorted[0]) + ", then with " +
+           named(sorted[1]) + " (rank correlation and its 90 % interval).";
 }
 
 std::vector<std::string> sentences_of(const json& found, std::size_t of, std::size_t known,
@@ -173,18 +173,19 @@ std::vector<std::string> sentences_of(const json& found, std::size_t of, std::si
     std::vector<std::string> sentences{
         std::to_string(passing) + " of " + std::to_string(known) +
         " motions send soil past the toe." +
-        (known < of ? " " + std::to_string(of - known) + " have no runout." : "")};
+        (known < of ? " Without a runout: " + std::to_string(of - known) + "." : "")};
     for (const auto& [with, result] :
          {std::pair{"with_depth", "Liquefaction depth"}, std::pair{"with_runout", "Runout"}})
         if (std::string said = best_two(found.at("measures"), with, result); !said.empty())
             sentences.push_back(std::move(said));
     if (const json& onset = found.at("onset"); !onset.is_null())
         sentences.push_back("Soil passes the toe from " + three_digits_of(onset.at("depth")) +
-                            " m of liquefaction on (" + onset.at("wrong").dump() + " of " +
-                            std::to_string(known) + " motions on the wrong side).");
+                            " m of liquefaction on (" + three_digits_of(onset.at("low")) + " to " +
+                            three_digits_of(onset.at("high")) + "); " + onset.at("wrong").dump() +
+                            " of " + std::to_string(known) + " motions contradict.");
     if (const json& end = found.at("saturation"); !end.is_null())
         sentences.push_back("From " + three_digits_of(end.at("depth")) +
-                            " m of liquefaction on the runout has 90 % of its largest, " +
+                            " m of liquefaction on, the runout has 90 % of its largest, " +
                             three_digits_of(end.at("runout")) + " m past the toe.");
     for (const json& each : found.at("measures")) {
         const json& curve = each.at("fragility");
