@@ -1,4 +1,4 @@
-// Strength profiles, and the published relations for liquefied soil at points that others give.
+// Strength profiles, and published relations for liquefied soil at values given by others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ TEST(ResidualStrength, OfWeberAtOneAtmosphere) {
     EXPECT_EQ(residual_strength(weber_2015, 2.0, 0.0), 0.0) << "the formula is negative there";
 }
 
-// The line of the paper's mean, and that it ends where the data do.
+// The line of the paper's mean, and its end at the end of the data.
 TEST(ResidualStrength, OfOlsonAndStarkIsALineInTheSounding) {
     EXPECT_NEAR(residual_strength(olson_stark_2002_spt, 0.0, 100 * kPa), 3 * kPa, 1e-9);
     EXPECT_NEAR(residual_strength(olson_stark_2002_spt, 12.0, 100 * kPa), 12 * kPa, 1e-9);

@@ -1,5 +1,5 @@
-// The state functions of NorSand against the formulas of docs/reference/methods/norsand.md written a second
-// time with angles, and the beginning of a point.
+// The state functions of NorSand against the formulas of docs/reference/methods/norsand.md in terms
+// of angles, and the initial state of a point.
 #include <gtest/gtest.h>
 
 #include <cmath>

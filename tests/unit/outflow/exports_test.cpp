@@ -46,7 +46,7 @@ TEST(Ordinates, CarryExactlyWhatPassedAtAnyInterval) {
         EXPECT_NEAR(flows.volume, 576.0, 1e-9);
         for (const double flow : flows.m3_per_s) EXPECT_GE(flow, 0.0);
     }
-    // The middle of the ordinate after t = 1.5 s, one interval late, sees the peak.
+    // The middle of the ordinate after t = 1.5 s, one interval later, contains the peak.
     const Ordinates fine = ordinates_of(triangle(), 1.0, 0.1, "test");
     EXPECT_NEAR(fine.m3_per_s[16], 4.0, 0.15);
 }
@@ -82,7 +82,7 @@ TEST(Exports, HecRasHasOneFlowPerIntervalAndSaysWhatItIs) {
     EXPECT_THROW(as_hec_ras(triangle(), 72.0, 0.7, "test"), fault::BadInput);
 }
 
-/// 453 m3/s for 3 s: 1359 m3, which flows every 60 s spread over one or two of them.
+/// 453 m3/s for 3 s: 1359 m3; with ordinates every 60 s spread over one or two of them.
 TEST(Exports, SayThePeakBeforeAndAfterAndWhereItIsLost) {
     Hydrograph h{.section = "toe"};
     for (int k = 0; k <= 600; ++k) {
