@@ -102,7 +102,6 @@ constexpr auto words_of(Boundary) {
                                       {drained_extension, "drained_extension"}});
 }
 
-/// The strain that a boundary drives.
 enum class Drives { shear, compression, extension };
 Drives drives(Boundary boundary);
 /// Whether epsilon_zz = epsilon_xx instead of 0.
