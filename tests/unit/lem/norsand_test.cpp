@@ -209,7 +209,8 @@ TEST(DrainedOnly, IsLooseWhereItIsWet) {
     const auto with_state = [](const json& state) {
         return flags_of_bank({{"water", high}}, state).size();
     };
-    // CJ1's e_c at 100 kPa is 0.9 - 0.02 ln 100: denser than critical there, looser below about 14 m.
+    // CJ1's e_c at 100 kPa is 0.9 - 0.02 ln 100: denser than critical there, looser below about 14
+    // m.
     const double at_100_kPa = 0.9 - 0.02 * std::log(100.0);
     EXPECT_EQ(with_state({{"e_0", at_100_kPa - 0.0005}}), 1u);
     EXPECT_EQ(with_state({{"e_0", at_100_kPa - 0.05}}), 0u);

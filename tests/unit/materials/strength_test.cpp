@@ -44,8 +44,8 @@ TEST(ResidualStrength, OfOlsonAndStarkIsALineInTheSounding) {
 }
 
 // The monograph has one pair of curves over two axes: soundings with the same strength after
-// redistribution have the same without. Negligible redistribution doubles the ratio at (N1)60cs-Sr =
-// 15.84 and q_c1Ncs-Sr = 109.0.
+// redistribution have the same without. Negligible redistribution doubles the ratio at (N1)60cs-Sr
+// = 15.84 and q_c1Ncs-Sr = 109.0.
 TEST(ResidualStrength, OfIdrissAndBoulangerIsOneCurveForBothSoundings) {
     const auto ratio = [](Relation relation, double sounding) {
         return residual_strength(relation, sounding, 100 * kPa) / (100 * kPa);

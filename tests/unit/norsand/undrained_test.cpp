@@ -28,7 +28,8 @@ State at_rest(const Ready& law, double psi_0) {
     return initialise(law, sigma, psi_0 + critical_void_ratio(law, p_0)).state;
 }
 
-// docs/reference/methods/norsand.md, section 15: tau/sigma'_v0 = 0.039360 at psi_0 = 0.05, K_0 = 0.7.
+// docs/reference/methods/norsand.md, section 15: tau/sigma'_v0 = 0.039360 at psi_0 = 0.05, K_0 =
+// 0.7.
 TEST(NorSandUndrained, TheResidualIsThatOfTheCriticalState) {
     const Ready law = cj1();
     const materials::UndrainedStrength loose = undrained_strength(law, at_rest(law, 0.05), far);

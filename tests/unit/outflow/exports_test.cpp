@@ -11,8 +11,8 @@
 namespace breach::outflow {
 namespace {
 
-/// A triangle of 8 m2 over 4 s with its peak of 4 m2/s at 1 s, after 0.5 s of nothing, every 0.05 s; `returns`
-/// flow back over the last second.
+/// A triangle of 8 m2 over 4 s with its peak of 4 m2/s at 1 s, after 0.5 s of nothing, every 0.05
+/// s; `returns` flow back over the last second.
 Hydrograph triangle(double returns = 0.0) {
     Hydrograph h{.section = "toe"};
     for (int k = 0; k <= 120; ++k) {

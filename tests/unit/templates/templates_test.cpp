@@ -264,7 +264,8 @@ TEST(Templates, SayWhatIsAssumed) {
 TEST(Templates, ALayerHasTheResidualStrengthOfItsStress) {
     const json scene = make("slope", {{"water_depth", 0}, {"residual_ratio", 0.1}}).scene;
     const double first = scene.at("/materials/soil_1/law/c_kPa"_json_pointer);
-    // 1.67 m of soil of 1850 kg/m3 below water and, towards the face, under what lies above the line.
+    // 1.67 m of soil of 1850 kg/m3 below water and, towards the face, under what lies above the
+    // line.
     EXPECT_GT(first, 0.1 * 0.5 * 1.667 * 850 * 9.81e-3);
     EXPECT_LT(first, 0.1 * 60.0);
 }

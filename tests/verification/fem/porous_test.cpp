@@ -50,7 +50,8 @@ TEST(Terzaghi, AgreesWithOpenSees) {
     expect_error("settlement against OpenSees [m] (final 8.3e-2)", largest_u, 1e-7);
 }
 
-/// OpenSees' hourglass form (docs/reference/methods/up_element.md, section 3), to compare with its numbers.
+/// OpenSees' hourglass form (docs/reference/methods/up_element.md, section 3), to compare with its
+/// numbers.
 Matrix2 opensees_form(const Corners& x, double thickness) {
     Gradient natural;
     natural << -0.25, 0.25, 0.25, -0.25, -0.25, -0.25, 0.25, 0.25;

@@ -232,8 +232,8 @@ json drawn_line(const char* element, const char* above, const json& line) {
     return scene;
 }
 
-/// Largest |p - rho_f g depth| of the nodes and largest difference of an element's mean sigma'_v from
-/// its closed form, away from the sides by `margin`, over 98.1 kPa.
+/// Largest |p - rho_f g depth| of the nodes and largest difference of an element's mean sigma'_v
+/// from its closed form, away from the sides by `margin`, over 98.1 kPa.
 struct Drawn {
     double p, sigma;
 };
