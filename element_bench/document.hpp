@@ -27,7 +27,6 @@ struct NorSandLaw {
 };
 using TestLaw = std::variant<PlainLaw, SandLaw, NorSandLaw>;
 
-/// Parameters of a test for NorSand.
 struct NorSandTest {
     scene::NorSandStart start;
     double S;  ///< additional softening [-]

@@ -18,7 +18,6 @@ using Column = std::vector<double>;
 
 double logarithmic(double engineering) { return -std::log1p(-engineering); }
 
-/// One test of a completed entry.
 TriaxialTest test_of(const std::string& name, const json& entry, bool engineering) {
     TriaxialTest test{.name = name,
                       .boundary = words::word_at<Boundary>(entry, "boundary"),

@@ -15,7 +15,6 @@ namespace breach::element_bench {
 void take_in_triaxial_files(nlohmann::json& entry, const std::filesystem::path& folder,
                             std::vector<fault::Fault>& faults);
 
-/// The problem of a completed entry.
 NorSandProblem norsand_problem_of(const nlohmann::json& entry);
 
 /// The calibrated law as a document's entry.

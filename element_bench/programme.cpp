@@ -9,7 +9,6 @@ namespace breach::element_bench {
 
 namespace {
 
-/// A running test: specimen, boundary, record.
 class Test {
   public:
     Test(const Specimen& start, Boundary boundary, const Pace& pace)

@@ -47,7 +47,6 @@ json cost_of(const Record& record) {
     return numbers_of(record.counts.sand, record.calls);
 }
 
-/// Numbers and curves of all tests.
 struct Results {
     json numbers = json::object();
     exchange::Archive curves = empty_archive();

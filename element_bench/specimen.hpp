@@ -80,11 +80,12 @@ Trial strained(const Specimen& specimen, const Voigt& d_epsilon);
 
 /// Boundary conditions of a test, with one driven strain.
 enum class Boundary {
-    undrained_shear,        ///< gamma driven, epsilon_xx = epsilon_yy = 0
-    drained_shear,          ///< gamma driven, epsilon_xx = 0, sigma_yy constant
-    undrained_biaxial,      ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
-    drained_biaxial,        ///< epsilon_yy driven, sigma_xx constant, no shear
-    undrained_compression,  ///< triaxial: epsilon_yy driven, epsilon_xx = epsilon_zz = -epsilon_yy / 2
+    undrained_shear,    ///< gamma driven, epsilon_xx = epsilon_yy = 0
+    drained_shear,      ///< gamma driven, epsilon_xx = 0, sigma_yy constant
+    undrained_biaxial,  ///< epsilon_yy driven (compression positive), epsilon_xx = -epsilon_yy
+    drained_biaxial,    ///< epsilon_yy driven, sigma_xx constant, no shear
+    /// triaxial: epsilon_yy driven, epsilon_xx = epsilon_zz = -epsilon_yy / 2
+    undrained_compression,
     drained_compression,  ///< triaxial: epsilon_yy driven, sigma_xx = sigma_zz constant
     undrained_extension,  ///< undrained_compression in extension: driven is -epsilon_yy
     drained_extension,
@@ -102,7 +103,6 @@ constexpr auto words_of(Boundary) {
                                       {drained_extension, "drained_extension"}});
 }
 
-/// The strain that a boundary drives.
 enum class Drives { shear, compression, extension };
 Drives drives(Boundary boundary);
 /// Whether epsilon_zz = epsilon_xx instead of 0.

@@ -7,7 +7,6 @@
 
 namespace breach::lem {
 
-/// A search and its model.
 struct Searched {
     Model model;
     SearchResult found;

@@ -34,7 +34,6 @@ json depth_at_one(const json& stages) {
     return nullptr;
 }
 
-/// Depth of the layers that can liquefy.
 double depth_of_layers(const json& stages) { return stages.back().at("liquefied_depth"); }
 
 /// Depth of the critical surface with the least F over all stages and methods.

@@ -16,7 +16,6 @@ void add_stages(const scene::Scene& scene, const Model& sound, const Families& u
 /// liquefied.
 std::vector<fault::Flag> flags_of_stages(const nlohmann::json& stages);
 
-/// The stages as a table with one line per stage.
 std::string table_of(const nlohmann::json& stages);
 
 }  // namespace breach::lem

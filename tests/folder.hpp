@@ -1,4 +1,4 @@
-// A place on the disk for one test.
+// Temporary folders for tests.
 #pragma once
 
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 namespace breach::test {
 
-/// An empty folder that goes away with the test.
+/// An empty folder, removed with the object.
 class Folder {
   public:
     Folder() {

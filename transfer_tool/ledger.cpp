@@ -78,7 +78,6 @@ double lowest_node(const MeshSnapshot& mesh) {
     return y;
 }
 
-/// Weight of each Gauss point of the snapshot.
 std::vector<double> gauss_weights(const MeshSnapshot& mesh, const std::string& file) {
     const int n = static_cast<int>(std::lround(std::sqrt(mesh.gauss_positions.size())));
     const GaussRule rule = gauss_legendre(std::max(n, 1));

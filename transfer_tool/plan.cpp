@@ -10,7 +10,6 @@ namespace {
 using process::PlanLine;
 using process::Use;
 
-/// Materials of the points, each once.
 std::vector<const scene::Material*> materials_of_points(const scene::Scene& scene) {
     std::vector<const scene::Material*> materials;
     for (const scene::Soil& soil : scene::soils_of(scene)) {

@@ -86,7 +86,6 @@ std::string collapse_criterion(const CollapseReport& collapse) {
            words::text_of(collapse.epsilon_q);
 }
 
-/// Reports optional parts.
 void report_options(const Transferred& t, nlohmann::json& result) {
     if (t.supply)
         result["cells"] = {{"occupied", t.supply->occupied},

@@ -86,7 +86,6 @@ void start_at_state(const SoilMap& map, Points& points);
 /// Effective to total stress, sigma' - u I, if the soil's points have total stress.
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,
                            double u);
-/// The same for all points.
 void settle_stress(const SoilMap& map, Points& points);
 
 /// Points of one soil, for result.json and messages.

@@ -11,7 +11,6 @@
 
 namespace breach::transfer {
 
-/// The liquefied zone of a transfer.
 struct LiquefactionReport {
     scene::LiquefiedWhen when;  ///< at_transfer too if the snapshot has no earlier maximum
     std::size_t nodes;          ///< liquefied

@@ -28,7 +28,6 @@ double distance_to_border(const scene::Region& region, const Side& segment) {
     return least;
 }
 
-/// Length of the segment on the side.
 double shared_length(const Side& side, const Side& segment, double tolerance) {
     const double length = (side.b - side.a).norm();
     const Vec2 along = (side.b - side.a) / length;

@@ -237,7 +237,6 @@ void check_order(const scene::Scene& scene, Findings& findings) {
                  ": a trigger that compares them fires at another depth than it says");
 }
 
-/// Whether /lem has water in the region.
 bool may_be_wet(const scene::Lem& lem, std::size_t region) {
     const auto reaches = [&](const scene::Water& line) {
         return std::ranges::count(line.regions, region) > 0;

@@ -177,7 +177,6 @@ struct Plastic {
     double c = 0.0, phi = 0.0, psi = 0.0, tension_cutoff = 0.0;
     StrengthOf strength_of = StrengthOf::law;
 };
-/// The law's elasticity with this strength.
 Law with_plasticity(const Law& law, const Plastic& strength);
 
 /// Replaces the elasticity and multiplies the softening strains.

@@ -264,7 +264,6 @@ struct Word {
     char bracket = 0;
 };
 
-/// Words of one clause, normalised.
 std::vector<Word> words_of_clause(const std::string& clause) {
     std::vector<Word> words;
     std::string plain;

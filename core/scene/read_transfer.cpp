@@ -23,7 +23,6 @@ std::optional<std::size_t> named(Reader& reader, const List& list, const std::st
     return std::nullopt;
 }
 
-/// A material for material points.
 std::optional<std::size_t> point_material(Reader& reader, const Scene& scene,
                                           const std::string& name, const std::string& pointer) {
     const auto material = named(reader, scene.materials, name, pointer, "/materials");

@@ -337,7 +337,6 @@ void judge_elements(const Region& region, const std::string& pointer, Resolved& 
          pointer});
 }
 
-/// Every region of the section that the FEM meshes.
 void judge_elements(const Scene& scene, Resolved& resolved) {
     if (!scene.fem || scene.fem->mesh.msh_file) return;
     for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {

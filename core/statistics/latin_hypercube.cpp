@@ -14,7 +14,6 @@ struct SlicePlace {
     double within;  ///< 0 <= x < 1
 };
 
-/// One dimension with its present slices.
 class Dimension {
   public:
     Dimension(std::size_t first, Random& random) : slices_(first) {

@@ -110,7 +110,6 @@ Piece middle(const scene::Region& region, std::size_t index) {
     return piece;
 }
 
-/// Divisions of a block from its element size.
 void size_block(Piece& piece) {
     scene::Region& region = piece.region;
     if (region.mesh != scene::RegionMesh::block || region.divisions[0] > 0) return;

@@ -54,7 +54,6 @@ std::vector<bool> held_of(const Constraints& whole, std::size_t begin) {
     return held;
 }
 
-/// Elements of a zone in the columns.
 struct ZonePart {
     std::size_t zone;   ///< in the whole
     std::size_t first;  ///< element in the whole
@@ -90,7 +89,6 @@ PoreWater water_of(const Model& whole, const std::vector<ZonePart>& parts) {
     return water;
 }
 
-/// Memories of `count` points of a zone.
 materials::LawMemory part_of(const materials::Law& law, const materials::LawMemory& zone,
                              std::size_t first, std::size_t count) {
     materials::LawMemory part = materials::memory_for(law, 0);

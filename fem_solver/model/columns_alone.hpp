@@ -10,7 +10,6 @@ namespace breach::fem {
 /// `whole` must have columns.
 Model columns_alone(const Model& whole);
 
-/// The columns' part of the motion.
 Motion columns_alone(const Model& whole, const Motion& motion);
 
 }  // namespace breach::fem

@@ -44,7 +44,6 @@ struct Sides {
     double left, right;  ///< x [m]
 };
 
-/// Of the body.
 Sides sides_of(const Model& model) {
     Sides sides{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < model.body.nodes; ++i) {

@@ -35,7 +35,7 @@ std::vector<bool> wet_elements(const Mesh& mesh, const std::vector<double>& dept
     return wet;
 }
 
-/// No flow in a dry element; or, if all soil above the line is drained, in one mostly above it.
+/// No flow in a dry element; with AboveWater::dry also in one whose centre is above the line.
 bool stands_still(const GroundWater& water, const Mesh& mesh, std::size_t element,
                   const std::vector<bool>& wet) {
     if (!wet[element] || water.above != AboveWater::dry) return !wet[element];

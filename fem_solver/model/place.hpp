@@ -16,7 +16,6 @@ class Overburden {
     std::vector<GroundEdge> edges_;
 };
 
-/// The law of one point.
 template <class Law>
 Law at_point(const Law& law, const Overburden& overburden, const Model& model, std::size_t point) {
     return at_place(law, [&] { return overburden.place(model, point); });

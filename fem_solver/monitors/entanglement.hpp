@@ -35,7 +35,6 @@ Entanglement entanglement_of(const scene::Section& section, const Model& model, 
                              const Motion& last_good, const Distortion& folded, double time,
                              scene::AtEntanglement then);
 
-/// `entanglement` of result.json.
 nlohmann::json as_json(const Entanglement& what);
 /// Inverse of as_json, for the same section.
 Entanglement entanglement_from(const nlohmann::json& facts, const scene::Section& section);

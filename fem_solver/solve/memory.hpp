@@ -31,7 +31,6 @@ struct StressBias {
 /// elastic stages. Does nothing if it exists: exactly one call per point and run.
 StressBias begin_memory(const Model& model, Motion& motion);
 
-/// The present bias of `motion`.
 StressBias stress_bias(const Model& model, const Motion& motion);
 
 /// Number of points that a law moved to their critical state because it could not integrate their

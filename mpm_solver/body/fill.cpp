@@ -147,7 +147,6 @@ void add_strength(const scene::Ground& ground, const scene::Material& material, 
     state.strength.tan_phi_residual.push_back(of.tan_phi_residual);
 }
 
-/// MPM material of each region.
 std::vector<const scene::Material*> materials_of_regions(const scene::Scene& scene) {
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     std::vector<const scene::Material*> become;

@@ -32,7 +32,6 @@ struct PointArrays : PointReals<double*> {
     std::int32_t* cell;
 };
 
-/// The arrays of Grid.
 struct GridArrays {
     double* mass;
     double* motion;  ///< four per node

@@ -1,5 +1,5 @@
-"""No room outside core/materials names a concrete law: it asks the questions that every law answers (traits.hpp, memory.hpp,
-state_parameter.hpp). The scene's reader of a law's own entries and the bench that tests laws may."""
+"""No folder outside core/materials names a particular law; others use the interface of every law (traits.hpp, memory.hpp,
+state_parameter.hpp). Exceptions: the scene's reader of a law's own entries, and the bench that tests laws."""
 import os
 import pathlib
 import re
@@ -12,11 +12,11 @@ may_name = ("core/scene/read_section.", "core/scene/norsand.", "core/scene/sand.
 
 laws = re.search(r"using Law = std::variant<([^>]*)>", (root / "core/materials/law.hpp").read_text()).group(1).replace(",", " ").split()
 include = re.compile(r'^\s*#\s*include\s*"(core/materials/[^"]+)"', re.M)
-said = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"', re.S)  # to people, not to the compiler
+said = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"', re.S)  # for people, not for the compiler
 
 
 def homes():
-    """A law's folder, or its header where it has none."""
+    """A law's folder, or its header if it has none."""
     for header in sorted((root / "core/materials").rglob("*.hpp")):
         if any(re.search(rf"^struct {law} \{{", header.read_text(), re.M) for law in laws):
             name = str(header.relative_to(root))

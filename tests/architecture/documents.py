@@ -1,4 +1,5 @@
-"""Every page that a comment, a page or a message names exists, every link between pages and its anchor exist, every tutorial is run, and no merge was left unsolved."""
+"""Every page named in a comment, page or message exists; every link between pages and its anchor exist; every tutorial is run; no
+conflict marker of a merge is left."""
 import os
 import pathlib
 import re
@@ -6,7 +7,7 @@ import subprocess
 import sys
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
-# A path of letters that ends in .md, as prose and code write it. What programs write at run time is no page of ours.
+# A path of letters that ends in .md. Files written at run time are no pages.
 named = re.compile(r"(?<![\w./-])((?:[\w.-]+/)*[\w-]+\.md)\b")
 link = re.compile(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)")
 templates = root / "workflows/verification/pages"  # their links are those of the pages in docs/verification that they become
@@ -22,7 +23,7 @@ def tracked():
 
 
 def anchors(page):
-    """Of the headings of a page, by GitHub's rule: lower case, no punctuation, - for a space; repeated ones get -1, -2."""
+    """Anchors of a page's headings, by GitHub's rule: lower case, no punctuation, - for a space; repeated ones get -1, -2."""
     found = set(re.findall(r'<a (?:id|name)="([^"]+)"', text := re.sub(r"^```.*?^```", "", page.read_text(), flags=re.M | re.S)))
     for heading in re.findall(r"^#{1,6} +(.*?)(?: +#+)? *$", text, re.M):
         plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)

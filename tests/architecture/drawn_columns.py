@@ -1,5 +1,5 @@
-"""What the dashboard and the report draw, and what the transfer's advice asks for, are columns that a phase writes, in the
-unit that the table of columns gives."""
+"""Columns drawn by dashboard and report, or used by the transfer's advice, are written by a phase, in the unit of the table of
+columns."""
 import os
 import pathlib
 import re
@@ -23,7 +23,7 @@ def columns():
 
 
 def panels():
-    """(field, unit) that the dashboard draws together."""
+    """(field, unit) drawn together by the dashboard."""
     text = (root / "services/web/static/panels.js").read_text()
     for unit, fields in re.findall(r'unit: "([^"]*)",\s*fields: \{([^}]*)\}', text):
         for field in re.findall(r"(\w+):", fields):

@@ -1,4 +1,4 @@
-"""Each flag that a program can raise has its heading in docs/reference/flags.md, and each heading there is a flag."""
+"""Each flag of a program has a heading in docs/reference/flags.md, and each heading there is a flag."""
 import os
 import pathlib
 import re
@@ -6,7 +6,7 @@ import sys
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 rooms = ("core", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "element_bench")
-# How a flag is made: {"code", Severity::...}, flag("code", ...), warn(findings, "code", ...), each across lines.
+# Code that makes a flag: {"code", Severity::...}, flag("code", ...), warn(findings, "code", ...), each across lines.
 raised = (
     re.compile(r'[{(]\s*"([a-z]+(?:_[a-z]+)*)",\s*(?:[\w.\s()>-]+\?\s*)?(?:fault::)?Severity::'),
     re.compile(r'\bflag\(\s*"([a-z]+(?:_[a-z]+)*)"'),

@@ -1,6 +1,6 @@
-"""Checks that every #include follows the arrows of the house: a room may only include the rooms listed for it, only the
-rooms listed may know an outside library, the floors within a room are built on each other in the order given, and no
-units (a header with its source) include each other in a circle."""
+"""Checks every #include: a folder may include only the folders listed for it, only the listed folders may include an outside
+library, subfolders depend on each other only in the given order, and no units (a header with its source) include each
+other in a circle."""
 import os
 import pathlib
 import re
@@ -10,7 +10,7 @@ sys.setrecursionlimit(10000)
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 
-# room -> rooms it may include (besides itself)
+# folder -> folders it may include (besides itself)
 core = {
     "core/words": set(),
     "core/phases": set(),
@@ -50,8 +50,8 @@ arrows = {
     "services/verify": {"services/report", "core/check", "core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
     "services/report": {"services/findings", "services/outflow", "core/check", "core/command", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry", "core/version"},
 }
-# room -> its folders from the ground up: a folder may include those before it and itself; a room's own files are the roof.
-# Folders in one set stand on one floor and do not know each other.
+# folder -> its subfolders in order: each may include those before it; files of the folder itself come last.
+# Subfolders in one set do not include each other.
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
@@ -60,10 +60,10 @@ floors = {
                               {"http"}],
     "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
 }
-# room -> what of it others may include: the rest is its own affair
+# folder -> its headers for others; the rest is private
 interfaces = {"services/import": ["services/import/import"],
          "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question", "services/report/chart/document", "services/report/chart/page"]}
-# units that are one thing in several files: an interface that its own parts include
+# units in several files: an interface included by its own parts
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|beds|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
 # outside header -> places (folder or file prefix) that may include it
@@ -84,7 +84,7 @@ def room_of(path):
 
 
 def floor_of(room, path):
-    """(floor, folder) of a file within its room; what stands in no folder is the roof."""
+    """(level, subfolder) of a file within its folder; files outside subfolders are on the last level."""
     rest = path[len(room) + 1:]
     if "/" not in rest:
         return len(floors[room]), "(own files)"

@@ -1,5 +1,5 @@
-"""workflows/verification/write: the pages that have been measured are what their templates and results give; it names a result that is
-of other inputs, numerics, commit or machine."""
+"""workflows/verification/write: measured pages equal their templates with their results; the command names results of other inputs,
+numerics, commit or machine."""
 import importlib.machinery
 import importlib.util
 import os

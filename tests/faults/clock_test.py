@@ -23,7 +23,7 @@ attempts_wanted = {"mpm_steps=15": 1, "crash=1 mpm_steps=5": 2}  # of the MPM, b
 
 
 class Clock:
-    """Set to another hour again and again, now and then, and in a rush: between two looks at it, too."""
+    """Sets the clock to another hour repeatedly: now and then, and in a rush, also between two readings."""
 
     def __init__(self, folder):
         self.file, self.stop = folder / "clock", threading.Event()
@@ -57,7 +57,7 @@ class Clock:
 
 
 def the_clock_is_off(service, clock):
-    """Else nothing would be tested."""
+    """Checks that the clock is off; otherwise nothing is tested."""
     seen = set()
     for offset in ("+1h", "-1h"):
         clock.set(offset)
@@ -71,7 +71,7 @@ def expect_whole(service, run, title):
     assert end["state"] == "succeeded", (title, end["state"], end["message"])
     for task in end["tasks"]:
         wanted = attempts_wanted.get(title, 1) if task["phase"] == "mpm_solver" else 1
-        # One that is lost was claimed when the service was killed, and never started.
+        # A lost one was claimed when the service was killed, and never started.
         began = [each for each in task["attempts"] if each["state"] != "lost"]
         assert len(began) == wanted, (title, task["label"], task["attempts"])
         for attempt in began:
@@ -92,7 +92,7 @@ def expect_order(service, runs):
         after = batch[-1]["seq"]
     numbers = [each["seq"] for each in events]
     assert numbers == sorted(set(numbers))
-    moved = collections.defaultdict(lambda: None)  # each move begins where the one before it ended
+    moved = collections.defaultdict(lambda: None)  # each transition starts at the end of the one before
     for each in events:
         detail = each["detail"]
         if each["kind"] == "task":
@@ -108,7 +108,7 @@ def expect_no_hour_of_waiting(metrics):
 
 
 def fake_slurm(folder):
-    """Its commands, and so its nodes, have the true clock: Python cannot sleep under libfaketime 0.9.10."""
+    """Commands and nodes of the fake Slurm have the true clock: Python cannot sleep under libfaketime 0.9.10."""
     (folder / "commands").mkdir()
     for name in ("sbatch", "squeue", "scancel"):
         command = folder / "commands" / name
@@ -138,7 +138,7 @@ def swings(folder, *arguments):
                     for run in first:
                         expect_whole(again, run, "")
                     expect_order(again, [*first, *runs])
-                last = again.submit(study([0.5], "last"))  # some wait while nobody sets the clock, and are counted
+                last = again.submit(study([0.5], "last"))  # some wait while the clock is stable, and are counted
                 expect_whole(again, last, "last")
                 metrics = again.ask("/metrics")[2].decode()
                 assert not [line for line in metrics.splitlines() if line[:1] != "#" and " -" in line], metrics
@@ -154,7 +154,7 @@ def swings(folder, *arguments):
 
 
 def retry_does_not_wait_for_the_old_hour(folder):
-    """It is to be tried again at a time of day; the clock is set back by two hours before that, and stays there."""
+    """A retry is due at a time of day; the clock is set back by two hours before that, and stays."""
     clock = Clock(folder)
     clock.set("+1h")
     before = dict(os.environ)

@@ -1,5 +1,5 @@
-"""Requests made to hurt: JSON without measure, paths that lead elsewhere, clients that are slow on purpose. Each is
-refused with a problem, and the service answers the next one as if nothing had been."""
+"""Hostile requests: unlimited JSON, paths outside, slow clients. Each is refused with a problem, and the service answers the
+next one normally."""
 import json
 import pathlib
 import sys
@@ -75,8 +75,8 @@ class Extremes(unittest.TestCase):
 
     def test_slow_requests_delay_no_other(self):
         head = b"POST /v1/runs HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
-        slow = [self.service.connect(head[: 5 + i]) for i in range(40)]  # headers that do not end
-        slow += [self.service.connect(head + b"Content-Length: 1000\r\n\r\n{") for _ in range(40)]  # nor the body
+        slow = [self.service.connect(head[: 5 + i]) for i in range(40)]  # headers without end
+        slow += [self.service.connect(head + b"Content-Length: 1000\r\n\r\n{") for _ in range(40)]  # body without end
         slow += [self.service.connect() for _ in range(40)]  # connected, silent
         for _ in range(10):
             for each in slow:

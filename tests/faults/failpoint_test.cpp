@@ -1,5 +1,5 @@
-// kill -9 at each named place, once, then a restart: nothing acknowledged is lost, nothing comes
-// through twice, and the log of events is sound.
+// kill -9 at each failpoint, then a restart: no acknowledged work is lost, nothing succeeds twice,
+// and the event log is consistent.
 #include "services/orchestrator/files/failpoint.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The places that a plain study on the local pool goes through.
+/// Failpoints that a plain study on the local pool reaches.
 std::vector<std::string> places() {
     std::vector<std::string> found;
     for (const std::string_view each : orchestrator::failpoint_names) {
@@ -73,7 +73,7 @@ TEST_P(KilledAt, NothingIsLostAndNothingRunsTwice) {
 INSTANTIATE_TEST_SUITE_P(Place, KilledAt, ::testing::ValuesIn(places()),
                          [](const auto& each) { return each.param; });
 
-/// What the service's own threads go through, except its writing to the disk: that is the store's.
+/// Failpoints of the service's own threads, without the store's disk writes.
 std::vector<std::string> places_of_threads() {
     std::vector<std::string> found;
     for (const std::string& each : places())

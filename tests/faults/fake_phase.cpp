@@ -1,23 +1,22 @@
-// Stands for all four phases in the tests of the orchestrator: obeys the contract of a phase with
-// numbers that take no time to compute, and misbehaves as the scene's title says, in words
-// "name=value":
+// Replaces all four phases in tests of the orchestrator. Follows a phase's interface, with results
+// that take no time, and misbehaves according to words "name=value" in the scene's title:
 //
 //     fem_steps, mpm_steps   number of steps of 20 ms
 //     entangle_at=T          the FEM ends regularly, entangled, before time T
 //     breakdown_at=T         the FEM ends with 70 before time T
-//     damage=T               the snapshot at T holds nonsense
+//     damage=T               the snapshot at T is damaged
 //     deaf=1                 the MPM ignores TERM and leaves a daemon
 //     try_again=1            the MPM's first attempt ends with 75
-//     crash=1                the MPM ends by SIGKILL when it began at its start
-//     always_crash=1         the MPM never gets through
-//     moving_from=T          the MPM of transfers at T and after still moves at its end
+//     crash=1                the MPM ends by SIGKILL if it started from the beginning
+//     always_crash=1         the MPM never succeeds
+//     moving_from=T          the MPM of transfers at T and later still moves at its end
 //     fails_above=S          the MPM of a lattice shifted by more than S ends with 70
 //     moving_above=S         the MPM of such a lattice still moves at its end
 //     by_cell=1              the runout grows with the square of the MPM's cells, the cost with
 //                            their number, and a moved lattice changes the runout
 //     linear=1, ishigami=1   the runout beyond the toe is that function of /mpm/cfl,
 //                            /mpm/blending_rate and /mpm/gimp_half_size (drawn_result)
-//     breaks_from=X          the MPM of a cfl of X or more ends with 70
+//     breaks_from=X          the MPM with a cfl of X or more ends with 70
 //     by_stiffness=1         the runout grows with the square of the MPM's stiffness_scale
 #include <unistd.h>
 
@@ -45,7 +44,7 @@ void note_stop(int signal) { stop = signal; }
 
 struct Order {
     std::string phase;
-    fs::path bin;  ///< folder from which it was called; the sandbox's
+    fs::path bin;  ///< folder of the program: the sandbox's
     fs::path scene;
     fs::path input;
     fs::path output;
@@ -102,7 +101,7 @@ void publish(const fs::path& file, const std::string& text) {
     fs::rename(temporary, file);
 }
 
-/// The misbehaviour wanted, from the scene's title.
+/// Misbehaviour requested by the scene's title.
 std::map<std::string, double> settings(const json& scene) {
     std::map<std::string, double> found;
     std::istringstream words(scene.value("title", ""));
@@ -131,7 +130,7 @@ void say(const json& line) { std::cout << line.dump() << std::endl; }
 [[noreturn]] void end_well(const Order& order, const json& result) {
     publish(order.output / "result.json", result.dump());
     say({{"event", "result"}, {"result", result}});
-    // A witness outside the service: one line for each time that a task came through.
+    // A record outside the service: one line per success.
     std::ofstream(order.bin / "../ledger", std::ios::app) << order.output.string() + "\n"
                                                           << std::flush;
     std::exit(0);
@@ -149,7 +148,7 @@ int steps_done_before(const Order& order) {
     }
 }
 
-/// Steps of 20 ms with a checkpoint after each; a resumed phase goes on where the last one was.
+/// Steps of 20 ms with a checkpoint after each; a resumed phase continues at the last one.
 template <class Step>
 void walk(const Order& order, int steps, Step step) {
     const fs::path checkpoint = checkpoint_of(order);
@@ -165,7 +164,7 @@ void walk(const Order& order, int steps, Step step) {
     }
 }
 
-/// The FEM does not end while a file `gate` lies in the sandbox (above the folder of the programs).
+/// Waits while a file `gate` exists in the sandbox (above the folder of the programs).
 void wait_at_the_gate(const Order& order) {
     while (fs::exists(order.bin / "../gate")) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -216,7 +215,7 @@ void fem(const Order& order, const std::map<std::string, double>& wanted) {
     end_well(order, {{"phase", "fem_solver"}, {"ended", "complete"}, {"end_time", end}});
 }
 
-/// The scene as its overrides make it.
+/// The scene with its overrides.
 json changed(json scene, const std::vector<std::string>& overrides) {
     for (const std::string& each : overrides) {
         const auto equals = each.find('=');
@@ -226,7 +225,7 @@ json changed(json scene, const std::vector<std::string>& overrides) {
     return scene;
 }
 
-/// The points: the time of the snapshot, and how far their lattice was moved.
+/// The points: time of the snapshot and shift of the lattice.
 void transfer(const Order& order, const json& scene) {
     const std::string snapshot = text_of(order.input);
     if (snapshot.empty())
@@ -236,7 +235,7 @@ void transfer(const Order& order, const json& scene) {
     end_well(order, {{"phase", "transfer_tool"}});
 }
 
-/// A daemon that has left the phase's session and process group, and will not hear TERM.
+/// A daemon outside the phase's session and process group that ignores TERM.
 void leave_a_daemon(const fs::path& pid_file) {
     if (fork() != 0) return;
     setsid();
@@ -246,7 +245,7 @@ void leave_a_daemon(const fs::path& pid_file) {
     while (true) sleep(1);
 }
 
-/// What results have said of themselves since there are flags.
+/// Flags of the result.
 void add_judgement(json& result, bool moves) {
     result["ended"] = moves ? "duration" : "at_rest";
     result["kinetic_share"] = moves ? 0.15 : 0.001;
@@ -272,9 +271,9 @@ void add_cell_error(const json& scene, double shift, json& result) {
     result["peak_memory_MB"] = 40.0 / h;
 }
 
-/// Functions whose percentiles and indices are known in closed form: 10 + 2 a + b + 0 c of standard
-/// normal numbers, and Ishigami's of numbers between -pi and pi. The entries are drawn with the mean
-/// and standard deviation, or between the ends, that stand here; a moved lattice adds a little.
+/// Functions with known percentiles and indices: 10 + 2 a + b + 0 c of standard normal numbers, and
+/// Ishigami's function of numbers between -pi and pi. Entries are sampled with the mean and
+/// standard deviation, or range, given here; a moved lattice adds a little.
 double drawn_result(const json& scene, bool linear, double shift) {
     const json& mpm = scene.at("mpm");
     const double cfl = mpm.value("cfl", 0.4);
@@ -299,7 +298,7 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
         std::signal(SIGTERM, SIG_IGN);
         leave_a_daemon(order.output / "daemon.pid");
     }
-    // Not by --resume: an attempt that was lost before it began has left it nothing to resume from.
+    // Independent of --resume: an attempt lost before its start has left no checkpoint.
     const bool crash = setting(wanted, "crash", 0) > 0 && steps_done_before(order) == 0;
     walk(order, static_cast<int>(setting(wanted, "mpm_steps", 5)), [&](int done) {
         if ((crash && done == 2) || setting(wanted, "always_crash", 0) > 0) raise(SIGKILL);

@@ -1,4 +1,4 @@
-// Faults that the service must survive: each test kills or damages something and then looks at the
+// Faults that the service must survive: each test kills or damages something and then checks the
 // results table.
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -15,7 +15,7 @@ using nlohmann::json;
 
 const std::vector<double> four_times{0.25, 0.5, 1.0, 2.0};
 
-/// What an undisturbed service says for these times; the fake MPM's runout is 10 + t_T^2.
+/// Results of an undisturbed service for these times; the fake MPM's runout is 10 + t_T^2.
 void expect_whole_table(const json& rows, const std::vector<double>& times) {
     ASSERT_EQ(rows.size(), times.size());
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -42,7 +42,7 @@ TEST(Faults, KilledPhaseIsResumedAndTheTableIsTheSame) {
     const std::string run = service.submit(study("fem_steps=20 mpm_steps=20", four_times));
     for (const char* phase : {"fem_solver", "mpm_solver"}) {
         ASSERT_TRUE(eventually([&] { return !phases_alive(sandbox, phase).empty(); }));
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));  // in the middle of its steps
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));  // during its steps
         for (const pid_t pid : phases_alive(sandbox, phase)) kill(pid, SIGKILL);
     }
     const json end = service.wait_for_end(run);
@@ -82,21 +82,20 @@ TEST(Faults, KilledServiceFindsItsPhasesAgainAndTheTableIsTheSame) {
         first.kill_at_once();
     }
     {
-        Service second(sandbox);  // killed again, in the next stretch of the sweep
+        Service second(sandbox);  // killed again, in the next part of the sweep
         ASSERT_TRUE(second.valid()) << second.complaint();
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         second.kill_at_once();
     }
     std::this_thread::sleep_for(
-        std::chrono::milliseconds(1200));  // some phases end while nobody listens
+        std::chrono::milliseconds(1200));  // some phases end without a service
     Service third(sandbox);
     ASSERT_TRUE(third.valid()) << third.complaint();
     const json end = third.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
     expect_whole_table(third.table(run), four_times);
     expect_no_task_succeeded_twice(sandbox, end);
-    // No phase was disturbed. What may be repeated is an attempt that was stored but not yet
-    // started.
+    // No phase was disturbed. Only an attempt that was stored but not started may be repeated.
     for (const json& task : end.at("tasks")) {
         for (const json& attempt : task.at("attempts")) {
             const bool came_through = attempt.at("exit_code") == 0;
@@ -125,7 +124,7 @@ TEST(Faults, KillingServiceAndPhasesTogetherLosesNothing) {
     expect_no_task_succeeded_twice(sandbox, end);
 }
 
-/// A service that was stopped while the FEM of `run` was going on.
+/// Stops a service during the FEM of `run`.
 void stop_in_the_middle(const Sandbox& sandbox, std::string& run) {
     Service first(sandbox);
     run = first.submit(study("fem_steps=40", {0.5, 2.5}));
@@ -145,7 +144,7 @@ TEST(Faults, StoppedServiceGoesOnFromCheckpointsWithoutCountingATry) {
     EXPECT_EQ(task_labelled(end, "fem").at("attempts").size(), 2u);
 }
 
-/// An upgrade, or a disk.
+/// As after an upgrade or a disk error.
 TEST(Faults, CheckpointThatIsRefusedIsNotTriedTwice) {
     const Sandbox sandbox;
     std::string run;
@@ -171,7 +170,7 @@ TEST(Faults, CancelReachesAPhaseThatIgnoresTermAndItsDaemon) {
     std::ifstream(daemon_file) >> daemon;
     ASSERT_TRUE(is_alive(daemon));
     EXPECT_EQ(service.post("/v1/runs/" + run + "/cancel", "").status, 202);
-    EXPECT_EQ(service.post("/v1/runs/" + run + "/cancel", "").status, 202);  // twice is no harm
+    EXPECT_EQ(service.post("/v1/runs/" + run + "/cancel", "").status, 202);  // twice is allowed
     const json end = service.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "cancelled");
     EXPECT_FALSE(is_alive(daemon));
@@ -236,7 +235,7 @@ TEST(Faults, EntangledMeshIsARegularEndAndWhatLiesBeyondIsNotReached) {
     EXPECT_EQ(task_labelled(end, "fem").at("result").at("ended"), "entangled");
     EXPECT_EQ(task_labelled(end, "transfer_2.000000").at("state"), "skipped");
     EXPECT_EQ(task_labelled(end, "mpm_2.000000").at("not_reached"), true);
-    // Nothing failed, so nothing is tried again.
+    // Nothing failed, so nothing is retried.
     EXPECT_EQ(service.post("/v1/runs/" + run + "/retry", "").body.value("tasks", 0), 0);
     EXPECT_EQ(service.wait_for_end(run).at("state"), "succeeded");
 }
@@ -268,7 +267,7 @@ TEST(Faults, BreakdownKeepsTheTransfersWhoseSnapshotsExist) {
 TEST(Faults, TryAgainAndCrashAreRetriedALimitedNumberOfTimes) {
     const Sandbox sandbox;
     Service service(sandbox);
-    // The misbehaviour is in the title, which no phase reads: to the cache these are equal.
+    // The misbehaviour is in the title, which no phase reads: for the cache these are equal.
     const auto submit = [&](const std::string& title) {
         json wanted = study(title, {0.25});
         wanted["reuse"] = false;
@@ -290,7 +289,7 @@ TEST(Faults, TryAgainAndCrashAreRetriedALimitedNumberOfTimes) {
 
 TEST(Faults, MissingProgramFailsTheTaskWithTheReason) {
     const Sandbox sandbox;
-    Service service(sandbox);  // which asks all four for their version
+    Service service(sandbox);  // asks all four for their version
     std::filesystem::remove(sandbox.bin() / "fem_solver");
     const json end = service.wait_for_end(service.submit(study("", {0.25})));
     EXPECT_EQ(end.at("state"), "failed");

@@ -1,5 +1,5 @@
-// Files that are sent: known by their content, refused when nobody reads them, kept as long as a run
-// names them, whole or not there whenever the service is killed.
+// Uploaded files: identified by content, refused if no phase reads them, kept as long as a run
+// names them; complete or absent whenever the service is killed.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,7 +33,7 @@ std::size_t files_in(const fs::path& folder) {
     return count;
 }
 
-/// The study of the tests, shaken by what this entry names.
+/// The tests' study with the motion in this entry.
 json shaken(const std::string& file) {
     json wanted = study("", {0.25});
     json& fem = wanted["scene"]["fem"];
@@ -95,7 +95,7 @@ TEST(Files, PathAndReferenceToTheSameBytesAreTheSameQuestion) {
     EXPECT_EQ(second.at("files").size(), 1u);
     EXPECT_EQ(second.at("study").at("scene").at("fem").at("motion").at("file"),
               answer.body.at("reference"));
-    // Another motion is another question.
+    // Another motion is another input.
     const Answer other = send(service, "stronger.txt", motion(0.4));
     const json third = service.wait_for_end(service.submit(shaken(other.body.at("reference"))));
     EXPECT_EQ(task_labelled(third, "fem").at("state"), "succeeded");

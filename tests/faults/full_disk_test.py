@@ -65,13 +65,13 @@ class FullDisk(unittest.TestCase):
                     refused += 1
             self.assertGreater(refused, 0)
             self.assertEqual(service.ask("/healthz")[0], 200)
-            self.assertEqual(service.ask("/v1/runs")[0], 200)  # reading goes on
+            self.assertEqual(service.ask("/v1/runs")[0], 200)  # reading still works
             disk.free()
             until(lambda: service.ask("/readyz")[0] == 200)
             after = service.submit(study())
             for run in (before, *acknowledged, after):
                 end = service.wait_for_end(run)
-                if end["state"] in ("failed", "partial"):  # a phase that met the full disk said so; a later request may retry it
+                if end["state"] in ("failed", "partial"):  # a phase that found the disk full reported it; a later request may retry it
                     faults = [each["fault"] for each in end["tasks"] if each["state"] == "failed"]
                     self.assertEqual({each["exit_code"] for each in faults}, {74}, faults)
                     self.assertEqual(service.ask(f"/v1/runs/{run}/retry", {})[0], 202)

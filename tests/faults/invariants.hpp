@@ -1,4 +1,4 @@
-// Invariants of a service's store and files after any kill.
+// Invariants of a service's store and files, also after a kill.
 #pragma once
 
 #include "services/orchestrator/store/store.hpp"
@@ -6,9 +6,10 @@
 
 namespace breach::testing {
 
-/// `breachline check` of a stopped service, its outputs read whole; every finding is a failure of the running test: a
-/// move that the lifecycle does not allow, two live attempts of one task, a success stored twice, a state that is not
-/// the last event's, wrong counts of tasks, an artifact with another hash, a stray folder.
+/// Runs `breachline check` on a stopped service, whose outputs are read whole. Every finding fails
+/// the test: an invalid lifecycle transition, two live attempts of a task, a success stored twice,
+/// a state that differs from the last event, wrong task counts, an artifact with another hash, a
+/// stray folder.
 void expect_sound_history(const Sandbox& sandbox);
 
 }  // namespace breach::testing

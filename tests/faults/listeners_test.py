@@ -1,5 +1,5 @@
-"""Streams of events: continued where the reader was, 200 and no more, none held up by one that does not read, and all
-ended when the service stops."""
+"""Event streams: continued at the reader's position, at most 200, none delayed by a client that does not read, and all ended when
+the service stops."""
 import json
 import signal
 import sys
@@ -92,7 +92,7 @@ class Listeners(unittest.TestCase):
         self.assertIn(b"Retry-After:", refused.head)
         self.assertEqual(self.service.ask("/healthz")[0], 200)  # others are answered
         for each in streams:
-            each.read_until(b"\n\n")  # the greeting
+            each.read_until(b"\n\n")  # the first message
         run = self.service.submit(study())
         self.assertEqual({each.event()["run"] for each in streams}, {run})
         for each in streams:
@@ -105,7 +105,7 @@ class Listeners(unittest.TestCase):
             stream.close()
             return stream.status == 200
 
-        until(has_a_seat)  # seats are given back
+        until(has_a_seat)  # places are released
 
     def test_one_that_does_not_read_delays_no_other(self):
         stalled = [self.service.connect(request % (b"?after=0", b"")) for _ in range(20)]

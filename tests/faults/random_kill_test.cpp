@@ -1,9 +1,9 @@
-// A service, its supervisors and its phases are killed at random, again and again, while studies
-// are submitted and cancelled. Half of the services carry a named failpoint, so that they die
-// exactly between two writes. At the end the event log must be sound, and nothing acknowledged
-// lost. On Slurm (the fake one of tests/slurm) its troubles come and go meanwhile.
+// A service, its supervisors and its phases are killed at random while studies are submitted and
+// cancelled. Half of the services have a failpoint, to die exactly between two writes. At the end
+// the event log must be consistent and no acknowledged work lost. On Slurm (the fake one of
+// tests/slurm) faults occur at the same time.
 //
-//     BREACH_KILLS (100; on Slurm a fifth of it)   how many kills
+//     BREACH_KILLS (100; on Slurm a fifth of it)   number of kills
 //     BREACH_SEED (1)                              of the random choices
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -37,7 +37,7 @@ pid_t parent_of(pid_t pid) {
 
 enum class Place { local, slurm };
 
-/// Files by which the fake Slurm misbehaves; hang would cost a command's whole time limit each.
+/// Files that make the fake Slurm fail; `hang` would cost a command's whole time limit each.
 const std::vector<std::string> troubles{"down",        "drained", "refuse",
                                         "lose_answer", "drop",    "forget"};
 
@@ -93,7 +93,7 @@ class Campaign {
     }
 
   private:
-    /// Nothing piles up: every folder belongs to a run, and nothing waits for its removal.
+    /// Nothing accumulates: every folder belongs to a run, and nothing waits for removal.
     void expect_only_what_is_known(Service& service) const {
         EXPECT_TRUE(
             eventually([&] { return service.get("/v1/storage").body.value("removing", -1) == 0; }));
@@ -115,7 +115,7 @@ class Campaign {
         return {"PATH=" + std::string(BREACH_ROOT) + "/tests/slurm/fake:" + std::getenv("PATH"),
                 "FAKE_SLURM=" + slurm().string()};
     }
-    /// One begins, or one that lasts ends.
+    /// Starts a fault, or ends one.
     void change_troubles() {
         const auto file =
             slurm() / troubles[static_cast<std::size_t>(below(static_cast<int>(troubles.size())))];
@@ -128,7 +128,7 @@ class Campaign {
         std::this_thread::sleep_for(std::chrono::milliseconds(below(most_ms)));
     }
 
-    /// One life of the service, until it is killed.
+    /// Runs the service until it is killed.
     void live_once() {
         std::vector<std::string> environment = this->environment();
         if (below(2) == 0) {
@@ -148,7 +148,7 @@ class Campaign {
         const int deeds = 2 + below(5);
         for (int i = 0; i < deeds; ++i) {
             submit(service);
-            wait_a_moment(place_ == Place::local ? 60 : 600);  // a job begins later
+            wait_a_moment(place_ == Place::local ? 60 : 600);  // Slurm starts jobs later
             if (place_ == Place::slurm && below(3) == 0) change_troubles();
             if (below(8) == 0) cancel_one(service);
             if (below(3) == 0) remove_one(service);
@@ -175,7 +175,7 @@ class Campaign {
                             {{"Idempotency-Key", key}});
     }
 
-    /// A few unfinished at a time. A key whose answer was lost is sent again.
+    /// At most a few unfinished runs. Repeats a key whose answer was lost.
     void submit(Service& service) {
         if (unanswered_.empty() && below(3) > 0) return;
         if (unanswered_.empty()) unanswered_ = "key-" + std::to_string(acknowledged_.size());
@@ -197,7 +197,7 @@ class Campaign {
         service.post("/v1/runs/" + chosen->second + "/cancel", "");
     }
 
-    /// What still goes on is refused. An answer that was lost may have meant either.
+    /// Removal of an unfinished run is refused. A lost answer may mean either.
     void remove_one(Service& service) {
         if (acknowledged_.empty()) return;
         auto chosen = acknowledged_.begin();
@@ -244,7 +244,7 @@ class Campaign {
     }
 
     Place place_;
-    std::vector<std::string> places_;  ///< failpoints that these studies reach
+    std::vector<std::string> places_;  ///< failpoints reached by these studies
     Sandbox sandbox_;
     std::mt19937 random_;
     int kills_ = 0, troubles_ = 0;

@@ -1,5 +1,5 @@
-// Runs are removed while others share their files, while they are being answered from, and while the
-// service is killed at each step of it.
+// Runs are removed while others share their files or reuse their results, and while the service is
+// killed at each step.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -74,7 +74,7 @@ TEST(Removal, FreesWhatNobodyElseHoldsAndNoMore) {
     EXPECT_EQ(use_of(after, second).at("shared_bytes"), 0);
     EXPECT_EQ(use_of(after, second).at("freed_bytes"), use_of(before, second).at("bytes"));
 
-    // What is left answers as the first did.
+    // The remaining run gives the same answers.
     const json kept = service.get("/v1/runs/" + second).body;
     EXPECT_TRUE(task_labelled(kept, "fem").at("same_as").is_null());
     const std::string fem = task_labelled(kept, "fem").at("id");
@@ -150,7 +150,7 @@ TEST(Removal, KeepsTheNewestAndThePinnedWithinWhatTheServiceMayKeep) {
         EXPECT_EQ(service.get("/v1/runs").body.at("runs").size(), 3u);
         const json held = service.get("/v1/storage").body;
         EXPECT_EQ(held.at("keep_days"), 1);
-        // One run less fits; the database counts, too.
+        // One run less fits, as the database counts too.
     }
     {
         Service service(sandbox, {"--keep-gb", "0.0000001"});
@@ -165,7 +165,7 @@ TEST(Removal, KeepsTheNewestAndThePinnedWithinWhatTheServiceMayKeep) {
     EXPECT_TRUE(eventually([&] { return service.get("/v1/runs").body.at("runs").empty(); }));
 }
 
-/// A service that holds at `place` until the file is removed.
+/// A service that waits at `place` until the file is removed.
 std::vector<std::string> holding_at(const std::string& place, const fs::path& file) {
     std::ofstream(file) << "\n";
     return {"BREACHLINE_HOLD=" + place + ":1:" + file.string()};
@@ -206,7 +206,7 @@ TEST(Removal, WhatWasPlacedAndNotTakenIsNotWrittenInto) {
         service.kill_at_once();
     }
     {
-        // What would have been answered from is damaged now, so that the task must run.
+        // Damages the result that would be reused, so that the task must run.
         const auto file = folder_of(sandbox, first) / "fem/output/result.json";
         struct stat info {};
         ASSERT_EQ(stat(file.c_str(), &info), 0);
@@ -225,7 +225,7 @@ TEST(Removal, WhatWasPlacedAndNotTakenIsNotWrittenInto) {
     }
 }
 
-/// Equal studies are submitted, answered from each other, and removed all at once.
+/// Submits equal studies, which reuse each other's results, and removes them all at once.
 TEST(Removal, NeverTakesAFileFromARunThatIsAnsweredWithIt) {
     const char* wanted = std::getenv("BREACH_RACES");
     const int rounds = wanted == nullptr ? 6 : std::atoi(wanted);
@@ -299,7 +299,7 @@ TEST_P(KilledWhileRemoving, TheRunIsWholeOrGone) {
         const json third = service.wait_for_end(service.submit(study("", {0.25, 0.5})));
         EXPECT_EQ(count_in_state(third, "cached"), 6);
     }
-    expect_sound_history(sandbox);  // hashes every file of the others
+    expect_sound_history(sandbox);  // checks the hash of every file of the others
 }
 
 INSTANTIATE_TEST_SUITE_P(Place, KilledWhileRemoving,

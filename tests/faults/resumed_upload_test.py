@@ -1,6 +1,4 @@
-"""A file of which the connection broke while it was sent goes on where it broke: after a kill of the service, too, and only
-with the bytes that belong to it.
-"""
+"""An interrupted upload continues where it stopped, also after a kill of the service, and only with the right bytes."""
 import hashlib
 import json
 import os
@@ -18,7 +16,7 @@ def upload_path(sha256, start):
 
 
 def break_off(service, content, sha256, start, end):
-    """Announces all from `start` on, and sends it only to `end`."""
+    """Announces all bytes from `start` on, and sends them only up to `end`."""
     head = (f"POST {upload_path(sha256, start)} HTTP/1.1\r\nHost: 127.0.0.1:{service.port}\r\n"
             f"Content-Type: application/octet-stream\r\nContent-Length: {len(content) - start}\r\n\r\n")
     with service.connect(head.encode() + content[start:end]) as connection:
@@ -54,7 +52,7 @@ def goes_on(folder):
         assert arrived(service, sha256) == third
         break_off(service, content, sha256, third, half)
         until(lambda: arrived(service, sha256) == half)
-        # Somebody else's bytes in its place are found by the hash, and are gone then.
+        # Foreign bytes in its place are found by the hash and removed.
         wrong = content[:half] + bytes(len(content) - half)
         status, answer = send(service, wrong, sha256, half)
         assert (status, answer["type"]) == (422, "/problems/hash-mismatch"), answer
@@ -72,7 +70,7 @@ def goes_on(folder):
 
 
 def commands_go_on(folder, service):
-    """`breach submit` asks what has arrived; where that is not the file's beginning, it sends all."""
+    """`breach submit` queries what has arrived; if that is not the file's beginning, it sends all."""
     study = json.loads((root / "workflows/studies/mochikoshi_quarter.json").read_text())
     scene = root / "workflows/studies" / study["scene"]
     study["scene"] = json.loads(scene.read_text())

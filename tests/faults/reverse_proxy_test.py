@@ -30,7 +30,7 @@ def free_port():
 
 
 class Proxy:
-    """An nginx with the configuration of the page; `changes`: other values in it, which must stand there."""
+    """An nginx with the configuration of the page; `changes`: other values for entries that must exist in it."""
 
     def __init__(self, here, service, **changes):
         self.port = free_port()
@@ -146,7 +146,7 @@ class ReverseProxy(unittest.TestCase):
             while b"retry: 2000" not in seen:
                 seen += wire.recv(65536)
             run = json.loads(self.ask("/v1/runs", study())[2])["id"]
-            while run.encode() not in seen:  # or it times out: nginx would hold 4 kB back and more
+            while run.encode() not in seen:  # otherwise times out: nginx would hold back 4 kB and more
                 part = wire.recv(65536)
                 self.assertTrue(part)
                 seen += part
@@ -183,7 +183,7 @@ class ReverseProxy(unittest.TestCase):
 
 
 def sent_before_the_end(connection, text):
-    """How many bytes of it go, one by one, until the other side ends the connection."""
+    """Number of its bytes sent, one by one, until the other side closes the connection."""
     connection.settimeout(0.1)
     for sent in range(len(text)):
         try:

@@ -21,7 +21,7 @@ def study(times=(0.5,), title="", **more):
 
 
 def fake_phases(folder):
-    """A folder with the four names."""
+    """A folder with the four programs."""
     bin = pathlib.Path(folder) / "bin"
     bin.mkdir(exist_ok=True)
     for name in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
@@ -60,7 +60,7 @@ class Service:
         self.process.stdout.close()
 
     def ask(self, path, body=None, timeout=30, method=None, **headers):
-        """(status, headers, body: parsed when it is JSON)"""
+        """(status, headers, body: parsed if JSON)"""
         data = None if body is None else body if isinstance(body, bytes) else json.dumps(body).encode()
         request = urllib.request.Request(f"http://127.0.0.1:{self.port}{path}", data,
                                          {"Content-Type": "application/json", **headers}, method=method)
@@ -85,7 +85,7 @@ class Service:
         return connection
 
     def raw(self, text):
-        """Status of the answer to these bytes; 0: the connection was closed without one."""
+        """Status of the answer to these bytes; 0: the connection was closed without answer."""
         with self.connect(text) as connection:
             answer = b""
             while b"\r\n" not in answer and (part := connection.recv(4096)):

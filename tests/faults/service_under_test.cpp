@@ -39,7 +39,7 @@ Answer answer_of(const httplib::Result& result) {
     return answer;
 }
 
-/// Of the programs; BREACH_BIN in the environment goes before those of the build.
+/// Folder of the programs; BREACH_BIN in the environment takes precedence over the build's.
 fs::path built_programs() {
     const char* elsewhere = std::getenv("BREACH_BIN");
     return elsewhere == nullptr ? BREACH_BIN : elsewhere;
@@ -217,14 +217,14 @@ std::string program_of(const std::string& pid) {
     return command.substr(0, command.find('\0'));
 }
 
-/// What follows the name in /proc/PID/stat, "state parent ..."; empty if there is no such process.
+/// Text after the name in /proc/PID/stat, "state parent ..."; empty without such a process.
 std::string status_of(const std::string& pid) {
     const std::string stat = text_of("/proc/" + pid + "/stat");
     const auto after_name = stat.rfind(')');
     return after_name == std::string::npos ? "" : stat.substr(after_name + 2);
 }
 
-/// A process may have a twin for a moment: the leak checker's, which looks at it from outside.
+/// A process may temporarily have a copy: the leak checker's.
 bool is_twin(const std::string& pid) {
     const std::string status = status_of(pid);
     if (status.empty()) return false;

@@ -1,4 +1,4 @@
-// A real `breachline serve` on loopback with the fake phases, its own data folder, and a client.
+// A real `breachline serve` on loopback with fake phases, its own data folder, and a client.
 #pragma once
 
 #include <sys/types.h>
@@ -20,8 +20,8 @@ struct Answer {
     std::multimap<std::string, std::string> headers;
 };
 
-/// A temporary folder with `bin` (the four names of the phases) and `data`; removed at the end,
-/// unless BREACH_KEEP_SANDBOX is set.
+/// A temporary folder with `bin` (the phases) and `data`; removed at the end unless
+/// BREACH_KEEP_SANDBOX is set.
 class Sandbox {
   public:
     Sandbox();
@@ -31,7 +31,7 @@ class Sandbox {
     std::filesystem::path bin() const { return root_ / "bin"; }
     std::filesystem::path data() const { return root_ / "data"; }
     std::filesystem::path root() const { return root_; }
-    /// How often each task's output was brought to success, by the phases' own account.
+    /// Number of successes per output, recorded by the fake phases.
     std::map<std::string, int> successes() const;
 
   private:
@@ -40,8 +40,8 @@ class Sandbox {
 
 class Service {
   public:
-    /// Starts and waits until it listens; valid() is false when it ended instead.
-    /// `environment`: more entries "NAME=value".
+    /// Starts the service and waits until it listens; valid() is false if it exited. `environment`:
+    /// more entries "NAME=value".
     explicit Service(const Sandbox& sandbox, std::vector<std::string> more_arguments = {},
                      std::vector<std::string> environment = {});
     ~Service();
@@ -50,7 +50,7 @@ class Service {
 
     bool valid() const { return port_ > 0; }
     int port() const { return port_; }
-    /// Standard error of a service that ended at once.
+    /// Standard error of a service that exited at once.
     const std::string& complaint() const { return complaint_; }
     int exit_code() const { return exit_code_; }
 
@@ -68,7 +68,7 @@ class Service {
     std::string submit(const nlohmann::json& study);
     /// Waits until the run is in a final state; returns /v1/runs/{id}.
     nlohmann::json wait_for_end(const std::string& run, double seconds = 30);
-    /// The results without what differs from one execution to the next (ids).
+    /// The results without ids, which differ between executions.
     nlohmann::json table(const std::string& run);
 
   private:
@@ -79,16 +79,16 @@ class Service {
     std::string complaint_;
 };
 
-/// Polls until it is true; false when the time is over.
+/// Polls until true; false after the time limit.
 bool eventually(const std::function<bool()>& condition, double seconds = 60);
 
-/// The slope scene with this title (the fake phases' orders), transferred at these times.
+/// The slope scene with this title (read by the fake phases) and these transfer times.
 nlohmann::json study(const std::string& title, const std::vector<double>& times);
 
-/// The task of an answered run; throws when there is none.
+/// The run's task with this label; throws if there is none.
 const nlohmann::json& task_labelled(const nlohmann::json& run, const std::string& label);
 
-/// Pids of living phases (not supervisors) started from this sandbox, by the program's name.
+/// Pids of running phases (not supervisors) of this sandbox, by program name.
 std::vector<pid_t> phases_alive(const Sandbox& sandbox, const std::string& phase);
 bool is_alive(pid_t pid);
 

@@ -1,5 +1,5 @@
-"""The command line and the Python package speak https to whoever stands in front of the service: they take the right
-certificate and refuse every other, each with what to do."""
+"""The command line and the Python package use https with a proxy in front of the service: they accept the right certificate and
+refuse every other, with a remedy."""
 import contextlib
 import http.server
 import json
@@ -60,7 +60,7 @@ class Tls(unittest.TestCase):
 
     @contextlib.contextmanager
     def serve(self, name="good"):
-        """The port of an https server with this certificate in front of the service, as nginx is."""
+        """Starts an https server with this certificate in front of the service, like nginx; returns its port."""
         front = http.server.ThreadingHTTPServer(("127.0.0.1", 0), PassesOn)
         front.service = self.service
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)

@@ -1,5 +1,5 @@
-"""Named tokens: each may do what its right says, gets an answer that names the missing right, is in the history of its requests, and may be
-made and taken away while the service runs."""
+"""Named tokens: each has the rights that it was given, gets an answer that names the missing right, is stored with its requests, and
+may be created and removed while the service runs."""
 import json
 import pathlib
 import subprocess
@@ -84,7 +84,7 @@ class Tokens(unittest.TestCase):
             self.assertEqual(self.ask(service, "read-er", "/v1/runs")[0], 200)
 
     def check_every_operation(self, service, document):
-        """Whoever has one right less hears which; nobody hears 403 who has what the description asks for."""
+        """A token that lacks one right gets 403 with that right; a token with the documented rights never gets 403."""
         seen = 0
         for path, operations in document["paths"].items():
             for method, operation in operations.items():
@@ -113,7 +113,7 @@ class Tokens(unittest.TestCase):
             self.assertEqual(self.ask(service, "read-er", "/v1/runs")[0], 200)
             self.assertEqual(self.ask(service, "submit-ter", f"/v1/runs/{run['id']}/cancel", b"")[0], 202)
             events = self.ask(service, "read-er", f"/v1/events?run={run['id']}")[2]["events"]
-            # An attempt has an event of this name, too: the executor's own, which may come before the cancellation.
+            # An attempt has an event of this name too: the executor's, which may come before the cancellation.
             self.assertEqual([each["detail"].get("by") for each in events
                               if each["kind"] == "run" and each["detail"].get("event") == "submit"], ["admin"])
 
@@ -126,7 +126,7 @@ class Tokens(unittest.TestCase):
         (self.here / "allowed/up").symlink_to(self.here)
 
         def asked(service, path, variant=False):
-            """The faults' causes about the file; [] when there are none."""
+            """Causes of the faults about the file; [] if none."""
             wanted = study()
             motion = "/fem/motion=" + json.dumps({"file": str(path)})
             if variant:

@@ -1,5 +1,5 @@
-// A checkpoint of the FEM or the MPM that was changed: refused, or taken and then safe to go on
-// from. The input is a list of changes to the arrays of a sound one.
+// A modified checkpoint of the FEM or the MPM: refused, or accepted and then safe to resume. The
+// input is a list of changes to the arrays of a valid one.
 #include <spdlog/spdlog.h>
 
 #include <cmath>
@@ -42,7 +42,7 @@ process::SessionSettings settings_in(const std::filesystem::path& folder) {
     return settings;
 }
 
-/// One phase with its scene and a sound checkpoint to change.
+/// A phase with its scene and a valid checkpoint.
 class FemPhase {
   public:
     FemPhase()

@@ -1,4 +1,4 @@
-// A condition or a quantity, compiled and evaluated over a few lines of telemetry.
+// Compiles a condition or quantity and evaluates it over a few lines of telemetry.
 #include <cmath>
 
 #include "core/criteria/criterion.hpp"

@@ -1,7 +1,6 @@
-// Shared by the fuzz targets: the one function that libFuzzer and replay.cpp call, files for readers
-// that need a path, and the input as a source of decisions. A target returns when its input was
-// accepted or refused as bad input; any other exception is a defect, and so is a sanitizer's
-// finding.
+// Shared by the fuzz targets: the function that libFuzzer and replay.cpp call, files for readers
+// that need a path, and decisions from the input. A target returns if its input was accepted or
+// refused as bad input; any other exception, or a sanitizer's finding, is a defect.
 #pragma once
 
 #include <unistd.h>
@@ -20,12 +19,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 namespace breach::fuzz {
 
-/// Fails where this input breaks a promise of the code.
+/// Fails if this input breaks a promise of the code.
 inline void require(bool kept, const char* promise) {
     if (!kept) throw std::logic_error(std::string("broken promise: ") + promise);
 }
 
-/// Runs `read`; true: the input was taken, false: refused as bad input with a fault that says why.
+/// Runs `read`; true: input accepted, false: refused as bad input with a fault.
 template <class Read>
 bool taken(Read&& read) {
     try {
@@ -37,7 +36,7 @@ bool taken(Read&& read) {
     }
 }
 
-/// A file that lives as long as this object.
+/// A file that exists as long as this object.
 class File {
   public:
     explicit File(std::string_view content)
@@ -54,7 +53,7 @@ class File {
     std::filesystem::path path_;
 };
 
-/// The input consumed byte by byte for decisions; zeros when it is used up.
+/// Decisions from the input's bytes; zeros when they are used up.
 class Purse {
   public:
     Purse(const std::uint8_t* data, std::size_t size) : rest_(data, data + size) {}

@@ -1,6 +1,6 @@
-// A snapshot, the particles and an archive, each changed by another program: the input is a list of
-// changes to a whole file, made through HDF5 itself or to the file's bytes. (The file as the input
-// would never pass HDF5's checksums.)
+// A snapshot, a particle file and an archive, modified by another program: the input is a list of
+// changes to a whole file, through HDF5 or to the file's bytes. (As the file itself, an input would
+// never pass HDF5's checksums.)
 #include <hdf5.h>
 
 #include <fstream>
@@ -22,7 +22,7 @@ std::string written(const std::function<void(const std::filesystem::path&)>& wri
     return exchange::samples::content(folder / "file.h5");
 }
 
-/// The three kinds, written once.
+/// The three files, written once.
 const std::vector<std::string>& whole_files() {
     using namespace exchange;
     static const std::vector<std::string> files = {
@@ -74,7 +74,7 @@ hid_t space_of(fuzz::Purse& purse) {
     return H5Screate_simple(1 + static_cast<int>(purse.below(3)), shape, nullptr);
 }
 
-/// Bytes to fill any of these shapes and types with.
+/// Bytes for a dataset of any shape and type.
 std::vector<char> filling(fuzz::Purse& purse, hid_t type, hid_t space) {
     const auto count = std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space));
     std::vector<char> bytes(static_cast<std::size_t>(count) * H5Tget_size(type) + 1);
@@ -99,7 +99,7 @@ void put_dataset(hid_t file, const std::string& path, fuzz::Purse& purse) {
     H5Tclose(type);
 }
 
-/// Other values in a dataset that stays what it is.
+/// Writes other values to a dataset.
 void put_values(hid_t file, const std::string& path, fuzz::Purse& purse) {
     const hid_t data = H5Dopen2(file, path.c_str(), H5P_DEFAULT);
     if (data < 0) return;
@@ -167,7 +167,7 @@ void change_objects(const std::filesystem::path& path, fuzz::Purse& purse) {
     H5Fclose(file);
 }
 
-/// Other bytes here and there, and perhaps fewer.
+/// Changes some bytes, and perhaps truncates.
 std::string with_other_bytes(std::string bytes, fuzz::Purse& purse) {
     while (!purse.empty()) {
         const std::size_t at = purse.number(3) % bytes.size();

@@ -1,6 +1,6 @@
-// The bytes of HTTP requests, parsed as the server parses them and answered by all routes of a
-// service that knows one run. Nothing runs: the service has no slots. (The server's own handlers, which
-// need a socket, are held by tests/unit/orchestrator.)
+// HTTP requests as bytes, parsed like in the server and answered by all routes of a service with
+// one run. The service has no slots, so nothing runs. (tests/unit/orchestrator tests the handlers
+// that need a socket.)
 #include <httplib.h>
 #include <spdlog/spdlog.h>
 
@@ -14,7 +14,7 @@ using namespace breach::orchestrator;
 
 namespace {
 
-/// What a client sent, and what it is answered.
+/// The request of a client, and the answer.
 class ReceivedStream : public httplib::Stream {
   public:
     explicit ReceivedStream(std::string_view sent) : sent_(sent) {}
@@ -69,7 +69,7 @@ DispatchSettings without_slots(const std::filesystem::path& bin) {
     return settings;
 }
 
-/// The service with everything but a socket and phases.
+/// The service without socket and phases.
 class Stand : public httplib::Server {
   public:
     Stand()
@@ -119,7 +119,7 @@ class Stand : public httplib::Server {
     Retention retention_;
     Service service_;
     Router router_;
-    std::atomic<bool> stopping_ = true;  // a stream of events ends at once
+    std::atomic<bool> stopping_ = true;  // ends a stream of events at once
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A drawing from outside, DXF or CSV: a scene that every reader takes, or faults that say what is wrong
-// and can be drawn. The first byte picks the form and the options.
+// A drawing as DXF or CSV: gives a scene that every reader accepts, or faults with places. The
+// first byte selects format and options.
 #include "core/check/check.hpp"
 #include "services/import/import.hpp"
 #include "services/report/section/section_drawing.hpp"
@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     nlohmann::json shown = nlohmann::json::object();
     if (imported.faults.empty()) {
         shown = imported.scene;
-        if (shown.contains("fem")) shown["fem"].erase("motion");  // its file is nowhere
+        if (shown.contains("fem")) shown["fem"].erase("motion");  // its file does not exist
         const auto read = check::checked_text(shown.dump(), "scene", ".", {});
         fuzz::require(read.faults.empty(), "a scene that was made can be read");
     }

@@ -1,5 +1,5 @@
-// Mutations of a JSON document as a whole: bytes changed at random are hardly ever JSON again. Only
-// for libFuzzer; replay.cpp never calls it.
+// Mutates a JSON document as a tree, because random changes of bytes rarely give JSON. Only for
+// libFuzzer.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -45,8 +45,7 @@ inline json odd_value(std::minstd_rand& random) {
     return values[random() % values.size()];
 }
 
-/// One change: an odd value, one taken from elsewhere, an entry less, twice the entry, a number
-/// scaled.
+/// One change: another value, a value from elsewhere, an entry removed, duplicated or scaled.
 inline void change(json& document, std::minstd_rand& random) {
     std::vector<json*> nodes;
     collect(document, nodes);

@@ -1,4 +1,4 @@
-// A motion in each of its forms, and what the scene's check measures on it.
+// A motion in each format, and the scene check's measures of it.
 #include <cmath>
 #include <sstream>
 

@@ -1,4 +1,4 @@
-// gmsh's text formats: what is read is a mesh whose quads name its nodes and regions.
+// gmsh's text formats: a mesh that is read has valid nodes and regions.
 #include "fem_solver/mesh/mesh.hpp"
 #include "tests/fuzz/fuzz.hpp"
 

@@ -1,5 +1,5 @@
-// Runs a fuzz target over the inputs that are kept, without libFuzzer: any compiler can. Arguments:
-// files, or folders of files. An input that breaks the target is named before it does.
+// Runs a fuzz target on stored inputs, without libFuzzer. Arguments: files, or folders of files.
+// Prints the name of an input before running it.
 #include <fstream>
 #include <iostream>
 #include <iterator>

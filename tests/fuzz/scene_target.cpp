@@ -1,5 +1,5 @@
-// A scene as a phase takes it: read, checked whole, completed. What is taken is taken again when it
-// is completed, and completed alike.
+// A scene as in a phase: read, checked, completed. An accepted scene is accepted again when
+// completed, with the same completion.
 #include "core/check/check.hpp"
 #include "tests/fuzz/json_mutator.hpp"
 

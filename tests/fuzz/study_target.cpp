@@ -1,4 +1,4 @@
-// A study as the service takes it: read, and planned as tasks.
+// A study as in the service: read and planned as tasks.
 #include "services/orchestrator/study/graph.hpp"
 #include "services/orchestrator/study/read_study.hpp"
 #include "tests/fuzz/json_mutator.hpp"

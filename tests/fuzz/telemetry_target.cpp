@@ -1,5 +1,4 @@
-// Telemetry lines as they are taken: by criteria, by a watch of a running phase, and for the API's
-// answer.
+// Reads telemetry lines for criteria, for a watcher of a running phase, and for the API.
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +11,7 @@ using namespace breach;
 
 namespace {
 
-/// As a trigger watches a phase that writes.
+/// As a trigger watches a running phase.
 void follow(const std::filesystem::path& file) {
     telemetry::Tail tail(file);
     double last = -1.0;

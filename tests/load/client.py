@@ -1,4 +1,4 @@
-"""A closed loop of HTTP clients: each sends its next request when the last one is answered."""
+"""A closed loop of HTTP clients: each sends its next request after the last answer."""
 import asyncio
 import multiprocessing
 import time

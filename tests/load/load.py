@@ -51,7 +51,7 @@ def phases_that_wait(folder):
 
 
 def kill_supervisors(data):
-    """Supervisors outlive a killed service, as they should; here nobody comes back for them."""
+    """Supervisors outlive a killed service, by design; here no service will continue them."""
     for cmdline in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
         try:
             if str(data).encode() in cmdline.read_bytes():
@@ -140,7 +140,7 @@ async def listen(port, count, submit):
         status = await asyncio.wait_for(reader.readuntil(b"\r\n\r\n"), 10)
         if b" 200 " not in status.split(b"\r\n")[0]:
             raise RuntimeError(f"a listener got {status.splitlines()[0]!r}")
-    await asyncio.sleep(0.5)  # the streams begin with the first event after their headers
+    await asyncio.sleep(0.5)  # the streams start with the first event after their headers
 
     async def first_event(reader):
         await asyncio.wait_for(reader.readuntil(b"data:"), 10)
@@ -162,7 +162,7 @@ def acknowledged_runs(answers):
 
 
 def measure(chosen, service):
-    """Every fault, and the ids of the runs that were acknowledged."""
+    """All faults, and the ids of the acknowledged runs."""
     port, short = service.port, 1.0 if chosen.brief else 3.0
     table = Table(service)
     submit = client.request_bytes(port, "POST", "/v1/runs", study([0.5]))
@@ -204,7 +204,7 @@ def measure(chosen, service):
 
 
 def lost(kept, data, phases):
-    """After kill -9: what the database lacks of the acknowledged, and how long starting and stopping take then."""
+    """After kill -9: acknowledged runs that the database lacks, and the time of a start and a stop."""
     began = time.perf_counter()
     with Service(data, phases):
         print(f"-- listening again {time.perf_counter() - began:.2f} s after the start")

@@ -44,7 +44,7 @@ def study(number, times):
 
 
 class Watch:
-    """CPU time [s] of the service, and of what it has started and seen end."""
+    """CPU time [s] of the service, and of ended child processes."""
 
     def __init__(self, service):
         self.service = service
@@ -121,7 +121,7 @@ def main():
     faults = []
     with tempfile.TemporaryDirectory(prefix="breach-scale-", dir=chosen.data, ignore_cleanup_errors=True) as name:
         folder = pathlib.Path(name)
-        (folder / "gate").touch()  # the first FEM waits: what is submitted stays queued
+        (folder / "gate").touch()  # the first FEM waits, so all stays queued
         service = started(folder, chosen, "an empty service")
         watch = Watch(service)
         watch.figures()

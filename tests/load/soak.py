@@ -17,7 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "faults"))
 from service import Service, study  # noqa: E402
 
 seconds = float(sys.argv[1]) if len(sys.argv) > 1 else 300.0
-# A listener that comes again has a file and a thread more for a moment; what a look of the retention finds, one minute's runs.
+# A reconnected listener temporarily has one more file and thread; the retention finds the runs of one minute.
 slack = {"memory_MB": 20, "files": 12, "threads": 12, "database_MB": 10, "runs": 200}
 
 

@@ -37,7 +37,7 @@ class Case:
     sets: dict = field(default_factory=dict)
     drops: list = field(default_factory=list)
     motion: str = None  # text of the motion file
-    run: str = None  # flagged: the phase that must be run to know
+    run: str = None  # flagged: the phase that must run
     code: str = None  # flagged: the flag's code
 
     def scene(self, bases):
@@ -72,13 +72,13 @@ def moved(polygon, dx=0.0, dy=0.0):
 
 
 def drawn(change):
-    """The regions of the slope, every vertex changed."""
+    """The regions of the slope, with every vertex changed."""
     polygons = [[[0, -5], [30, -5], [60, -5], [60, 0], [30, 0], [0, 0], [0, -5]], slope_polygon]
     return {f"/section/regions/{i}/polygon": [list(change(x, y)) for x, y in polygon] for i, polygon in enumerate(polygons)}
 
 
 cases = [
-    # ------------------------------------------------ units that slipped
+    # ------------------------------------------------ wrong units
     Case("density in lb/ft3", "slope", "refused", r"density[\s\S]*lb/ft3: write 1922 kg/m3", {"/materials/slope_soil/density": 120}),
     Case("unit weight in N/m3 as density", "slope", "refused", r"density[\s\S]*N/m3: write 1886 kg/m3", {"/materials/slope_soil/density": 18500}),
     Case("gravity in ft/s2", "slope", "warned", r"gravity.*ft/s2: write 9\.815", {"/gravity": 32.2}),
@@ -196,7 +196,7 @@ cases = [
     Case("a motion with a sample left out", M, "refused", r"line 203.*step of 0\.02 s", {"/fem/motion": {"file": "record.csv"}},
          motion="\n".join(line for i, line in enumerate(record(head="time_s,acceleration_m_s2\n").split("\n")) if i != 202)),
     Case("shaking scaled to 30 g", M, "refused|warned", r"scale_to_pga_g", {"/fem/motion/scale_to_pga_g": 30}),
-    # ------------------------------------------------ what only a result can tell
+    # ------------------------------------------------ found only in a result
     Case("a runout cut off on its way", "column", "flagged", r"lower bound", {"/mpm/duration": 1.0, "/section/regions/0/mesh/divisions": [5, 10]},
          run="mpm_solver", code="still_moving"),
     Case("cells nearly as wide as the soil, allowed", "column", "flagged|warned", r"cells", {"/mpm/cell_size": 8, "/mpm/allow_coarse_cells": True,

@@ -35,7 +35,7 @@ def asked(phase, scene, *arguments):
 
 
 def one_line(text, pattern):
-    """The line that says it, or the first."""
+    """The line that matches, or the first."""
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     found = next((k for k, line in enumerate(lines) if re.search(pattern, line, re.I)), 0)
     return " ".join(lines[found:found + 2])[:220] if lines else ""
@@ -50,7 +50,7 @@ def pairs(faults):
 
 
 def said_of_scene(case, document, service):
-    """What the service says of a study around the scene: complaints."""
+    """The service's complaints about a study with this scene."""
     study = {"format": "breachline-study/1", "name": "wrong", "title": "A wrong scene", "scene": document}
     if "fem" in document:
         study["transfer_times"] = [0.1]
@@ -116,7 +116,7 @@ def judge_study(name, study, text, service):
         row.stage, row.outcome = "submit", "refused"
         row.message = "\n".join(f'{f["pointer"]}: {f["cause"]} {f["remedy"]}' for f in answer.get("faults", [])) or json.dumps(answer)
         again, cost = service.post("/v1/cost", study)
-        is_scene = study["format"].startswith("breachline-scene")  # whose cost may be asked for
+        is_scene = study["format"].startswith("breachline-scene")  # the cost of a scene can be requested
         if not is_scene and (again != status or pairs(cost["faults"]) != pairs(answer["faults"])):
             row.complaints = [f"POST /v1/cost answers {again} where POST /v1/runs answers {status}: {json.dumps(cost)[:300]}"]
     else:

@@ -1,4 +1,4 @@
-"""Wrong studies, as (name, study, regular expression of what the refusal must say)."""
+"""Wrong studies, as (name, study, regular expression for the refusal)."""
 import copy
 
 

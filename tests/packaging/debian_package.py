@@ -17,7 +17,7 @@ import urllib.request
 
 build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
 source = pathlib.Path(os.environ["BREACH_ROOT"])
-# Programs under sanitizers are not asked for their help while they are built.
+# Programs under sanitizers are not run for their help while they are built.
 instrumented = re.search(r"^BREACH_SANITIZE:\w+=(address|thread)", (build / "CMakeCache.txt").read_text(), re.MULTILINE)
 programs = {"breachline", "breach", "lem_tool", "fem_solver", "element_bench", "transfer_tool", "mpm_solver", "report",
             "breachline-backup", "breachline-restore"}
@@ -32,7 +32,7 @@ def files_below(folder):
 
 
 class Unit:
-    """What matters here of a systemd unit and of the settings beside it."""
+    """The tested parts of a systemd unit and its settings."""
 
     def __init__(self, text):
         self.variables, self.command = {}, ""
@@ -144,7 +144,7 @@ class DebianPackage(unittest.TestCase):
         self.assertEqual(self.package.name.split("_")[1], self.version)
 
     def test_a_tree_without_git_has_the_version_and_an_archive_the_commit_too(self):
-        """Configures the room that says the version alone."""
+        """Configures the folder that provides the version."""
         def version_of(tree):
             (tree / "CMakeLists.txt").write_text(f"cmake_minimum_required(VERSION 3.25)\nproject(Tree VERSION {self.version} LANGUAGES NONE)\n"
                                                  "function(breach_room)\nendfunction()\nadd_subdirectory(core/version)\n")
@@ -189,11 +189,11 @@ class DebianPackage(unittest.TestCase):
             saved = call(self.bin / "breachline-backup", data, backup)
             self.assertEqual((saved.returncode, saved.stdout), (0, f"{backup}: 1 runs\n"), saved.stderr)
             self.assertEqual(call(self.bin / "breachline-backup", data, backup).returncode, 74)
-            self.breach(service, "submit", study)  # the backup knows nothing of what came later
+            self.breach(service, "submit", study)  # the backup does not contain later changes
         self.assertEqual(call(self.bin / "breachline-restore", backup, data).returncode, 74)
         brought = call(self.bin / "breachline-restore", backup, restored)
         self.assertEqual(brought.returncode, 0, brought.stderr)
-        shutil.rmtree(data)  # nothing may lean on the old folder
+        shutil.rmtree(data)  # nothing may depend on the old folder
         with self.served(restored) as service:
             self.assertEqual(len(json.loads(self.breach(service, "list", "--json"))), 1)
             self.assertEqual(self.breach(service, "results", run, "--csv"), results)

@@ -154,7 +154,7 @@ def promised_now():
 
 
 def narrower(old, new):
-    """Whether an entry of a request takes less than before."""
+    """Whether an entry of a request accepts less than before."""
     return (old["optional"] and not new["optional"] or not set(old.get("types", ())) <= set(new.get("types", old.get("types", ())))
             or "values" in new and not set(old.get("values", ["any other"])) <= set(new["values"])
             or any(bound in new and new[bound] > old.get(bound, float("-inf")) for bound in lower_bounds)
@@ -167,12 +167,12 @@ def looser(old, new):
 
 
 def is_asked_for(name, entry, old):
-    """Whether a new entry must be given where it could not be given before; another alternative of an entry need not."""
+    """Whether a new entry is required where none could be given before; another alternative of an entry is not."""
     return entry.get("optional") is False and not name.endswith("]") and (name.startswith("?") or name.rpartition("/")[0] in old)
 
 
 def broken(old, new, where=()):
-    """What of `old` is no longer so."""
+    """Parts of `old` that no longer hold."""
     if isinstance(old, list):
         yield from (" ".join(where) + f": {each} is gone" for each in old if each not in new)
     elif "optional" in old and isinstance(old["optional"], bool):
@@ -191,7 +191,7 @@ def broken(old, new, where=()):
 
 
 def merged(old, new):
-    """The old promises, and what is new."""
+    """The old promises and the new ones."""
     if isinstance(old, list):
         return old + [each for each in new if each not in old]
     if isinstance(old, dict) and not isinstance(old.get("optional"), bool):

@@ -26,7 +26,7 @@ def scene_of(study, variant):
 
 
 def variants_of(study):
-    """(own variant, name, number of the draw) in the order of the rows."""
+    """(own variant, name, number of the repeat) in the order of the rows."""
     draws, first = study.get("draws", 1), study.get("first_draw", 0)
     for own in study.get("variants") or [{"name": ""}]:
         for number in range(first, first + draws):
@@ -85,7 +85,7 @@ def row(study, scene, variant, time, shift):
 
 
 def mean(rows, draws):
-    """Of one variant at one time over its draws."""
+    """Mean of a variant at one time over its repeats."""
     done = [each for each in rows if each["runout"] is not None]
     missing = [f"{each['variant']}: {each['state']}" for each in rows if each["runout"] is None]
     doubtful = [each["variant"] for each in done if each["questionable"]]
@@ -107,7 +107,7 @@ def mean(rows, draws):
 
 
 def same_results(study, rows):
-    """Groups of the study's variants with equal numbers wherever both ended, at one time at least."""
+    """Groups of variants with equal numbers wherever both have ended, at one time at least."""
     numbers = {}
     for each in rows:
         if each["runout"] is not None:
@@ -152,18 +152,18 @@ def breaks_down(scene):
 
 
 def state(study, scenes, rows):
-    """Of the run."""
+    """State of the run."""
     lems = [known.lem(each) for each in scenes] if "lem" in study["scene"] and study.get("stability", True) else []
     broken = None in lems or any(each["state"] in ("failed", "skipped") for each in rows) or any(map(breaks_down, scenes))
     if broken:
         return "partial" if any(each["runout"] is not None for each in rows) else "failed"
-    if all(each["state"] == "not_reached" for each in rows):  # also where there is none
+    if all(each["state"] == "not_reached" for each in rows):  # also without rows
         return "partial"
     return "questionable" if any(each["questionable"] for each in rows) else "succeeded"
 
 
 def transfers_of(study, scene):
-    """(time, what made it: None where it is one of several, whether a trigger's condition was met)"""
+    """(time, its trigger: None for one of several, whether the trigger's condition was met)"""
     if "fem" not in scene:
         return [(None, "")], False
     made = {time: "at_time" for time in study.get("transfer_times", [])}
@@ -213,7 +213,7 @@ def answer(study, moved):
 
 
 def counts(scenes, rows):
-    """Of results with flags, by their codes, and of those that are questionable."""
+    """Number of results per flag code, and of questionable results."""
     fems = {known.fem(each)[0]: known.fem(each)[1] for each in scenes if "fem" in each}
     found = {"entangled": sum(how == "entangled" for how in fems.values())}
     for code in ("still_moving", "overlap"):
@@ -232,7 +232,7 @@ def differs(wanted, got):
 
 
 def differences(wanted, run, results, extended=False):
-    """What a run says otherwise than the answer. One that was extended may have computed a FEM once more."""
+    """Differences of a run from the answer. An extended one may have computed a FEM again."""
     found = []
     for what, table in (("row", "rows"), ("mean", "means")):
         shown = {(each["variant"], each["transfer_time"]): each for each in results[table]}
@@ -273,7 +273,7 @@ def differences(wanted, run, results, extended=False):
 
 
 def spans(condition, scene, lines):
-    """(first line, last line) of each time in which "FIELD > NUMBER" is true."""
+    """(first line, last line) of each interval in which "FIELD > NUMBER" is true."""
     whole = known.fem(scene)[0]
     field, limit = condition.split(" > ")
     value = {
@@ -291,7 +291,7 @@ def spans(condition, scene, lines):
 
 
 def fired(trigger, scene):
-    """(transfer time or None, whether the condition was met) of a FEM."""
+    """(transfer time or None, whether the condition was met) for a FEM."""
     lines = [round(k * known.step, 6) for k in range(1, round(known.fem(scene)[2] / known.step) + 1)]
     interval = trigger["snapshot_interval_s"]
     snapshots = [time for time in lines if abs(time / interval - round(time / interval)) < 1e-6]
@@ -302,10 +302,10 @@ def fired(trigger, scene):
 
     condition = trigger["when"] if trigger["kind"] == "criterion" else trigger["lower"]
     lower = next((begin for begin, _ in lasting(condition)), None)
-    if lower is None:  # it may still have been true when the FEM ended
+    if lower is None:  # may still have been true at the FEM's end
         return None, any(end == lines[-1] for _, end in spans(condition, scene, lines))
 
-    latest = 0.05 * known.end + 1e-9  # a snapshot so much later than the time wanted is no answer
+    latest = 0.05 * known.end + 1e-9  # a later snapshot does not count
 
     if trigger["kind"] == "criterion":
         wanted = next(t for t in lines if t >= lower + hold)

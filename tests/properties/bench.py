@@ -1,4 +1,4 @@
-"""One service with stand-in phases, for many studies: submit, disturb, wait."""
+"""One service with fake phases for many studies: submit, disturb, wait."""
 import itertools
 import json
 import os
@@ -47,7 +47,7 @@ class Bench:
         self.service = Service(self.folder / "data", *self.options)
 
     def kill(self):
-        """kill -9, and another service on the same data."""
+        """kill -9, then another service on the same data."""
         self.service.kill()
         self.start()
 
@@ -61,7 +61,7 @@ class Bench:
         return self.send(path, method="DELETE")[0]
 
     def send(self, path, body=None, method=None):
-        """(status, answer); a path with a query is got."""
+        """(status, answer); GET for a path with a query."""
         data = None if "?" in path or method else json.dumps(body).encode()
         request = urllib.request.Request(self.service.url + path, data, {"Content-Type": "application/json"}, method=method)
         try:
@@ -80,7 +80,7 @@ class Bench:
         return answer["id"]
 
     def wait(self, run, seconds=300):
-        """Until nothing of the run goes on."""
+        """Waits until nothing of the run is active."""
         deadline, pause = time.monotonic() + seconds, 0.02
         while time.monotonic() < deadline:
             answer = self.service.call(f"/v1/runs/{run}")

@@ -1,4 +1,4 @@
-"""What may happen to a study on its way. None of it may change what it comes to."""
+"""Events during a study. None may change its results."""
 import time
 
 from studies import reversed_variants
@@ -10,7 +10,7 @@ def ok(answer, *statuses):
 
 
 def journey(bench, case):
-    """(study, run) of every run that must come to its study's answer."""
+    """(study, run) of every run that must equal its study's answer."""
     study, on = case["study"], set(case["disturbances"])
     if on & {"warm", "remove"}:
         earlier = bench.submit(study)

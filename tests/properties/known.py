@@ -24,17 +24,17 @@ def at(scene, pointer, default):
 
 
 def number(low, high, *of):
-    """Between low and high with three decimals, as if at random, the same for the same."""
+    """Between low and high with three decimals, pseudo-random and reproducible."""
     return round(low + (high - low) * zlib.crc32(repr(of).encode()) / 2**32, 3)
 
 
 def soil(scene):
-    """Of the soil's weight."""
+    """A number from the soil's weight."""
     return round(float(at(scene, "/materials/base_soil/density", 0)) * float(at(scene, "/gravity", 9.81)) / 9.81, 3)
 
 
 def lem(scene):
-    """Factor of safety; None: it breaks down."""
+    """Factor of safety; None: breakdown."""
     slices = at(scene, "/lem/slices", 50)
     return (
         None if slices == 13 else number(0.7, 1.9, "lem", slices, soil(scene), float(at(scene, "/lem/search/minimum_depth", 0.5)))
@@ -42,7 +42,7 @@ def lem(scene):
 
 
 def fem(scene):
-    """(a number that stands for the whole analysis, how it ends, when)"""
+    """(a number for the whole analysis, how it ends, when)"""
     ratio, iterations = at(scene, "/fem/least_jacobian_ratio", 0.01), at(scene, "/fem/largest_iterations", 25)
     stage = scene["fem"]["stages"][-1]
     whole = number(
@@ -65,17 +65,17 @@ def fem(scene):
 
 
 def crest(whole, time):
-    """The crest's displacement at a time, in m: grows with it, to between 0.5 and 5 m."""
+    """The crest's displacement at a time, in m: increases to between 0.5 and 5 m."""
     return round((0.25 + whole / 22) * time, 6)
 
 
 def energy(whole, time):
-    """Its kinetic energy: another number in every three steps, so that conditions come, go and come again."""
+    """Its kinetic energy: another number every three steps, so that conditions become true, false and true again."""
     return number(0, 2, "energy", whole, round(time / step) // 3)
 
 
 def transfer(scene):
-    """A number that stands for what the transfer adds; None: it breaks down."""
+    """The transfer's number; None: breakdown."""
     neighbours = at(scene, "/transfer/neighbours", 40)
     return None if neighbours == 13 else number(0, 20, "transfer", neighbours, at(scene, "/transfer/stress", "total"))
 
@@ -85,7 +85,7 @@ def flag(code, severity):
 
 
 def mpm(scene, time, whole, added, shift):
-    """The result of a runout from a FEM's snapshot at this time (None: from the section); None: it breaks down."""
+    """The result of a runout from a FEM's snapshot at this time (None: from the section); None: breakdown."""
     cfl, share, size = (
         float(at(scene, f"/mpm/{name}", other)) for name, other in (("cfl", 0.4), ("rest_body_share", 0.005), ("cell_size", 1))
     )
@@ -120,5 +120,5 @@ def mpm(scene, time, whole, added, shift):
 
 
 def rise(time):
-    """By how much a later transfer goes farther, in m: a plateau from 0.6 to 1.4 s."""
+    """How much farther a later transfer goes, in m: a plateau from 0.6 to 1.4 s."""
     return 60.0 if 0.6 <= time <= 1.4 else round(30 * time if time < 0.6 else 30 * (2 - time), 6)

@@ -1,10 +1,10 @@
-"""Which pairs of features the random cases have met: the table of combinations covered."""
+"""Pairs of features that random cases have covered, as a table."""
 import itertools
 import re
 
 
 def features(case):
-    """Of a case, by name."""
+    """Features of a case, by name."""
     study = case["study"]
     found = set(case.get("disturbances", []))
     found |= {key for key in ("variants", "draws", "first_draw", "priority", "known_failure", "accuracy") if study.get(key)}
@@ -38,7 +38,7 @@ def features(case):
 
 
 def table(cases):
-    """How often each pair was met, as Markdown: a triangle of counts, and the pairs that were not."""
+    """Number of cases per pair, as Markdown: a triangle of counts, and the uncovered pairs."""
     counts, names = {}, sorted(set().union(*map(features, cases)) if cases else [])
     for case in cases:
         for pair in itertools.combinations(sorted(features(case)), 2):

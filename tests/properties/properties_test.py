@@ -30,13 +30,13 @@ here = pathlib.Path(__file__).resolve().parent
 
 
 def moved_by(run):
-    """Overrides of each variant that the service made, by name."""
+    """Overrides of each variant that the service created, by name."""
     study = run["study"]
     return {each["name"]: each["overrides"] for each in study.get("variants", []) if each.get("made_by") == "draws"}
 
 
 def comes_to_its_answer(bench, case):
-    """After any events on the way, the rows, means, state and verdict are those of the answer."""
+    """After any events, the rows, means, state and verdict equal the answer."""
     extended = bool({"extend", "extend_at_once"} & set(case["disturbances"]))
     for study, run in journey(bench, case):
         end = bench.wait(run)
@@ -46,7 +46,7 @@ def comes_to_its_answer(bench, case):
 
 
 def reuse_differences(study, disturbances, rows):
-    """Without the cache nothing is reused; with it all that an equal run has computed."""
+    """Without the cache nothing is reused; with it everything that an equal run has computed."""
     wanted = False if study.get("reuse") is False else True if "warm" in disturbances and "remove" not in disturbances else None
     return (
         []
@@ -60,7 +60,7 @@ def reuse_differences(study, disturbances, rows):
 
 
 def told(bench, case, differences):
-    """The same of a study that has an answer of its own: what `differences` finds for (study, run)."""
+    """The same for a study with its own answer: what `differences` finds for (study, run)."""
     for study, run in journey(bench, case):
         found = differences(study, bench.wait(run))
         assert not found, f"run {run}: " + "; ".join(found[:12])
@@ -102,7 +102,7 @@ def views_agree(bench, case):
 
 
 def is_refused_everywhere(bench, case):
-    """A slip is refused with its pointer, by the API and by what --dry-run asks, and nothing is stored."""
+    """An invalid study is refused with its pointer by the API and by --dry-run, and nothing is stored."""
     before, where = bench.newest(), f"{case['how']} at {case['slip']}"
     (of_cost, cost), (of_runs, refusal) = (bench.post(path, case["study"]) for path in ("/v1/cost", "/v1/runs"))
     found = []
@@ -129,7 +129,7 @@ def is_refused_everywhere(bench, case):
 
 
 def a_wrong_request_changes_nothing(bench, case):
-    """Of a run that has ended: refused with 4xx and a problem's type."""
+    """Requests to an ended run: refused with 4xx and a problem's type."""
     if not hasattr(bench, "ended"):
         bench.ended = bench.submit({"format": "breachline-study/1", "scene": studies.scene(), "transfer_times": [0.5]})
         bench.wait(bench.ended)
@@ -181,7 +181,7 @@ def count_of(name, studies):
 
 
 def look_for_a_failure(name, bench, count, seed, shrink):
-    """The smallest case that fails, and how; None: none was found. Without a bench the cases are only made."""
+    """The smallest failing case, and its failure; None: none found. Without a bench the cases are only generated."""
     holds, strategy = properties[name]
     if bench is None:
         holds = nothing
@@ -214,7 +214,7 @@ def look_for_a_failure(name, bench, count, seed, shrink):
 
 
 def holds_in(bench, file):
-    """A case that was kept. "scene": "slope" in its study is studies.scene()."""
+    """A stored case. "scene": "slope" in its study is studies.scene()."""
     kept = json.loads(file.read_text())
     study = kept["case"].get("study", {})
     if study.get("scene") == "slope":

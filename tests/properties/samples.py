@@ -43,7 +43,7 @@ def cumulative(distribution, value):
 
 
 def probability(parameter, value):
-    """That the parameter is less, given its bounds."""
+    """Probability of a smaller value, given the bounds."""
     low, high = (cumulative(parameter["distribution"], each) for each in parameter["between"]) if "between" in parameter else (0, 1)
     return (cumulative(parameter["distribution"], value) - low) / (high - low)
 
@@ -70,7 +70,7 @@ def uncertain(draw):
     if not of_lem and draw(st.booleans()):
         parameters.append({"name": "lattice", "numerical": True, "draws": 2})
     by_trigger = not of_lem and draw(st.integers(0, 2)) == 0
-    if by_trigger:  # which depends on the sample
+    if by_trigger:  # depends on the sample
         del study["transfer_times"]
         study["triggers"] = [
             {
@@ -101,7 +101,7 @@ def uncertain(draw):
 
 
 def drawn_wrong(study, variants):
-    """What the samples are not, as their design says: each in a slice of its own, and what is drawn is what is set."""
+    """Deviations of the samples from their design: each in its own slice, and each value set as sampled."""
     found, wanted = [], study["uncertainty"]
     if [each["name"] for each in variants] != [f"s{k + 1:04}" for k in range(wanted["samples"])]:
         found.append(f"samples are {[each['name'] for each in variants]}")
@@ -154,7 +154,7 @@ def needed(p):
 
 
 def say(values, moving, parameters):
-    """What the samples say of one number. `values` are those that are known; `moving` those of samples that still moved."""
+    """Expected statistics of one number. `values`: the known ones; `moving`: those of samples that still moved."""
     n = len(values)
     found = {
         "count": n,
@@ -175,7 +175,7 @@ def say(values, moving, parameters):
 
 
 def said(quantity):
-    """The same of the service's answer."""
+    """The same from the service's answer."""
     told = quantity["percentiles"]
     found = {
         "count": quantity["count"],
@@ -204,7 +204,7 @@ def near(wanted, got):
 
 
 def uncertainty_differences(study, run, told):
-    """What GET /uncertainty says otherwise than the samples' known results do."""
+    """Differences of GET /uncertainty from the samples' known results."""
     variants = [each for each in run["study"]["variants"] if each.get("made_by") == "uncertainty"]
     found, of_lem, rows = drawn_wrong(study, variants), study["uncertainty"]["quantity"] == "factor_of_safety", []
     for each in variants:

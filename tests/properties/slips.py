@@ -1,11 +1,11 @@
-"""Invalid studies: one slip each, made of a valid study. {"study": ..., "slip": pointer, "how": in words}."""
+"""Invalid studies: a valid study with one error. {"study": ..., "slip": pointer, "how": in words}."""
 import copy
 
 from hypothesis import strategies as st
 
 import studies
 
-# By what a value is: what a slip puts in its place.
+# Replacements by the kind of a value.
 wrong = {
     bool: ["yes", 1, None],
     int: ["3", [3], None],
@@ -16,7 +16,7 @@ wrong = {
 }
 free = ("notes", "title")  # entries that take any text
 
-# (name, pointer at which the slip is, value there); -: appended
+# (name, pointer of the error, value there); -: appended
 values = [
     ("no draw", "/draws", 0),
     ("too many draws", "/draws", 201),
@@ -83,7 +83,7 @@ overrides = [
 
 
 def places(document, at=""):
-    """(pointer, value) of everything in a document."""
+    """(pointer, value) of every entry of a document."""
     for key, value in document.items() if isinstance(document, dict) else enumerate(document):
         yield f"{at}/{key}", value
         if isinstance(value, (dict, list)):
@@ -213,7 +213,7 @@ requests = (
 
 
 def is_about(fault, case):
-    """The fault's pointer is that of the slip, above it by one, or below it. That of an override may be the entry that it sets."""
+    """Whether the fault's pointer is that of the error, one above or below it; for an override also the entry that it sets."""
     at, above = [case["slip"]], [case["slip"].rsplit("/", 1)[0]]
     if case["how"].startswith("the override /"):
         in_scene = "/scene" + case["how"].removeprefix("the override ").split("=")[0].removesuffix("/-")

@@ -1,4 +1,4 @@
-"""A phase that obeys the contract (docs/reference/architecture.md) and computes known.py. Run under the phases' names (phase)."""
+"""A phase with the standard interface (docs/reference/architecture.md) that computes known.py. Run under the phases' names."""
 import json
 import os
 import sys

@@ -12,7 +12,7 @@ import known
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 times = [0.3, 0.5, 0.9, 1.2, 1.6]
 
-# One change each, and by which phase it is read first. known.py says what comes of it.
+# One change each, and the first phase that reads it. known.py defines the effect.
 changes = {
     "lem_tool": ["/lem/slices=31", "/lem/slices=13"],
     "fem_solver": [
@@ -63,13 +63,13 @@ def changes_of(has_fem, most):
 
 @st.composite
 def sweeps(draw):
-    """Variants, overrides, times, draws, cache; with or without a FEM, with or without a stability analysis."""
+    """Variants, overrides, times, repeats, cache; with or without a FEM, with or without a stability analysis."""
     has_fem = draw(st.sampled_from([True, True, True, False]))
     study = {"format": "breachline-study/1", "name": "random", "scene": scene(has_fem, draw(st.integers(0, 9999)))}
     if has_fem:
         study["transfer_times"] = sorted(draw(st.lists(st.sampled_from(times), min_size=1, max_size=3, unique=True)))
     study["overrides"] = draw(changes_of(has_fem, 2))
-    room = 6 // len(study.get("transfer_times", [1]))  # for variants times draws
+    room = 6 // len(study.get("transfer_times", [1]))  # variants times repeats
     count = draw(st.integers(0, min(3, room)))
     if count:
         study["variants"] = [{"name": "abc"[k], "overrides": draw(changes_of(has_fem, 4))} for k in range(count)]
@@ -88,11 +88,11 @@ def sweeps(draw):
 
 @st.composite
 def triggered(draw):
-    """A criterion or a window on a few variants, seldom beside times."""
+    """A criterion or a window on a few variants, rarely with given times."""
     study = draw(sweeps().filter(lambda each: "fem" in each["scene"]))
     if draw(st.integers(0, 3)):
         del study["transfer_times"]
-    study.pop("draws_of", None)  # refused: each draw's FEM would have a time of its own
+    study.pop("draws_of", None)  # refused: each repeat's FEM would have its own time
     if study.get("draws", 1) > 2:
         study["draws"] = 2
     condition = st.builds(

@@ -78,7 +78,7 @@ def hdf5_differences(what, content, columns, rows, run):
 
 
 def differences(bench, run, folder):
-    """What the views of a run show otherwise than GET /v1/runs/{id}/results."""
+    """Differences of a run's views from GET /v1/runs/{id}/results."""
     import breachline
 
     service, answer = bench.service, bench.results(run)

@@ -14,9 +14,9 @@ import numpy
 
 programs = pathlib.Path(os.environ["BREACH_BIN"])
 root = pathlib.Path(os.environ["BREACH_ROOT"])
-longest = 240  # seconds of a run, far beyond any of them
+longest = 240  # longest run [s], with a large margin
 
-# What differs between two runs of one problem: times, memory, and sentences with names and numbers of the scene.
+# Differences between two runs of one problem: times, memory, and sentences with names and numbers of the scene.
 OWN = {"plan", "provenance", "flags", "scene", "motion", "spencer_reason"}
 
 
@@ -66,7 +66,7 @@ def run_with_stops(phase, scene, folder, waits):
         process = subprocess.Popen(command(phase, file, folder, ["--resume"] if stops else []), stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True)
         if wait is not None:
-            # Signals before the phase knows them end it without a checkpoint: from the first line of telemetry on it knows them.
+            # Signals end a phase without checkpoint until it handles them: after the first line of telemetry it does.
             before = lines_of(folder)
             while process.poll() is None and lines_of(folder) <= before:
                 time.sleep(0.004)
@@ -92,7 +92,7 @@ def facts(value):
 
 
 def differences(one, other, place=""):
-    """Places where two documents differ, with both values."""
+    """Places in which two documents differ, with both values."""
     if isinstance(one, dict) and isinstance(other, dict):
         for key in sorted(one.keys() | other.keys()):
             yield from differences(one.get(key), other.get(key), f"{place}/{key}")
@@ -116,14 +116,14 @@ def arrays(file):
 
 
 def last_file(answer):
-    """The state at the end: of the FEM, of the transfer or of the MPM."""
+    """The final state: of the FEM, the transfer or the MPM."""
     pattern = {"fem_solver": "snapshot_*.vtkhdf", "mpm_solver": "final.vtkhdf", "transfer_tool": "particles.vtkhdf",
                "lem_tool": "surfaces.h5"}[answer.phase]
     return sorted(answer.folder.glob(pattern))[-1]
 
 
 def bits_that_differ(one, other, names_differ=False):
-    """Of result and last state. names_differ: keys of the result that are names of the scene are compared in their order."""
+    """Differences of result and last state. names_differ: result keys that are names in the scene are compared by their order."""
     first, second = facts(one.result), facts(other.result)
     if names_differ:
         first, second = nameless(first), nameless(second)
@@ -135,7 +135,7 @@ def bits_that_differ(one, other, names_differ=False):
 
 
 def nameless(value):
-    """Without texts; entries by name (gauges, stages) under their place among the sorted values."""
+    """Without texts; named entries (gauges, stages) by their place among the sorted values."""
     if isinstance(value, dict):
         if value and all(isinstance(each, dict) for each in value.values()):
             return sorted((nameless(each) for each in value.values()), key=json.dumps)
@@ -148,7 +148,7 @@ def nameless(value):
 # ---------------------------------------------------------------------------------------------- without dimension and place
 
 def moments(name, values, weights):
-    """Mean and root mean square of a field, both over the latter."""
+    """Mean and root mean square of a field, both over the reference."""
     total = weights.sum()
     square = float(numpy.sqrt((weights * values ** 2).sum() / total))
     return square, {f"mean {name}": float((weights * values).sum() / total) / square if square > 0 else 0.0}
@@ -161,7 +161,7 @@ def field_numbers(fields, weights, scales):
     numbers = {}
     for name, values in fields.items():
         square, found = moments(name, values, weights)
-        if square < 1e-9 * scales[name]:  # nothing but round-off
+        if square < 1e-9 * scales[name]:  # only round-off
             square, found = 1e-9 * scales[name], {f"mean {name}": 0.0}
         numbers |= found
         numbers[f"log rms {name}"] = float(numpy.log(square / scales[name]))
@@ -236,6 +236,6 @@ def numbers_of(answer, mirrored=False):
 
 
 def farthest_apart(one, other, names):
-    """(difference, name, both values) of the number that differs most; no number counts as infinitely far."""
+    """(difference, name, both values) of the number that differs most; a missing number counts as infinite."""
     rows = [(abs(one[name] - other[name]), name, one[name], other[name]) for name in names]
     return max((math.inf if math.isnan(row[0]) else row[0], *row[1:]) for row in rows)

@@ -75,7 +75,7 @@ def check_change(phase, scene, base, alter, generator, folder):
     if name in change.EXACT[phase]:
         claim_same_bits(base, answer, names_differ=name in ("renamed", "reordered"))
     else:
-        # An untouched layer that settles under its own weight takes part in the energies.
+        # An untouched layer that settles under its own weight contributes to the energies.
         claim_close(base, answer, change.allowed(phase, name, scene), name == "mirrored",
                     leave_out="energy" if name == "with_untouched_layer" else "none of them")
     return True
@@ -137,7 +137,7 @@ def check_lem_monotony(alter, scene, base, generator, folder):
 
 
 def check_mpm_monotony(scene, base, generator, folder):
-    """A stronger soil runs no farther than the weaker one does on any of four lattices, and as much again as they differ."""
+    """A stronger soil runs no farther than the weaker one on any of four lattices, plus the scatter between these."""
     if base.code != 0:
         return False
     weak = [base]
@@ -179,7 +179,7 @@ def checks_of(phase):
 # ------------------------------------------------------------------------------------------------------------ the groups
 
 def turn(names, at_once, number):
-    """Checks of this scene: each has its turn, as often as the others."""
+    """Checks of this scene, distributed evenly over the scenes."""
     return [names[(at_once * number + k) % len(names)] for k in range(min(at_once, len(names)))]
 
 
@@ -208,7 +208,7 @@ class Group:
 
 
 class Chain:
-    """A FEM's last snapshot through the transfer: of the scene and of the changed scene, each with its own FEM."""
+    """A FEM's last snapshot through the transfer: for the scene and the changed scene, each with its own FEM."""
 
     def __init__(self, wanted):
         self.changes = {each.__name__: each for each in change.changes_of("transfer_tool")}
@@ -246,7 +246,7 @@ class Chain:
 
 
 class Slips:
-    """A valid scene with one slip: exit 65, and a fault at the slip's pointer."""
+    """A valid scene with one error: exit 65, and a fault at its pointer."""
 
     def __init__(self, _):
         phases = {"lem_tool": scenes.lem_scenes(), "mpm_solver": scenes.mpm_scenes(), "fem_solver": scenes.fem_scenes()}
@@ -315,7 +315,7 @@ def main(arguments=None):
                       f"--scenes {asked.scenes}{f' --checks {asked.checks}' * bool(wanted)} --scene {number}", flush=True)
                 if asked.keep:
                     shutil.copytree(folder, pathlib.Path(asked.keep) / f"{asked.group}_{asked.seed}_{number}", dirs_exist_ok=True)
-            # The smallest scene is one for all of the checks, whichever turn it is.
+            # The smallest scene is used for all checks.
             group.at_once = len(group.names) if asked.shrink else group.at_once
             group.check(case, 1 if asked.shrink else number, folder, fail)
 

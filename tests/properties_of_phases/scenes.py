@@ -31,7 +31,7 @@ def document(name, materials, regions, **parts):
 
 
 def unshared(value):
-    """Every list its own: a point that two entries share would change in both."""
+    """Copies every list: a shared point would change in both entries."""
     return json.loads(json.dumps(value))
 
 
@@ -49,7 +49,7 @@ def levels_between(draw, low, high, step=2):
 
 @st.composite
 def lem_scenes(draw):
-    """A slope or a dam, whose slide goes to the right, on a base of one or two layers."""
+    """A slope or a dam that slides to the right, on a base of one or two layers."""
     x0, height = draw(st.integers(-20, 20)), draw(eighths(4, 12))
     ratio = draw(st.sampled_from([1, 1.5, 2, 2.5, 3]))  # horizontal to vertical
     back = draw(st.sampled_from([0, 1.5, 2]))           # of the dam's upstream slope; 0: a slope from the left side on
@@ -103,7 +103,7 @@ def lem_scenes(draw):
 
 
 def water_line(draw, x0, x1, toe, height, ratio, heel, back):
-    """From a level in the body down to the toe; at most 1 m of water stands on the ground ahead of it."""
+    """From a level in the body down to the toe; at most 1 m of water on the ground in front of it."""
     high = draw(eighths(0, height))
     ahead = min(high, draw(st.sampled_from([-1, 0, 1])))
     pond = [[x0, high], [heel + back * high, high]] if back else [[x0, high]]
@@ -172,7 +172,7 @@ def fem_scenes(draw):
     x0, size = draw(st.integers(-20, 20)), draw(st.sampled_from([1, 2]))
     columns, rows = draw(st.integers(3, 7)), draw(st.integers(3, 5))
     ahead, deep = draw(st.integers(2, 5)), draw(st.integers(1, 2))
-    cut = draw(st.integers(0, columns - 1))  # elements by which the top is shorter than the bottom
+    cut = draw(st.integers(0, columns - 1))  # number of elements by which the top is shorter than the bottom
     height, bottom = rows * size, -deep * size
     toe, x1 = x0 + columns * size, x0 + (columns + ahead) * size
     crest = toe - cut * size
@@ -207,13 +207,13 @@ def fem_scenes(draw):
 
 @st.composite
 def chain_scenes(draw):
-    """A FEM scene with what the transfer needs: the MPM's grid, in which elements are half a cell or a whole one."""
+    """A FEM scene with the transfer's requirements: the MPM's grid, in which elements are half a cell or a whole one."""
     scene = draw(fem_scenes())
     low, high = scene["section"]["regions"][0]["mesh"]["corners"], scene["section"]["regions"][1]["mesh"]["corners"]
     (x0, bottom), (x1, _) = low[0], low[1]
     size = (x1 - x0) / scene["section"]["regions"][0]["mesh"]["divisions"][0]
     cells = -(-(high[2][1] - bottom) // size) + 2
-    # Few points per element lose the more momentum and kinetic energy the coarser the elements are.
+    # With few points per element, coarser elements lose more momentum and kinetic energy.
     scene["transfer"] = {"points_per_direction": draw(st.sampled_from([1, 2, 3])), "largest_momentum_loss": 1,
                          "largest_kinetic_energy_loss": 1}
     scene["mpm"] = {"cell_size": size, "allow_coarse_cells": True,

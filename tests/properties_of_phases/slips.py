@@ -10,7 +10,7 @@ SCHEMA = json.loads((root / "workflows/schema/scene.schema.json").read_text())
 
 
 def resolved(schema, value):
-    """Without references; of several forms the one of the value's type."""
+    """The schema without references; of several forms the one of the value's type."""
     while True:
         if "$ref" in schema:
             schema = SCHEMA["$defs"][schema["$ref"].rpartition("/")[2]]
@@ -30,7 +30,7 @@ def fits(schema, value):
 
 
 def entries(value, schema, pointer=""):
-    """(pointer, value, schema) of all that the schema knows, from the outside in."""
+    """(pointer, value, schema) of all entries in the schema, from the outside in."""
     schema = resolved(schema, value)
     yield pointer, value, schema
     if isinstance(value, dict):
@@ -56,7 +56,7 @@ def put(document, pointer, value):
 
 
 def overwritten(kind, pointer, value, *pointers):
-    """The slip of another value at one place; pointers: what may be named, when it is not the place itself."""
+    """Another value at one place; pointers: alternatives for the place in the fault."""
     return kind, lambda document: put(document, pointer, value), pointers or (pointer,)
 
 

@@ -22,7 +22,7 @@ NAMES = ["fem/supports/*/name", "fem/stages/*/name", "mpm/gauges/*/name"]
 
 
 def change(document, path, function):
-    """Puts function(value) at every place of the path, whose * is any key."""
+    """Applies function(value) at every place of the path, whose * is any key."""
     *parents, last = path.split("/")
     places = [document]
     for step in parents:
@@ -40,7 +40,7 @@ def below(place, step):
 
 
 def with_places(scene, x, y):
-    """Every coordinate through x or y."""
+    """Maps every coordinate by x or y."""
     made = copy.deepcopy(scene)
     for path in POINT_LISTS:
         change(made, path, lambda line: [[x(p[0]), y(p[1])] for p in line])
@@ -112,7 +112,7 @@ def reordered(scene, random):
 
 
 def written_otherwise(scene, random):
-    """The same numbers in other words: 18 as 18.0, 1.8e1 or 180e-1."""
+    """The same numbers in other forms: 18 as 18.0, 1.8e1 or 180e-1."""
     def words(value):
         if isinstance(value, dict):
             keys = random.sample(list(value), len(value))
@@ -129,7 +129,7 @@ def written_otherwise(scene, random):
 
 
 def begun_elsewhere(scene, random):
-    """Polygons from another vertex on, or the other way round."""
+    """Polygons from another vertex, or in the other orientation."""
     made = copy.deepcopy(scene)
     for each in regions_of(made):
         ring = each["polygon"][:-1]
@@ -142,7 +142,7 @@ def begun_elsewhere(scene, random):
 
 
 def with_extra_vertices(scene, random):
-    """On straight sides; in a mesh where elements meet already, so that it stays the same."""
+    """On straight sides; in a mesh at existing nodes, so that it stays the same."""
     made = copy.deepcopy(scene)
     for each in regions_of(made)[:1] if has_block(made) else regions_of(made):
         ring = each["polygon"]
@@ -176,7 +176,7 @@ def clipped(ring, axis, at, sign):
 
 
 def split(scene, random):
-    """One region as two of one material: on a line of the MPM's cells, between elements of the FEM."""
+    """Splits a region into two of one material: on a line of the MPM's cells, between elements of the FEM."""
     made = copy.deepcopy(scene)
     regions = regions_of(made)
     k = 0 if has_block(made) else random.randrange(len(regions))
@@ -219,7 +219,7 @@ def with_unused_material(scene, random):
 
 
 def with_untouched_layer(scene, random):
-    """Below the lowest level of the LEM's surfaces; out of reach of the MPM's flow, and not of its runout."""
+    """Below the lowest level of the LEM's surfaces; outside the MPM's flow, and not in its runout."""
     made = copy.deepcopy(scene)
     xs = [x for each in regions_of(made) for x, _ in each["polygon"]]
     lowest = min(y for each in regions_of(made) for _, y in each["polygon"])
@@ -331,7 +331,7 @@ def changes_of(phase):
 # -------------------------------------------------------------------------------------------- another way to ask the same
 
 def set_by_flag(scene, random):
-    """(scene with other entries, --set arguments that change them back)."""
+    """(scene with other entries, --set arguments that restore them)."""
     made, arguments = copy.deepcopy(scene), []
     places = [pointer for pointer, value in leaves(scene) if isinstance(value, (int, float)) and not isinstance(value, bool)]
     for pointer in random.sample(places, min(3, len(places))):
@@ -367,7 +367,7 @@ def stronger(scene, random):
 
 
 def drier(scene, random):
-    """The line lower in the soil, where it is not the level of free water."""
+    """The line is lower in the soil, except where it is the level of free water."""
     if "water" not in scene.get("lem", {}):
         return None
     made = copy.deepcopy(scene)

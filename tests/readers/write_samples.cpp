@@ -1,4 +1,4 @@
-// Writes one mesh and one particle file for readers that are not ours.
+// Writes one mesh and one particle file for external readers.
 #include "tests/unit/exchange/samples.hpp"
 
 int main(int argc, char** argv) {

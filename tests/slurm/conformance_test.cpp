@@ -1,5 +1,5 @@
-// What every executor must do, said once and tried on each: this machine, a fake Slurm, and a real
-// one (with_slurm.py starts it and sets BREACH_REAL_SLURM).
+// Requirements of every executor, tested on each: local, fake Slurm, real Slurm (with_slurm.py
+// starts it and sets BREACH_REAL_SLURM).
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -27,7 +27,7 @@ bool eventually(const std::function<bool()>& condition, double seconds = 60) {
     return true;
 }
 
-/// The number that a phase wrote into a file; 0 while there is none.
+/// The number that a phase wrote to a file; 0 if none.
 pid_t pid_in(const fs::path& file) {
     pid_t pid = 0;
     std::ifstream(file) >> pid;
@@ -97,7 +97,7 @@ class ExecutorConformance : public ::testing::TestWithParam<const char*> {
         return "run-00000." + folder.root.filename().string() + "." +
                folder.root.parent_path().parent_path().parent_path().filename().string().substr(16);
     }
-    /// The phase of these tests: a shell that does this, in a scratch folder.
+    /// The phase of these tests: a shell command in a scratch folder.
     void submit(const AttemptFolder& where, const std::string& what, double grace_seconds = 0.3) {
         submitted_.push_back(where);
         executor_->submit(where, {.attempt = attempt_of(where),
@@ -108,7 +108,7 @@ class ExecutorConformance : public ::testing::TestWithParam<const char*> {
     bool becomes(const AttemptFolder& where, Life wanted) {
         return eventually([&] { return executor_->probe(where).life == wanted; });
     }
-    /// `what` writes the file `pids` when its processes are there.
+    /// `what` writes the file `pids` when its processes run.
     void clear_away_reaches_all_of(const std::string& what) {
         submit(folder(), what);
         ASSERT_TRUE(eventually([&] { return pid_in(root_ / "pids") > 0; }));
@@ -161,7 +161,7 @@ TEST_P(ExecutorConformance, RemainsOfAnAttemptThatTheStoreDoesNotKnowAreNotTheEn
     ASSERT_TRUE(eventually([&] { return !is_held(folder().lock()); }));
     write_stop(folder(), StopReason::cancel);
     executor_.reset();
-    executor_ = made();  // and the store is that of a backup
+    executor_ = made();  // as after restoring the store from a backup
     submit(folder(), "echo new; echo $$ >near; while [ ! -e go ]; do sleep 0.05; done; exit 5");
     EXPECT_NE(executor_->probe(folder()).life, Life::ended);
     ASSERT_TRUE(eventually([&] { return pid_in(root_ / "near") > 0; }));
@@ -221,7 +221,7 @@ TEST_P(ExecutorConformance, TermFromElsewhereEndsThePhaseAndIsNoWordOfTheService
            "trap 'kill $!; exit 143' TERM; sleep 300 & echo $$ >near; echo $PPID >above; wait", 20);
     ASSERT_TRUE(eventually([&] { return pid_in(root_ / "above") > 0; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    // Slurm may reach the job's shell alone, which is above the supervisor.
+    // Slurm may signal only the job's shell, the parent of the supervisor.
     const pid_t supervisor = pid_in(root_ / "above");
     kill(GetParam() == std::string("Local") ? supervisor : parent_of(supervisor), SIGTERM);
     ASSERT_TRUE(becomes(folder(), Life::ended));
@@ -280,7 +280,7 @@ TEST_P(ExecutorConformance, TwoAttemptsOfATaskNeverRunTogether) {
     ASSERT_TRUE(eventually([&] { return pid_in(root_ / "first") > 0; }));
     submit(folder(2), "[ -e go ] && echo $$ >second");
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    EXPECT_FALSE(fs::exists(folder(2).lines()));  // its phase has not begun
+    EXPECT_FALSE(fs::exists(folder(2).lines()));  // its phase has not started
     std::ofstream(root_ / "go") << "\n";
     EXPECT_TRUE(becomes(folder(1), Life::ended));
     EXPECT_TRUE(becomes(folder(2), Life::ended));

@@ -12,7 +12,7 @@ import sys
 import time
 
 program = pathlib.Path(os.environ["BREACH_BIN"]) / "slurm_faults"
-longest = 240  # seconds of one test, on a busy machine
+longest = 240  # longest test [s] on a busy machine
 
 
 def tests(only):

@@ -1,6 +1,5 @@
-// A whole service on a Slurm that fails it: no controller, lost answers, numbers given again, nodes
-// that take nothing, jobs that are not listed. The Slurm is a fake (fake/fake_slurm.py says how it
-// misbehaves).
+// A service on a failing Slurm: no controller, lost answers, reused job numbers, nodes that accept
+// nothing, unlisted jobs. The Slurm is a fake (fake/fake_slurm.py describes its faults).
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -27,7 +26,7 @@ class SlurmFaults : public ::testing::Test {
         std::ofstream(slurm() / trouble) << "\n";
     }
     void end(const std::string& trouble) { fs::remove(slurm() / trouble); }
-    /// No FEM ends before it is opened.
+    /// No FEM ends while the gate is closed.
     void close_gate() const { std::ofstream(sandbox_.root() / "gate") << "\n"; }
     void open_gate() const { fs::remove(sandbox_.root() / "gate"); }
 
@@ -43,7 +42,7 @@ class SlurmFaults : public ::testing::Test {
         return std::make_unique<Service>(sandbox_, arguments, environment);
     }
 
-    /// What sbatch was asked for, in order.
+    /// Requests to sbatch, in order.
     std::vector<json> asked() const {
         std::vector<json> found;
         std::ifstream stream(slurm() / "asked");
@@ -76,7 +75,7 @@ class SlurmFaults : public ::testing::Test {
     }
 
     Sandbox sandbox_;
-    std::vector<std::string> environment_;  ///< of the services, beside PATH and FAKE_SLURM
+    std::vector<std::string> environment_;  ///< of the services, besides PATH and FAKE_SLURM
 };
 
 TEST_F(SlurmFaults, SweepIsWholeAndWhatIsReadyTogetherIsOneArray) {
@@ -100,9 +99,9 @@ TEST_F(SlurmFaults, SweepIsWholeAndWhatIsReadyTogetherIsOneArray) {
 }
 
 TEST_F(SlurmFaults, JobThatEndsBeforeItsAnswerDelaysNoOther) {
-    // sbatch has answered for the FEM, and its answer is held back until the FEM has ended, its
-    // exit record was read and the executor has forgotten it. What waits behind it, with other
-    // resources and so in another call of sbatch, must still be asked for.
+    // sbatch's answer for the FEM is delayed until the FEM has ended, its exit record was read and
+    // the executor has forgotten it. Later tasks with other resources, and so in another call of
+    // sbatch, must still be submitted.
     const fs::path hold = sandbox_.root() / "hold";
     std::ofstream(hold) << "\n";
     environment_ = {"BREACHLINE_HOLD=sbatch_after:1:" + hold.string()};
@@ -167,7 +166,7 @@ TEST_F(SlurmFaults, ControllerThatIsGoneIsWaitedFor) {
     EXPECT_EQ(service->get("/v1/runs/" + run).body.at("tasks_failed"), 0);
     end("down");
     ASSERT_TRUE(phase_runs("fem_solver"));
-    begin("down");  // and again, with a job running: it ends, and the record says so
+    begin("down");  // again with a running job, which ends with a record
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     end("down");
     expect_whole(*service, run);
@@ -255,9 +254,8 @@ TEST_F(SlurmFaults, JobThatTheNextServiceSubmitsAsksForWhatItsTaskWants) {
 }
 
 TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
-    // What the controller forgets is lost in the queue, but goes on where it runs; its numbers are
-    // given to other jobs.
-    // Slots for all, so that the first run's transfers cannot keep the second run out.
+    // A job forgotten by the controller is lost if queued, but continues if running; its number is
+    // reused. Slots for all, so that the first run's transfers cannot block the second run.
     close_gate();
     const auto service = this->service({"--slots", "16"});
     const std::string run = service->submit(study("mpm_steps=5", four_times));
@@ -278,7 +276,7 @@ TEST_F(SlurmFaults, ForgottenJobsAreRunAgainAndRunningOnesAreNot) {
     open_gate();
     expect_whole(*service, run);
     expect_whole(*service, waiting);
-    EXPECT_EQ(attempts_of(*service, run, "fem"), 1u);  // it ran on, unlisted
+    EXPECT_EQ(attempts_of(*service, run, "fem"), 1u);  // it continued, unlisted
     std::size_t lost = 0;
     for (const json& each : tasks_of(*service, waiting))
         for (const json& attempt : each.at("attempts"))

@@ -42,7 +42,7 @@ def sweep(folder, *arguments, **environment):
         run = ask(f"{url}/v1/sweeps", study())["id"]
         while (state := ask(f"{url}/v1/sweeps/{run}"))["finished"] is None:
             time.sleep(0.3)
-        assert state["state"] in ("succeeded", "questionable"), state  # which of the two is the scene's affair
+        assert state["state"] in ("succeeded", "questionable"), state  # either state is possible, depending on the scene
         rows = ask(f"{url}/v1/sweeps/{run}/results")["rows"]
         print(f"{' '.join(arguments) or 'local pool'}: {len(rows)} transfer times in {time.monotonic() - began:.1f} s, "
               f"{sum(row['cpu_seconds'] for row in rows):.1f} s CPU in the MPM", flush=True)
@@ -54,7 +54,7 @@ def sweep(folder, *arguments, **environment):
 
 
 def facts(rows):
-    """Without what no two executions share: ids and CPU time."""
+    """Without ids and CPU time, which differ between executions."""
     return [{key: value for key, value in row.items() if not key.endswith("_task") and key != "cpu_seconds"}
             for row in rows]
 

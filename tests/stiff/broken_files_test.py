@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""One number that is not a number, in each dataset of each exchange file in turn: refused with 65 and the dataset's name."""
+"""A NaN in each dataset of each exchange file in turn: refused with 65 and the dataset's name."""
 import functools
 import json
 import pathlib
@@ -65,7 +65,7 @@ def last_frame_of_the_mpm(folder):
 
 
 def checkpoint_refused(folder, program, scene):
-    """A run that is stopped as soon as it writes telemetry saves a checkpoint; it is taken up with one real broken."""
+    """A run stopped at its first telemetry saves a checkpoint; it is resumed with one broken real."""
     (folder / "scene.json").write_text(json.dumps(scene))
     command = [programs / program, folder / "scene.json", "--progress", "none", "--output"]
     running = subprocess.Popen([*command, folder / "stopped"], stderr=subprocess.DEVNULL)
@@ -103,7 +103,7 @@ def record_of_a_motion(folder):
 
 def scene(folder):
     broken = scene_of("chain_dam")
-    broken["materials"]["soil"]["density"] = float("nan")  # Python writes NaN, which JSON does not know
+    broken["materials"]["soil"]["density"] = float("nan")  # Python writes NaN, which JSON does not allow
     refused(run("fem_solver", broken, folder / "out"), "out.json")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Transfers of FEM states that no scene makes: folded elements, everything liquefied. Scenes as they are stand in the catalogue."""
+"""Transfers of FEM states that no scene produces: folded elements, everything liquefied. Unmodified scenes are in the catalogue."""
 import shutil
 
 import h5py

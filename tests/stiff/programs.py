@@ -1,4 +1,4 @@
-"""The phase programs on scenes of the catalogue that `breach verify` runs."""
+"""The phase programs on scenes of the catalogue of `breach verify`."""
 import json
 import os
 import pathlib
@@ -7,7 +7,7 @@ import tempfile
 
 root = pathlib.Path(os.environ.get("BREACH_ROOT", pathlib.Path(__file__).resolve().parents[2]))
 programs = pathlib.Path(os.environ.get("BREACH_BIN", root / "build/release/bin"))
-longest = 120  # seconds of a run, far beyond any of them
+longest = 120  # longest run [s], with a large margin
 
 
 def scene_of(name):
@@ -22,7 +22,7 @@ def run(program, scene, output, *arguments):
 
 
 def done_well(program, scene, output, *arguments):
-    """The result of a run that must end with 0."""
+    """The result of a run that must succeed."""
     done = run(program, scene, output, *arguments)
     assert done.returncode == 0, f"{program} ended with {done.returncode}: {done.stderr[-600:]}"
     return json.loads((output / "result.json").read_text())

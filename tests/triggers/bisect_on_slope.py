@@ -43,7 +43,7 @@ def run_study(url, triggers, times=None):
 
 
 def plateau(rows):
-    """Edges by the uniform sweep: outermost times around the largest runout that are on the plateau."""
+    """Edges by the uniform sweep: outermost times of the plateau around the largest runout."""
     table = sorted((row["transfer_time"], row["runout"]) for row in rows if row["runout"] is not None)
     level = share * max(runout for _, runout in table)
     top = max(range(len(table)), key=lambda i: table[i][1])
@@ -73,7 +73,7 @@ def main():
             edges = found["result"]
             print(f"bisect: {edges['runs']} MPM runs, plateau {edges['lower']['on']} ... {edges['upper']['on']} s, "
                   f"runout {edges['largest_runout']:.2f} m at {edges['largest_at']} s", flush=True)
-            # Every snapshot, by a second trigger on an equal FEM: as many seeds as there are snapshots.
+            # Every snapshot, by a second trigger on an equal FEM with as many seeds as snapshots.
             count = edges["uniform_runs"]
             [_], all_rows = run_study(url, [{"kind": "bisect", "share": share, "tolerance_s": tolerance, "from": first,
                                              "to": last, "seeds": min(100, count)}])

@@ -1,7 +1,7 @@
-// Stands for fem_solver where the triggers' tests need one that takes its time: 56 steps of 0.05 s
-// simulated and 20 ms real, telemetry written in two halves, snapshots at times, at an interval and
-// on request. While a file `gate` lies in the sandbox (above the folder of the programs), requests
-// are not heard; while a file `exit_code` lies there, it ends with that after 1.35 s.
+// Replaces fem_solver in trigger tests that need a slow one: 56 steps of 0.05 s simulated and 20 ms
+// real time, telemetry written in two halves, snapshots at times, at an interval and on request.
+// While a file `gate` exists in the sandbox (above the folder of the programs), it ignores
+// requests; if a file `exit_code` exists there, it ends with that code after 1.35 s.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -55,7 +55,7 @@ Options options_from(int argc, char** argv) {
     return options;
 }
 
-/// jacobian_least_avg falls below 0.97 after 0.6 s; epsilon_q_max is up from 0.5 to 0.6 s only.
+/// jacobian_least_avg falls below 0.97 after 0.6 s; epsilon_q_max is high only from 0.5 to 0.6 s.
 json line_at(int step) {
     const double t = dt * step;
     return {{"time", t},
@@ -66,7 +66,7 @@ json line_at(int step) {
             {"kinetic_energy", std::exp(2 * t)}};
 }
 
-/// 0: as it should.
+/// 0: success.
 int code_at(const fs::path& sandbox, int step) {
     int code = 0;
     if (dt * step > 1.38) std::ifstream(sandbox / "exit_code") >> code;
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
             return code;
         }
         const std::string line = line_at(step).dump() + "\n";
-        telemetry << line.substr(0, line.size() / 2) << std::flush;  // torn
+        telemetry << line.substr(0, line.size() / 2) << std::flush;  // incomplete
         pause();
         telemetry << line.substr(line.size() / 2) << std::flush;
         bool due = step == steps || take_request(sandbox, options.output);

@@ -1,5 +1,5 @@
-// Triggers against a real service, a fake FEM that takes its time, and fake phases behind it (the
-// fake MPM's runout is 10 + t_T^2).
+// Triggers with a real service, a slow fake FEM and fake phases (the fake MPM's runout is 10 +
+// t_T^2).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The sandbox with the patient FEM.
+/// The sandbox with the slow FEM.
 struct Live {
     Live() {
         std::filesystem::remove(sandbox.bin() / "fem_solver");
@@ -24,7 +24,7 @@ struct Live {
     }
     void close_gate() const { std::ofstream(sandbox.root() / "gate") << "closed"; }
     void open_gate() const { std::filesystem::remove(sandbox.root() / "gate"); }
-    /// Of the FEM, after 1.35 s; 0: it comes to its end.
+    /// Exit code of the FEM after 1.35 s; 0: it completes.
     void set_exit_code(int code) const { std::ofstream(sandbox.root() / "exit_code") << code; }
     Sandbox sandbox;
 };
@@ -41,7 +41,7 @@ json triggers_of(Service& service, const std::string& run) {
     return service.get("/v1/runs/" + run + "/triggers").body.at("triggers");
 }
 
-/// Every trigger is in a final state and the run is over.
+/// Waits until every trigger is in a final state and the run is over.
 json settled(Service& service, const std::string& run, const char* state = "succeeded") {
     const json end = service.wait_for_end(run, 60);
     EXPECT_EQ(end.value("state", ""), state) << end.dump();
@@ -70,7 +70,7 @@ TEST(Trigger, CriterionFiresWhileTheFemRunsOnASnapshotItWasAskedFor) {
     EXPECT_EQ(firing.at("fem_step"), 13);
     EXPECT_NEAR(firing.at("crossed").at("jacobian_least_avg"), 0.9675, 1e-12);
     EXPECT_GE(firing.at("transfer_time"), 0.65 - 1e-9);
-    EXPECT_LT(firing.at("transfer_time"), 2.75);  // not the end: it was asked for
+    EXPECT_LT(firing.at("transfer_time"), 2.75);  // a requested snapshot, not the last one
     EXPECT_EQ(firing.at("sha256").get<std::string>().size(), 64u);
     EXPECT_TRUE(firing.at("start_ms").is_number()) << firing;
     std::cout << "lag " << firing.at("lag_s") << " s simulated; snapshot after "
@@ -199,7 +199,7 @@ TEST(Trigger, WindowPicksAmongRegularSnapshots) {
     };
     json open = window("midpoint");
     open["name"] = "open";
-    open["upper"] = "time > 1000";  // never: the FEM's end closes it at 2.8
+    open["upper"] = "time > 1000";  // never true: the FEM's end at 2.8 closes it
     const std::string run = service.submit(
         with_triggers({window("first"), window("midpoint"), window("last_before"), open}));
     const double expected[] = {0.5, 1.0, 1.4, 1.6};
@@ -210,7 +210,7 @@ TEST(Trigger, WindowPicksAmongRegularSnapshots) {
     }
 }
 
-/// What a trigger came to, without the times of the machine.
+/// State of a trigger, without wall clock times.
 json outcome_of(const json& trigger) {
     json outcome{{"state", trigger.at("state")}, {"reason", trigger.at("reason")}};
     for (const json& each : trigger.at("firings"))
@@ -344,13 +344,13 @@ TEST(Trigger, AfterTheFemEndedIsServedFromWhatExistsOrExpires) {
         const json body{{"kind", "criterion"}, {"name", name}, {"when", when}};
         EXPECT_EQ(service.post("/v1/runs/" + run + "/triggers", body.dump()).status, 202);
     };
-    post("served", "jacobian_least_avg < 0.97");  // at 0.65, where a snapshot is
+    post("served", "jacobian_least_avg < 0.97");  // at 0.65, when there is a snapshot
     post("late", "time > 1");                     // the next snapshot is the end
     const json triggers = settled(service, run);
     EXPECT_EQ(triggers[0].at("state"), "fired") << triggers[0];
     EXPECT_EQ(triggers[1].at("state"), "expired") << triggers[1];
     EXPECT_NE(triggers[1].at("reason").get<std::string>().find("within_s"), std::string::npos);
-    EXPECT_EQ(service.table(run).size(), 2u);  // the transfer at 0.65 was there already
+    EXPECT_EQ(service.table(run).size(), 2u);  // includes the given transfer at 0.65
 }
 
 TEST(Trigger, BisectFindsTheEdgeWithFewerRunsThanSnapshots) {
@@ -412,7 +412,7 @@ TEST(Trigger, KilledBetweenCrossingAndFiringMakesExactlyOneTransfer) {
         first.kill_at_once();
     }
     live.open_gate();
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // nobody sees the snapshot appear
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // before the snapshot is noticed
     for (int kills = 0; kills < 2; ++kills) {
         Service again(live.sandbox);
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
@@ -447,7 +447,7 @@ TEST(Trigger, CancelDisarms) {
 TEST(Trigger, RetryArmsAgainWhatTheCancellingDisarmedAndNotWhatFired) {
     const Live live;
     Service service(live.sandbox);
-    // How late a snapshot may be is not the question: a slow service hears of 0.2 s at 2 s.
+    // Not a test of the delay: a slow service notices 0.2 s only at 2 s.
     const auto once = [](const char* name, const char* when) {
         return json{{"kind", "criterion"}, {"name", name}, {"when", when}, {"within_s", 10.0}};
     };
@@ -501,8 +501,8 @@ TEST(Trigger, MistakesAreNamedWithPointerAndColumn) {
     EXPECT_EQ(faults(json::array()).at("pointer"), "/transfer_times");
 }
 
-/// The critical depth of the fake stability analysis is the residual strength of its variant. While a
-/// file `lem_fails` lies in the sandbox, it ends with 74.
+/// The critical depth of the fake stability analysis is its variant's residual strength. While a
+/// file `lem_fails` exists in the sandbox, it ends with 74.
 void make_depths(const Live& live) {
     const auto program = live.sandbox.bin() / "lem_tool";
     std::filesystem::remove(program);
@@ -587,7 +587,7 @@ TEST(Trigger, AStabilityAnalysisThatFailedIsNoDamThatStandsAndTheRetryDecides) {
 
 TEST(Trigger, ABisectIsNotDecidedByARunoutThatTheMachineLost) {
     const Live live;
-    // While a file `mpm_fails` lies in the sandbox, the MPM ends as on a full disk.
+    // While a file `mpm_fails` exists in the sandbox, the MPM ends as with a full disk.
     const auto fails = live.sandbox.root() / "mpm_fails";
     const auto program = live.sandbox.bin() / "mpm_solver";
     std::ofstream(fails) << "\n";

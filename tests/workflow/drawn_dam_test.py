@@ -11,7 +11,7 @@ SOIL = {"type": "mohr_coulomb", "E_MPa": 40, "nu": 0.3}
 MATERIALS = {"ground": {"density": 2100, "law": {**SOIL, "c_kPa": 30, "phi_deg": 36}},
              "dam": {"density": 1950, "law": {**SOIL, "c_kPa": 8, "phi_deg": 34}},
              "tailings": {"density": 1850, "law": {**SOIL, "c_kPa": 1, "phi_deg": 30}}}
-# With an end of -8 the lower edge is level.
+# With an end at -8 the lower edge is level.
 DRAWING = """region,x,y
 ground,-60,-8\nground,50,{end}\nground,50,0\nground,0,0\nground,-36,0\nground,-60,0\n
 dam,-36,0\ndam,0,0\ndam,-24,12\ndam,-28,12\n

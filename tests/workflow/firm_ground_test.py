@@ -1,5 +1,5 @@
-"""After a transfer firm ground lets go of what slides on it, too: nine points per cell run as far as four, whose domains end at
-the ground's top by themselves, and on cells that share the top no run is started unwarned."""
+"""After a transfer too, firm ground does not hold back the sliding soil: nine points per cell run as far as four, whose domains end at
+the ground's top automatically, and runs with cells that share the top are warned."""
 import json
 import pathlib
 import tempfile
@@ -7,7 +7,7 @@ import tempfile
 from phases import check, result, root, run
 
 SLOPE = root / "workflows/scenes/slope.json"
-# Weak soil that does not soften, in the words of the accuracy study: no band depends on the cells.
+# Weak soil without softening, in the terms of the accuracy study: no band depends on the cells.
 STUDY = json.loads((root / "workflows/accuracy/slope_flow.json").read_text())
 WEAK = [word for each in STUDY["accuracy"]["base"] if each.startswith("/materials/") for word in ("--set", each)]
 MOMENT = 0.8  # s

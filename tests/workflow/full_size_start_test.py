@@ -1,5 +1,5 @@
-"""Mochikoshi in the sizes that its shipped studies have, from gravity into motion: friction alone rests with the last cohesion of
-its search, so that every mesh begins from equally good stresses."""
+"""Mochikoshi with the sizes of its shipped studies, from gravity to motion: frictional equilibrium exists with the last cohesion of
+the search, so that every mesh starts with equally good stresses."""
 import pathlib
 import sys
 import tempfile

@@ -11,7 +11,7 @@ from service import Service
 
 study = json.loads((root / "workflows/studies/column_sweep.json").read_text())
 study["scene"] = json.loads((root / "workflows/scenes/column.json").read_text())
-study["scene"]["mpm"]["cell_size"] = 0.5  # long enough to be hit in the middle
+study["scene"]["mpm"]["cell_size"] = 0.5  # long enough to be killed during it
 study["scene"]["mpm"]["checkpoint_interval"] = 0.2
 
 

@@ -21,14 +21,14 @@ most_memory = 4e9  # [bytes]
 
 
 def key_of(study, overrides):
-    """Another study, scene or override is another run."""
+    """Another study, scene or override gives another run."""
     scene = study.parent / json.loads(study.read_text())["scene"]
     text = study.read_bytes() + scene.read_bytes() + "\n".join(overrides).encode()
     return "study-" + hashlib.sha256(text).hexdigest()[:32]
 
 
 class Progress:
-    """Says once a minute how far the run is, when it will be ready, and what memory is used."""
+    """Reports the progress of the run, its expected end and the memory every minute."""
 
     def __init__(self, folder, service):
         self.file = open(folder / "progress.txt", "a")

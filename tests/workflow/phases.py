@@ -11,7 +11,7 @@ programs = pathlib.Path(os.environ["BREACH_BIN"])
 coarse_column = ["--set", "/section/regions/0/mesh/divisions=[5,10]", "--set", "/mpm/cell_size=2",
                  "--set", "/mpm/duration=8"]
 
-# Mochikoshi at a quarter of its resolution, in the words of mochikoshi_quarter.json.
+# Mochikoshi at a quarter of its resolution, as in mochikoshi_quarter.json.
 quarter = json.loads((root / "workflows/studies/mochikoshi_quarter.json").read_text())["overrides"]
 
 

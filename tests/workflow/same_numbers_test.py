@@ -13,14 +13,14 @@ from service import Service
 
 allowed = 1e-6
 study = root / "workflows/studies/mochikoshi_quarter.json"
-# What an execution costs, and where its files lie, is its own.
+# Costs and paths differ between executions.
 own = {"cpu_seconds", "wall_seconds", "seconds", "peak_memory_MB", "particle_steps_per_second", "provenance", "threads"}
 settings = ["/section/element_size=3", "/fem/stages/2/duration=4.5", "/mpm/duration=15", "/mpm/checkpoint_interval=0.5",
-            "/fem/snapshot_times=[2.5]"]  # a wanted snapshot brings a checkpoint
+            "/fem/snapshot_times=[2.5]"]  # a requested snapshot also writes a checkpoint
 
 
 def prepared(threads):
-    """The study with its phases on so many threads and without the cache."""
+    """The study with its phases on so many threads, without the cache."""
     document = json.loads(study.read_text())
     document["resources"] = {phase: {"cores": threads} for phase in ("fem_solver", "transfer_tool", "mpm_solver")}
     document["reuse"] = False
@@ -31,7 +31,7 @@ def prepared(threads):
 
 
 def numbers(value, at=""):
-    """Every number below a place in a JSON document, by its pointer."""
+    """Every number in a JSON document, by its pointer."""
     if isinstance(value, dict):
         for key, each in value.items():
             if key not in own:
@@ -75,7 +75,7 @@ def submit(service, folder, threads):
 
 
 def strike(service, phase, last_chance):
-    """kill -9 of a phase once it has a checkpoint, at the latest when it has written a certain file."""
+    """kill -9 of a phase after its first checkpoint, at the latest when it has written a certain file."""
     victim = service.wait_for_phase(phase)
     there = lambda name: any(service.data.glob(f"runs/*/{phase[:3]}*/output/{name}"))
     while not there("checkpoint.h5") and not there(last_chance):
@@ -109,7 +109,7 @@ def main(folder):
     service, run = struck(folder)
     after = found_in(service, run)
     attempts = sum(len(task["attempts"]) for task in service.call(f"/v1/runs/{run}")["tasks"])
-    check("the kills are on record", attempts >= 3 + 5, attempts)  # three kills, five tasks beside the LEM
+    check("the kills are on record", attempts >= 3 + 5, attempts)  # three kills, five tasks besides the LEM
     service.stop()
     check("no phase is left running", not service.phases(""))
     compare("calm and after kill -9", found[1], after)

@@ -12,7 +12,7 @@ from phases import programs
 
 
 def end_with_parent():
-    """A test that is killed leaves no service behind: TERM, so running phases save their checkpoints."""
+    """A killed test leaves no service: TERM, so running phases save their checkpoints."""
     set_parent_death_signal = 1
     ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGTERM)
 
@@ -36,7 +36,7 @@ class Service:
             return answer.read().decode()
 
     def post(self, path, body):
-        """(status, answer), for any status; of a picture its text."""
+        """(status, answer), for any status; for a picture its text."""
         request = urllib.request.Request(self.url + path, data=json.dumps(body).encode(), headers={"Content-Type": "application/json"})
         try:
             with urllib.request.urlopen(request, timeout=60) as answer:
@@ -55,7 +55,7 @@ class Service:
         return self.breach("submit", study, *[word for each in overrides for word in ("--set", each)])
 
     def finish(self, run, seen=lambda answer: None, every=0.5):
-        """The run as it ended; `seen` is given every answer on the way."""
+        """The run at its end; `seen` gets every answer in between."""
         while True:
             answer = self.call(f"/v1/runs/{run}")
             seen(answer)
@@ -64,7 +64,7 @@ class Service:
             time.sleep(every)
 
     def phases(self, name):
-        """Process ids of the running phases whose name ends so and that work in our data folder."""
+        """Process ids of the running phases with this name in our data folder."""
         found = []
         for entry in pathlib.Path("/proc").iterdir():
             if not entry.name.isdigit():

@@ -44,7 +44,7 @@ def scene_of(folder):
         "format": "breachline-scene/1", "name": "block_on_weak_layer",
         "materials": {
             # Soil that shears beside elastic soil drags points of it along, within a quarter of a cell: all of it yields here,
-            # the neighbours a little later than the layer.
+            # the neighbours slightly later than the layer.
             "ground": {"density": 2200, "law": cohesive(1000, 0.25, 35)}, "block": {"density": 2000, "law": cohesive(100, 0.25, 35)},
             # light, so that all of it yields at once and no band depends on elements or cells; stiff enough at its free ends
             "layer": {"density": 400, "law": cohesive(30, 0.3, 28)}},
@@ -65,7 +65,7 @@ def scene_of(folder):
 
 
 def on_the_ground(snapshot):
-    """Mean displacement of the block less that of the base [m]."""
+    """Mean displacement of the block minus that of the base [m]."""
     with h5py.File(snapshot) as file:
         place, u = file["breachline/position_0"][()], file["VTKHDF/PointData/displacement"][()]
     rows = [u[abs(place[:, 1] - y) < 0.01, 0].mean() for y in (3.0, 4.0, 5.0)]
@@ -73,7 +73,7 @@ def on_the_ground(snapshot):
 
 
 def slide(folder):
-    """Mean way of the block's points [m]; files keep the points' order."""
+    """Mean displacement of the block's points [m]; files keep the points' order."""
     frames = []
     for name in ("particles_0.000000.vtkhdf", "final.vtkhdf"):
         with h5py.File(folder / name) as file:

@@ -63,7 +63,7 @@ def main():
         points, standing = runout(here / "static_lift_dense", 4, *dense)
         check("nothing dense has collapsed", points["collapse"]["collapsed"] == 0, points["collapse"])
         check("the loose dam flows past its toe, the dense one stays behind it", standing < 0 < 10 < loose, (standing, loose))
-        # What a stage has taken away becomes no points.
+        # Regions removed by a stage get no points.
         scene = root / "workflows/scenes/static_toe_cut.json"
         snapshot = next((here / "static_toe_cut").glob("snapshot_4.*"))
         done = run("transfer_tool", scene, here / "cut", "--input", snapshot)

@@ -23,7 +23,7 @@ def main(folder):
         for file in sorted((root / "workflows/studies").glob("*.json")):
             study = json.loads(file.read_text())
             run = service.submit(file)
-            service.call(f"/v1/runs/{run}/cancel", {})  # what is tested is that it could run
+            service.call(f"/v1/runs/{run}/cancel", {})  # tests only that it could run
             tasks = service.call(f"/v1/runs/{run}")["tasks_total"]
             scene = (file.parent / study["scene"]).resolve()
             variants = study.get("variants", [{"name": "", "overrides": []}])

@@ -48,7 +48,7 @@ def outputs_of(page, blocks, here, url):
         printed, _ = shell.communicate()
     finally:
         try:
-            os.killpg(shell.pid, signal.SIGTERM)  # what a page started and did not stop
+            os.killpg(shell.pid, signal.SIGTERM)  # started by a page and not stopped
         except ProcessLookupError:
             pass
     _, *parts = re.split(rf"{mark} (\d+[.,]\d+)\n", printed)
@@ -61,7 +61,7 @@ def outputs_of(page, blocks, here, url):
 
 
 def check_report(page, blocks, times):
-    """A report is written by as few commands as the page may have."""
+    """Checks that a page needs at most its number of commands for a report."""
     last = next((place for place, (kind, body) in enumerate(blocks) if kind == "sh" and re.search("^report ", body, re.MULTILINE)), None)
     if last is None:
         check("the page may go without a report", page not in most_commands, page)
@@ -83,7 +83,7 @@ def check_shown(blocks, outputs):
 
 
 def draw_own_dam(here):
-    """dam.dxf and materials.json: the dam of docs/tutorials/own_dam.md with its water and terrain, as a CAD program would write it."""
+    """dam.dxf and materials.json: the dam of docs/tutorials/own_dam.md with its water and terrain, as from a CAD program."""
     own = next(line.split() for _, body in blocks_of("own_dam") for line in body.splitlines() if line.startswith("breach new upstream_dam"))
     subprocess.run([programs / own[0], *own[1:-1], here / "drawn"], check=True, capture_output=True)
     scene = json.loads((here / "drawn/scene.json").read_text())
@@ -166,7 +166,7 @@ def main(page):
     check("the page has commands", any(kind == "sh" for kind, _ in blocks), page)
     with tempfile.TemporaryDirectory(prefix="breach-") as folder:
         here = pathlib.Path(folder)
-        here.chmod(0o755)  # Slurm walks into it as any user
+        here.chmod(0o755)  # Slurm enters it as any user
         looks_like_the_source_tree(here)
         prepare.get(page, lambda _: None)(here)
         service = Service(here / "var/quickstart")

@@ -21,7 +21,7 @@ def report_of(service, run, folder):
 
 
 def ends_of_grounds(file):
-    """Of each ground in a figure's data: x and y of its last point."""
+    """Last point of each ground in a figure's data: x and y."""
     ends = {}
     with open(file, newline="") as stream:
         for name, x, y in list(csv.reader(stream))[1:]:
@@ -30,7 +30,7 @@ def ends_of_grounds(file):
     return ends
 
 
-# Cells of 5 m, the quarter's own, are as thick as the dam's crest: whether soil passes the lower dam is then an accident.
+# Cells of 5 m, the quarter's own, are as thick as the dam's crest: whether soil passes the lower dam is then random.
 fine_cells = ["/mpm/cell_size=2.5", "/mpm/stiffness_scale=0.03", "/mpm/duration=25"]
 
 

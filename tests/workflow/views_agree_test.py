@@ -46,7 +46,7 @@ def result_of(chance):
 
 
 def play():
-    """The contract of a phase (docs/reference/architecture.md), with a random result."""
+    """The interface of a phase (docs/reference/architecture.md), with a random result."""
     if "--version" in sys.argv:
         return print(f"{phase} 0\nnumerics 1")
     if "--plan" in sys.argv:
@@ -104,7 +104,7 @@ def plain(text):
 
 
 def compare(service, run, folder):
-    """What the views of a run say otherwise than its findings."""
+    """Differences of a run's views from its findings."""
     faults = []
 
     def hold(what, condition):
@@ -114,7 +114,7 @@ def compare(service, run, folder):
     head = service.call(f"/v1/runs/{run}")
     answer = service.call(f"/v1/runs/{run}/results")
     verdict = answer["verdict"]
-    own = [reason for reason in verdict["reasons"] if reason["code"] != "same_results"]  # only the whole table knows those
+    own = [reason for reason in verdict["reasons"] if reason["code"] != "same_results"]  # known only for the whole table
     hold("the run's verdict is not that of its results", head["verdict"]["reasons"] == own)
     listed = next(each for each in service.call("/v1/runs?limit=500")["runs"] if each["id"] == run)
     hold("the list's verdict is not that of the run", listed["verdict"] == head["verdict"])

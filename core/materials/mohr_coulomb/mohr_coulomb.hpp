@@ -26,13 +26,11 @@ struct MohrCoulomb {
     double tension_share = 0.0;  ///< tensile over compressive strength, at least: see Tension
 };
 
-/// The law with the strength of one point.
 MohrCoulomb with_strength(MohrCoulomb law, const StrengthOfPoint<double>& strength);
 
 /// Lowers psi to phi where softening brings phi below it.
 MohrCoulombNumbers ready(const MohrCoulomb& law);
 
-/// Strength at this epsilon_q.
 Strength strength(const MohrCoulomb& law, double epsilon_q);
 
 Traits traits(const MohrCoulomb& law);

@@ -75,7 +75,6 @@ inline double least_mean_stress(const NorSand& law) { return law.ready.parameter
 inline double mean_stress(const NorSand& law, const Voigt& sigma) {
     return std::max(-(sigma[0] + sigma[1] + sigma[2]) / 3.0, least_mean_stress(law));
 }
-/// psi_0 of the law's profile at the place.
 template <class PlaceOf>
 NorSand at_place(const NorSand& law, const PlaceOf& place_of) {
     if (!law.psi_0_profile) return law;

@@ -111,7 +111,6 @@ struct State {
 /// none.
 Voigt stress(const Ready& law, const State& state);
 
-/// Current void ratio [-].
 double void_ratio(const Ready& law, const State& state);
 
 enum class Scheme {

@@ -62,7 +62,6 @@ inline bool is_undrained(const StrengthCurve& curve) {
     const auto* effective = std::get_if<Effective>(&curve.kind);
     return effective == nullptr || effective->phi == 0.0;
 }
-/// Whether the strength is the same everywhere.
 bool is_uniform(const StrengthCurve& curve);
 /// Whether the strength depends on sigma'_v0.
 bool needs_stress(const StrengthCurve& curve);

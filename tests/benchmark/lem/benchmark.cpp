@@ -1,4 +1,4 @@
-// How fast circles are analysed, and what error is left for how much work.
+// Speed of the circle analysis, and error against effort.
 //   lem_benchmark speed   circles per second on one core, and the whole Mochikoshi staging
 //   lem_benchmark error   comma-separated: error in F against slices, and against the search's
 //   effort
@@ -25,7 +25,7 @@ scene::Scene mochikoshi() {
     return lem::limit_scene(scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json"));
 }
 
-/// F of one circle, or none; cutting and balancing both count.
+/// F of one circle, if any; includes cutting and equilibrium.
 double analyse(const lem::Model& model, const lem::Surface& surface, lem::Slices& slices) {
     if (lem::cut(model.strata, model.soils, surface, model.slices, slices) != lem::Cut::done) {
         return 0.0;
@@ -33,7 +33,7 @@ double analyse(const lem::Model& model, const lem::Surface& surface, lem::Slices
     return lem::bishop(slices, lem::Slide::to_right, model.k_h).factor_of_safety;
 }
 
-/// Different circles of the dam, one after the other; only those with an answer are counted.
+/// Different circles of the dam; counts only those with a factor of safety.
 void circles_per_second(int wanted, const char* what, const scene::Scene& scene) {
     lem::Model model = lem::make_model(scene);
     model.slices = wanted;

@@ -1,8 +1,7 @@
-// mpm_benchmark speed [seconds of the collapse [set [threads]]]: particle-steps per CPU second over a whole column collapse, verb by verb, by
-// instruction set, threads and number of points, with the error beside it; with a set, 20,000
-// points by that set alone.
-// mpm_benchmark error: runout error against CPU seconds over cell size, points per cell, Courant
-// number and order.
+// mpm_benchmark speed [seconds of the collapse [set [threads]]]: particle-steps per CPU second in a
+// column collapse, by operation, instruction set, threads and number of points, with the error;
+// with a set, 20,000 points with that set only. mpm_benchmark error: runout error against CPU
+// seconds over cell size, points per cell, Courant number and order.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

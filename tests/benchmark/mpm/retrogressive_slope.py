@@ -38,7 +38,7 @@ def scene_of(h, points, nonlocal_length):
 
 
 def blocks_in(folder):
-    """Troughs of the deposit's surface deeper than a tenth of the height, and where the undisturbed ground ends."""
+    """Troughs of the deposit's surface deeper than a tenth of the height, and the end of the undisturbed ground."""
     with open(os.path.join(folder, "profile.csv")) as stream:
         rows = list(csv.DictReader(stream))
     x = numpy.array([float(row["x_m"]) for row in rows])

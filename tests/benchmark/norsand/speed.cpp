@@ -1,6 +1,6 @@
-// What a call of NorSand costs beside one of PM4Sand at equal error: one thread, CPU time, rounds of
-// both laws in turn. A zone of points is sheared with constant volume; the error is the largest
-// shear stress difference to a fine run, over the initial vertical stress. Nothing is judged here.
+// Cost of a call of NorSand compared with PM4Sand at equal error: one thread, CPU time, alternating
+// rounds. A zone of points is sheared at constant volume; error: largest difference of shear stress
+// from a fine run, over the initial vertical stress. No limits.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -61,7 +61,7 @@ struct Cost {
     std::vector<double> tau;  ///< of point 0 after each call
 };
 
-/// Shears all points in `steps` calls; those of other points differ by a few per cent.
+/// Shears all points in `steps` calls; the strains of points differ by a few per cent.
 template <class Case>
 Cost run(const Case& one, double strain, int steps, Way way, std::size_t count) {
     std::vector<typename Case::State> states(count, one.start());
@@ -97,7 +97,7 @@ Cost run(const Case& one, double strain, int steps, Way way, std::size_t count) 
 
 struct Row {
     double tolerance, error, evaluations;
-    std::vector<double> single, batch;  ///< us per call, a round each
+    std::vector<double> single, batch;  ///< us per call, one per round
 };
 
 double median(std::vector<double> values) {
@@ -105,7 +105,7 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// One round more for every row.
+/// Adds a round to every row.
 template <class Case>
 void add_round(Case one, double strain, int steps, std::vector<Row>& rows) {
     for (Row& row : rows) {
@@ -138,7 +138,8 @@ std::vector<Row> rows_of(Case one, double strain, int steps) {
     return rows;
 }
 
-/// Median over the rounds of cost against the cheapest row of the others that is no less exact.
+/// Median over the rounds of the cost relative to the cheapest other row with at most the same
+/// error.
 double ratio_at_equal_error(const Row& row, const std::vector<Row>& others) {
     const Row* match = nullptr;
     for (const Row& other : others) {

@@ -1,7 +1,7 @@
-// What a call of PM4Sand costs and how wrong it is: one thread, CPU time. A zone of points of the
-// tailings and the foundation soil is sheared with constant volume through cycles of growing
-// amplitude; the error is the largest shear stress difference to a fine run, over the initial
-// vertical stress. Printed as a table; nothing is judged here.
+// Cost and error of a call of PM4Sand: one thread, CPU time. A zone of points of tailings and
+// foundation soil is sheared at constant volume in cycles of increasing amplitude; error: largest
+// difference of shear stress from a fine run, over the initial vertical stress. A table without
+// limits.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -37,7 +37,7 @@ std::vector<double> path(double amplitude, double step) {
     return increments;
 }
 
-/// The amplitude of point k differs by a few per cent, so that points do not march in step.
+/// Amplitudes of points differ by a few per cent, so that their sub-steps differ.
 double share_of(std::size_t k) { return 1.0 + 0.1 * std::sin(1.7 * static_cast<double>(k)); }
 
 enum class Way { single, batch };

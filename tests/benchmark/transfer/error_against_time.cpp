@@ -1,7 +1,7 @@
 // Error of the interpolated stress against run time: mode, neighbours and mesh, for a smooth field,
-// a shear band and a jump between two regions (squares at one side that widen to aspect 1:10 at the
-// other, 3 x 3 points per element); error of the round trip against n, neighbours and mode on the
-// graded elements of docs/reference/methods/mochikoshi_case.md; and time against size. One thread, CPU seconds, but for
+// a shear band and a jump between two regions (elements from squares to aspect 1:10, 3 x 3 points
+// each); error of the round trip against n, neighbours and mode on the graded elements of
+// docs/reference/methods/mochikoshi_case.md; time against size. One thread, CPU seconds, except in
 // the last table.
 #include <sys/resource.h>
 

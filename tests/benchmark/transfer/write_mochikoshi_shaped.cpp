@@ -1,4 +1,4 @@
-// Writes the Mochikoshi-shaped snapshot, to be transferred and looked at by hand:
+// Writes the Mochikoshi-shaped snapshot, for inspection:
 //     write_mochikoshi_shaped SCENE.json MESH.json OUTPUT.vtkhdf
 #include <cstdio>
 

@@ -119,7 +119,7 @@ def start_runner(path, job, script, throttle):
     for descriptor in range(3):
         os.dup2(nothing, descriptor)
     os.closerange(3, 256)
-    lives = open(folder / "runners", "a+")  # locked while any runner lives: the folder is written to until then
+    lives = open(folder / "runners", "a+")  # locked while a runner lives, which writes to the folder
     fcntl.lockf(lives, fcntl.LOCK_SH)
     write(path, {**job, "state": "PENDING", "pid": 0})
     ctypes.CDLL(None).prctl(36, 1)  # PR_SET_CHILD_SUBREAPER
@@ -150,7 +150,7 @@ def run(path, number, index, script, throttle):
     name = read(path)["name"]
 
     def ours():
-        """A forgotten job is not ours any more, even if its number was given again."""
+        """A forgotten job is not ours any more, even if its number was reused."""
         return path.exists() and read(path)["name"] == name
 
     while True:

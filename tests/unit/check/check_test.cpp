@@ -1,4 +1,4 @@
-// What the phases ask of laws, materials and files; and that one list holds it all.
+// What the phases require of laws, materials and files; all faults in one list.
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>

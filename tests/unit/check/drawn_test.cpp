@@ -1,4 +1,4 @@
-// What is drawn wrongly: gaps, supports, water, terrain, slip surfaces.
+// Errors in a drawing: gaps, supports, water, terrain, slip surfaces.
 #include "wrong.hpp"
 
 namespace breach::check {
@@ -94,7 +94,7 @@ TEST(Drawn, ARegionFarFromTheOthersNeedsASupportOfItsOwn) {
                        R"("polygon":[[240,10],[260,10],[260,20],[240,20],[240,10]]})",
                        R"(/transfer/mapping/4={"region":"island","to":"foundation_elastic"})"});
     EXPECT_TRUE(has_fault(checked, "/fem/supports", "region \"island\"")) << told(checked.faults);
-    // and the slices of the stability analysis find the air below it
+    // The slices of the stability analysis find the air below it.
     EXPECT_TRUE(has_fault(checked, "/section/regions", "air below ground")) << told(checked.faults);
 }
 

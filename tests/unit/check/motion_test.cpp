@@ -1,4 +1,4 @@
-// Files of motions: each is written, named by Mochikoshi's scene, and refused or taken.
+// Motion files, used in Mochikoshi's scene, refused or accepted.
 #include <cmath>
 #include <filesystem>
 

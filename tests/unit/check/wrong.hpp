@@ -23,7 +23,7 @@ inline Checked changed(const std::string& scene, const std::vector<std::string>&
     return checked_text(file_text(folder + "/" + scene + ".json"), scene, folder, overrides);
 }
 
-/// "pointer: cause (remedy)", one per line: what a failing test prints.
+/// "pointer: cause (remedy)", one per line, for failure messages.
 inline std::string told(const std::vector<fault::Fault>& faults) {
     std::string all;
     for (const auto& each : faults)
@@ -31,7 +31,7 @@ inline std::string told(const std::vector<fault::Fault>& faults) {
     return all;
 }
 
-/// Exactly one fault, at this pointer, with `cause` in its text and with a remedy.
+/// Expects exactly one fault, at this pointer, with `cause` in its text and with a remedy.
 inline void expect_only(const Checked& checked, const std::string& pointer,
                         const std::string& cause) {
     ASSERT_EQ(checked.faults.size(), 1u) << told(checked.faults);

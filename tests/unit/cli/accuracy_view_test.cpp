@@ -1,4 +1,4 @@
-// The table of an accuracy study as people read it.
+// The table of an accuracy study.
 #include "services/cli/accuracy_view.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-"""The breach command against a service from memory: what it sends, what it prints, and its exit codes."""
+"""The breach command with a simulated service: its requests, output and exit codes."""
 import hashlib
 import json
 import os
@@ -399,7 +399,7 @@ class Breach(unittest.TestCase):
         action = entities[f"#{run_id}-00001"]
         self.assertIn({"@id": "tasks/fem_solver/snapshots/snapshot_0.500000.vtkhdf"}, action["object"])
         self.assertEqual(entities["#mpm_solver-0.1.0"]["softwareVersion"], "0.1.0")
-        # Again: what is there and whole is not fetched again.
+        # Again: complete files are not fetched again.
         service.asked.clear()
         (out / "tasks/mpm_0.500000/result.json").write_text("damaged")
         self.assertEqual(call(service, "export", run_id, out).returncode, 0)

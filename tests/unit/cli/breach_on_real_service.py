@@ -46,7 +46,7 @@ class RealService(unittest.TestCase):
 
     def test_a_study_from_submission_to_export(self):
         run = self.breach("submit", self.study(small, [0.1, 0.2])).stdout.strip()
-        # A second of the MPM may leave the soil moving, which is no failure but is said.
+        # After a second of the MPM the soil may still move, which is no failure but reported.
         self.assertRegex(self.breach("watch", run).stdout, "100 %  (succeeded|questionable)  5 of 5 tasks")
         rows = json.loads(self.breach("results", run, "--json").stdout)["rows"]
         self.assertEqual([each["transfer_time"] for each in rows], [0.1, 0.2])
@@ -111,7 +111,7 @@ class RealService(unittest.TestCase):
         self.assertIn("remedy", refused.stderr)
 
     def test_a_recommendation_is_checked_on_new_lattices(self):
-        file = self.accuracy_study()  # of the column as it is shipped, which comes to rest
+        file = self.accuracy_study()  # of the shipped column, which comes to rest
         study = json.loads(file.read_text()) | {"overrides": [], "transfer_times": [0.4]}
         # The mean on cells of 2 m in docs/verification/accuracy.md. One run scatters by 2 %: the mean of some keeps 5.5 %.
         study["accuracy"] |= {"draws": 3, "asked_error": 0.055, "reference": {"value": 29.35, "source": "docs/verification/accuracy.md"}}
@@ -149,7 +149,7 @@ class RealService(unittest.TestCase):
         self.assertEqual(particles, "tasks/transfer_0.100000/particles.vtkhdf")
         self.assertEqual(snapshot, "tasks/fem/snapshot_0.100000.vtkhdf")
         self.assertIn("fem_solver", made_by[snapshot]["instrument"]["@id"])
-        # What was exported can be submitted again as it is.
+        # The export can be submitted unchanged.
         self.breach("submit", out / "study.json", "--watch")
 
     def test_a_sweep_is_extended(self):
@@ -174,10 +174,10 @@ class RealService(unittest.TestCase):
                                "/mpm/duration=0.1"]}
         (mine / "study.json").write_text(json.dumps(study))
         sent = self.breach("submit", mine / "study.json", "--send-files")
-        shutil.rmtree(mine)  # nothing of it is read any more
+        shutil.rmtree(mine)  # not read any more
         run = sent.stdout.strip()
         self.assertIn("sent ", sent.stderr)
-        # The MPM of a tenth of a second is not to be relied on, which is said.
+        # The MPM of a tenth of a second is unreliable, which is reported.
         self.assertRegex(self.breach("watch", run).stdout, "100 %  (succeeded|questionable)  3 of 3 tasks")
         page = json.loads(self.breach("show", run, "--json").stdout)
         reference = page["files"][0]["reference"]
@@ -192,7 +192,7 @@ class RealService(unittest.TestCase):
         self.assertIn({"@id": motion}, fem["object"])
         refused = self.breach("rm", "--yes", reference, code=65)
         self.assertIn("remove them first", refused.stderr)
-        # The export is submitted as it is: its motion lies beside it, and what was computed is known.
+        # The export is submitted unchanged: its motion file is included, and its results are reused.
         again = self.breach("submit", out / "study.json", "--watch").stdout.split()[0]
         tasks = json.loads(self.breach("show", again, "--json").stdout)["tasks"]
         self.assertEqual({each["state"] for each in tasks}, {"cached"})

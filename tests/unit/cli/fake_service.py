@@ -1,4 +1,4 @@
-"""A service that speaks the API's shapes from memory: one run of three tasks, which moves on each time it is asked."""
+"""A simulated service with the API's schemas: one run of three tasks, which advances with each request."""
 import hashlib
 import http.server
 import json
@@ -127,7 +127,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.refuse(404, "no such thing")
 
     def take_file(self, body):
-        """The first one breaks off."""
+        """The first upload is interrupted."""
         self.server.uploads += 1
         if self.server.uploads == 1:
             return self.refuse(503, "the disk refused")
@@ -176,7 +176,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.answer(200, {"lines": lines, "next": begin + len(lines)})
         elif parts == ["events"]:
             after, event = int(query["after"]), []
-            if after < 2:  # another run's event first, which is nobody's business
+            if after < 2:  # another run's event first, to be ignored
                 event = [{"seq": after + 1, "time": "", "run": run_id if after else "other", "task": None,
                           "kind": "task", "detail": {}}]
             self.answer(200, {"events": event, "next": after + len(event)})

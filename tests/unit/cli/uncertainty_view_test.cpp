@@ -1,4 +1,4 @@
-// What an uncertainty study found, as people read it.
+// The text view of an uncertainty study.
 #include "services/cli/uncertainty_view.hpp"
 
 #include <gtest/gtest.h>

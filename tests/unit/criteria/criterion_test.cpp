@@ -23,7 +23,7 @@ TEST(Criterion, WithoutHoldIsMetOnTheCrossingLine) {
     EXPECT_DOUBLE_EQ(c.met_at(), 0.2);
     EXPECT_EQ(c.crossing()->step, 2);
     EXPECT_DOUBLE_EQ(c.crossing()->values[0], 1.5);
-    EXPECT_EQ(c.take({0.3, 3, {0.0}}), State::met);  // once met, always met
+    EXPECT_EQ(c.take({0.3, 3, {0.0}}), State::met);  // a met criterion stays met
 }
 
 TEST(Criterion, CrossedAndUncrossedInsideTheHoldIsArmedAgain) {
@@ -31,9 +31,9 @@ TEST(Criterion, CrossedAndUncrossedInsideTheHoldIsArmedAgain) {
     EXPECT_EQ(c.take({0.10, 1, {2}}), State::holding);
     EXPECT_EQ(c.take({0.14, 2, {0}}), State::armed);
     EXPECT_FALSE(c.crossing());
-    EXPECT_EQ(c.take({0.20, 3, {2}}), State::holding);  // the hold begins anew
+    EXPECT_EQ(c.take({0.20, 3, {2}}), State::holding);  // the hold starts again
     EXPECT_EQ(c.take({0.24, 4, {2}}), State::holding);
-    EXPECT_EQ(c.take({0.25, 5, {2}}), State::met);  // 0.25 - 0.20 is a little less than 0.05
+    EXPECT_EQ(c.take({0.25, 5, {2}}), State::met);  // 0.25 - 0.20 is slightly less than 0.05
     EXPECT_DOUBLE_EQ(c.crossing()->time, 0.20);
     EXPECT_DOUBLE_EQ(c.met_at(), 0.25);
 }
@@ -88,7 +88,7 @@ double upper_edge(const Course& course, double hold) {
     return time_of(window_of(course, hold).upper_edge());
 }
 
-/// Lines 0.1 s apart, over [0, end]; x and y are beyond their levels in these spans, ends included.
+/// Lines 0.1 s apart, over [0, end]; x and y exceed their levels in these intervals, ends included.
 Course course_of(double end, const std::vector<std::array<double, 2>>& lower,
                  const std::vector<std::array<double, 2>>& upper) {
     Course course;
@@ -184,7 +184,7 @@ TEST(Window, KnowsTheTimesBeforeTheUpperEdgeForAnyLaterLines) {
     EXPECT_FALSE(closed.is_open_at(5.5)) << "the edge stays where it was";
 }
 
-/// By the words of window.hpp, of all lines at once.
+/// The edges as window.hpp defines them, from all lines at once.
 struct Edges {
     double lower = -1.0, upper = -1.0, shut = -1.0;
 };

@@ -1,5 +1,5 @@
-// What is counted before anything runs against what the phases count themselves, and what estimates
-// learn from runs. That the seconds are right is measured, not tested: services/estimate/README.md.
+// Counts before a run compared with those of the phases, and what estimates learn from runs.
+// Seconds are measured, not tested: services/estimate/README.md.
 #include "services/estimate/cost.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ TEST(Counts, SoilWithoutFrictionFlowsLonger) {
 TEST(Counts, SoilThatLiquefiesHasItsResidualStrengthFromTheStart) {
     const auto duration = [](const std::string& residual, const std::string& softening) {
         const std::string peak = R"({"peak":{"type":"effective","phi_deg":30},"residual":)";
-        // sand in place of NorSand: judged by its pore pressure, and with the profile's strengths
+        // Sand instead of NorSand: liquefies by pore pressure, with the profile's strengths.
         return runout_duration(shipped(
             "static_lift",
             {R"(/materials/tailings/law={"type":"mohr_coulomb","E_MPa":30,"nu":0.3,"c_kPa":1,"phi_deg":30})",
@@ -67,7 +67,7 @@ TEST(Counts, SoilThatLiquefiesHasItsResidualStrengthFromTheStart) {
 }
 
 TEST(Counts, WetNorSandFlowsWithAnyResidualStrength) {
-    // Its profile has 30 degrees after softening; the transfer gives wet points s_u by their state.
+    // Its profile has 30 degrees after softening; the transfer gives wet points s_u by state.
     scene::Scene scene = shipped("static_lift");
     const double flows = runout_duration(scene);
     scene.transfer->liquefied.reset();
@@ -79,7 +79,7 @@ TEST(Counts, VariationsAndSurfacesOfStraightPiecesAreSearchedFor) {
         return searches_of(more.empty() ? shipped("slope") : shipped("slope", {more}));
     };
     const double alone = searches("").stages;
-    // one search without variation; c and phi of two soils lower and higher
+    // One search without variation; c and phi of two soils decreased and increased.
     EXPECT_EQ(searches(R"(/lem/sensitivity={"surface":"searched"})").stages, alone + 9.0);
     EXPECT_NEAR(searches("/lem/sensitivity={}").stages, alone + 1.0, 0.01);
     const auto samples = [](const std::string& surface) {
@@ -110,7 +110,7 @@ TEST(Counts, CracksThinWeakLayersAndBoundsAreSearchedFor) {
 }
 
 TEST(Cost, OfLimitEquilibriumIsWithinTwoOfWhatItTook) {
-    // CPU seconds on 2026-11-26, on a loaded machine of two cores, the least of two or three runs.
+    // CPU seconds on 2026-11-26, on a loaded machine with two cores, minimum of two or three runs.
     const auto expect = [](const scene::Scene& scene, double measured) {
         const Range said = of(cost_of(scene), "lem_tool").cpu_seconds;
         std::printf("    %-22s took %.3f CPU s, said %.3f to %.3f\n", scene.name.c_str(), measured,
@@ -176,7 +176,8 @@ TEST(Cost, LearnsFromRunsOfItsOwnSceneFirst) {
 }
 
 TEST(Cost, ManyRunoutsCostTheirMean) {
-    // A sweep's first runouts stay, its last flow: 1 and 19 times what the scene alone says.
+    // A sweep's first runouts stop, its last one flows: 1 and 19 times the estimate from the scene
+    // alone.
     auto costs = cost_of(shipped("slope"));
     const double middle = of(costs, "mpm_solver").cpu_seconds.middle();
     learn(costs, "slope", {{"mpm_solver", "slope", 1.0, 1.0}, {"mpm_solver", "slope", 19.0, 1.0}});

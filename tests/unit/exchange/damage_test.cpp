@@ -1,5 +1,5 @@
-// What a bad disk, a broken transfer or another program does to a file: the reader names it or
-// reads the very same.
+// Files damaged by a disk, a transfer or another program: the reader reports the damage or reads
+// the same data.
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using samples::Folder;
 
-/// Files, groups, datasets, types and attributes that were not closed again.
+/// Unclosed identifiers of files, groups, datasets, types and attributes.
 ssize_t open_identifiers() { return H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL); }
 
 std::string whole_file(const Folder& folder) {
@@ -66,7 +66,7 @@ TEST(DamagedFile, AnyFlippedByteIsRefusedOrHarmless) {
     EXPECT_EQ(open_identifiers(), 0);
 }
 
-/// Runs HDF5 on the file as another program would.
+/// Modifies the file with HDF5, as another program would.
 template <typename Change>
 void tamper(const std::filesystem::path& path, Change change) {
     const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);

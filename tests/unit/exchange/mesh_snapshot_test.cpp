@@ -125,7 +125,7 @@ TEST(MeshSnapshot, WhatMakesNoSenseIsRefusedByDatasetPath) {
 
     s = samples::mesh(3);
     s.stress[7](2) = INFINITY;
-    expect_refused(s, "/breachline/gauss/stress", 2);  // and two means for ParaView
+    expect_refused(s, "/breachline/gauss/stress", 2);  // and two averages for ParaView
 
     s = samples::mesh(3);
     s.quads[2][1] = 8;  // there are nodes 0 to 7

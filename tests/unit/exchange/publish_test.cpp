@@ -17,7 +17,7 @@ using samples::content;
 using samples::Folder;
 using samples::overwrite;
 
-/// Files of this process may not grow beyond `bytes` while it lives: what a full disk looks like.
+/// Limits the size of this process's files to `bytes`, to simulate a full disk.
 class SmallDisk {
   public:
     explicit SmallDisk(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -1,4 +1,4 @@
-// Small states with a different number in every place.
+// Small states in which all numbers differ.
 #pragma once
 
 #include <unistd.h>

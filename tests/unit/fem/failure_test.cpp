@@ -1,5 +1,4 @@
-// How deep liquefaction reaches and how many failure surfaces there are, on meshes where the answer
-// is seen by eye.
+// Depth of liquefaction and number of failure surfaces, on meshes with an evident answer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +57,7 @@ TEST(FailureSurface, AStrainedGroundIsNone) {
     EXPECT_EQ(surfaces(mesh, epsilon_q), 0u) << "one sound element is no separation";
 }
 
-/// 40 x 16 unit squares with strain painted by column and row from the lower left.
+/// Surfaces in 40 x 16 unit squares, with strain by column and row from the lower left.
 std::size_t painted(const std::function<double(int, int)>& epsilon_q) {
     const Mesh mesh = level_ground(40, 16);
     std::vector<double> strain;
@@ -68,8 +67,8 @@ std::size_t painted(const std::function<double(int, int)>& epsilon_q) {
     return failure_surfaces_of(mesh, ground_of(mesh), strain, 0.1, 4.0).count;
 }
 
-/// Along a trough from the ground at column `left` down to row `bottom` and up at column 34: how
-/// many elements off it (0: on it).
+/// Distance of an element from a trough, from the ground at column `left` down to row `bottom` and
+/// up at column 34 (0: on it).
 int off_trough(int x, int y, int left, int bottom) {
     const int below = std::max(bottom - y, 0);
     const int beside = std::max({left - x, x - 34, 0});
@@ -86,7 +85,7 @@ TEST(FailureSurface, OneWideBandIsOne) {
 }
 
 TEST(FailureSurface, TwoBandsWithACommonExitAreTwo) {
-    // Both come out at column 34; the body between them has no strain.
+    // Both end at column 34; the body between them has no strain.
     const auto either = [](int x, int y) {
         return off_trough(x, y, 4, 2) == 0 || off_trough(x, y, 14, 9) == 0;
     };

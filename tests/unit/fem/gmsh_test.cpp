@@ -1,4 +1,4 @@
-// Unstructured regions through gmsh's command line. Skipped where gmsh is not installed.
+// Unstructured regions with gmsh. Skipped if gmsh is not installed.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -73,7 +73,7 @@ TEST_F(Gmsh, IsNamedWhenItIsMissing) {
     setenv("PATH", path.c_str(), 1);
 }
 
-/// A gmsh that never comes to an end: the test would not either if it were waited for.
+/// A gmsh that never ends; the test would not end either if the program waited for it.
 TEST_F(Gmsh, IsEndedWhenTheRunIsStopped) {
     const auto fake = folder_ / "gmsh";
     std::ofstream(fake) << "#!/bin/sh\necho $$ > '" << (folder_ / "pid").string()

@@ -1,4 +1,4 @@
-// Mapped blocks, their joints, and what is refused.
+// Mapped blocks, their joints, and refusals.
 #include "fem_solver/mesh/mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -95,7 +95,7 @@ TEST(Block, ThatFoldsOntoItselfIsRefusedWithTheElementThatDoes) {
     // Its corners in the order that crosses two sides: a bow tie.
     const geometry::Polygon tie{{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     EXPECT_EQ(faults_of_mesh(block("tie", tie, {0, 1, 2, 3}, {1, 1})).size(), 1u);
-    // One element whose two corners are one place.
+    // One element with two coincident corners.
     const geometry::Polygon folded{{0, 0}, {1, 0}, {1, 0}, {0, 1}};
     EXPECT_EQ(faults_of_mesh(block("triangle", folded, {0, 1, 2, 3}, {1, 1})).size(), 1u);
     EXPECT_TRUE(faults_of_mesh(square("sound", 0, 0, {2, 2})).empty());
@@ -157,7 +157,7 @@ TEST(Join, DistinguishesThinLayersFromGapsAndOverlaps) {
         {{layer("low", 0, 200, 0, 1, {4, 1}), layer("high", 10, 190, 0.9, 2, {4, 1})}});
     ASSERT_EQ(within.size(), 1u);
     EXPECT_EQ(within[0].cause.substr(0, 7), "overlap");
-    // Beside each other, with one element each: only corners face each other.
+    // Side by side, with one element each: only corners face each other.
     const auto beside = faults_of_join(
         {{layer("left", 0, 10, 0, 1, {1, 1}), layer("right", 10.01, 20, 0, 1, {1, 1})}});
     ASSERT_EQ(beside.size(), 1u);
@@ -168,7 +168,7 @@ TEST(Join, KeepsRegionsThatDoNotTouch) {
     EXPECT_TRUE(faults_of_join({{square("a", 0, 0, {3, 3}), square("b", 5, 0, {4, 2})}}).empty());
 }
 
-/// Two elements upon each other, whose left side leans.
+/// Two elements on top of each other, with an inclined left side.
 TEST(FreeField, ASideThatLeansIsRefusedWithARemedy) {
     using scene::FreeFieldSides;
     const Mesh leaning{.nodes = {{0, 0}, {4, 0}, {0.5, 1}, {4, 1}, {1, 2}, {4, 2}},

@@ -1,5 +1,5 @@
-// gmsh's text formats 2.2 and 4.1 give the same mesh; triangles, unknown names and torn files are
-// refused.
+// gmsh's text formats 2.2 and 4.1 give the same mesh; triangles, unknown names and incomplete files
+// are refused.
 #include <gtest/gtest.h>
 
 #include <fstream>

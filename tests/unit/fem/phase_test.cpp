@@ -1,4 +1,4 @@
-// The plan follows the scene; supports that hold nothing are refused; the model's laws follow the
+// The plan follows the scene; supports without nodes are refused; the model's laws follow the
 // stage.
 #include <gtest/gtest.h>
 

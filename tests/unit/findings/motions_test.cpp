@@ -54,7 +54,8 @@ TEST(Motions, SayThatOneValueParts) {
     EXPECT_TRUE(measure(findings::motions_of(clean()), "pgv").at("fragility").contains("refused"));
 }
 
-/// Counts of yes by level as a lognormal curve of median 0.5 and beta 0.4 has them, to whole motions.
+/// Numbers of exceedances by level for a lognormal curve with median 0.5 and beta 0.4, rounded to
+/// motions.
 TEST(Motions, FitTheFragilityCurveThatMadeThem) {
     std::vector<Shaken> all;
     for (const double pgv : {0.2, 0.3, 0.4, 0.5, 0.625, 0.8, 1.2}) {

@@ -1,4 +1,4 @@
-// The rules of services/findings, each once.
+// Each rule of services/findings, once.
 #include "services/findings/verdict.hpp"
 
 #include <gtest/gtest.h>

@@ -43,7 +43,7 @@ TEST(Polygon, OverlapIsTheSharedArea) {
 }
 
 TEST(Polygon, OverlapIsRightWhereManyVerticesLieOnOneLine) {
-    // Two combs that fit: eight teeth, all tips at one level, all feet at another.
+    // Two matching combs: eight teeth, all tips at one level, all feet at another.
     Polygon low{{0, -5}, {8, -5}}, high;
     for (int i = 0; i < 8; ++i) {
         high.push_back({double(i), 0});

@@ -1,5 +1,5 @@
-// DXF texts as CAD programs write them, and a section to draw: foundation, dam and tailings that share
-// borders.
+// DXF texts as CAD programs write them, and a section to draw: foundation, dam and tailings that
+// share borders.
 #pragma once
 
 #include <map>

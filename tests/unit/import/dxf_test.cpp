@@ -1,4 +1,4 @@
-// What is read from DXF of several versions, and from files that are none.
+// Reading DXF of several versions, and invalid files.
 #include "services/import/dxf.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,8 @@ TEST(Dxf, ArcsAreRefusedWithoutATolerance) {
     EXPECT_EQ(test::told(flat.faults), "");
     ASSERT_EQ(flat.outlines.size(), 2u);
     for (const Outline& each : flat.outlines) {
-        // Chords lie inside: the area is short of the circle's by at most its length times the sagitta.
+        // Chords are inside: the area is less than the circle's by at most its length times the
+        // sagitta.
         const double area = geometry::signed_area(each.points), whole = 4.0 * std::numbers::pi;
         EXPECT_LT(area, whole);
         EXPECT_GT(area, whole - 4.0 * std::numbers::pi * 0.001);

@@ -1,4 +1,4 @@
-// Outlines that nearly fit: what healing makes of them, and what it refuses.
+// Outlines that nearly match: healed or refused.
 #include "services/import/heal.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ Soil soil(const std::string& name, const Line& ring) {
     return {name, name, name, ring, {1, "LWPOLYLINE"}};
 }
 
-/// Three times as large as drawn there: 360 m long, 66 m high.
+/// Three times the drawn size: 360 m long, 66 m high.
 std::vector<Soil> section() {
     std::vector<Soil> soils{soil("rock", test::rock), soil("clay", test::clay),
                             soil("tailings", test::tailings)};
@@ -33,7 +33,7 @@ Line jittered(Line ring, std::mt19937& random, double by) {
     return ring;
 }
 
-/// Which regions meet at each vertex: a conforming mesh depends on it.
+/// Regions that meet at each vertex: a conforming mesh needs the right ones.
 std::multiset<std::set<std::string>> meetings(const std::vector<Soil>& soils) {
     std::map<std::pair<double, double>, std::set<std::string>> at;
     for (const Soil& each : soils)

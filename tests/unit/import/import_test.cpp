@@ -1,4 +1,4 @@
-// From a drawing to a scene that is checked and meshed, or to the list of what is wrong with it.
+// From a drawing to a checked and meshed scene, or to a list of faults.
 #include "services/import/import.hpp"
 
 #include <gtest/gtest.h>
@@ -49,7 +49,7 @@ double area_of(const json& region) {
     return geometry::area(ring);
 }
 
-/// Length of element sides that belong to one element only [m].
+/// Length of element sides of one element only [m].
 double free_border(const fem::Mesh& mesh) {
     std::map<std::pair<std::int32_t, std::int32_t>, int> uses;
     for (const fem::Quad& quad : mesh.quads)
@@ -88,7 +88,7 @@ TEST(Import, ASlopeThatFallsToTheLeftIsSearchedThere) {
 }
 
 TEST(Import, AHealedDrawingIsMeshedWithoutAGap) {
-    // Off by a centimetre, drawn in millimetres, one region as single lines.
+    // Inaccurate by a centimetre, drawn in millimetres, one region as single lines.
     std::mt19937 random(7);
     std::uniform_real_distribution<double> off(-0.01, 0.01);
     const auto millimetres = [&](Line ring) {
@@ -178,7 +178,7 @@ TEST(Import, EveryFaultOfADrawingIsFoundAtOnceAndNothingIsMade) {
     EXPECT_EQ(imported.sketch.section.regions.size(), 4u);
 }
 
-/// What the room's README shows.
+/// The example in the folder's README.
 Imported example(const std::string& file) {
     const std::filesystem::path folder = BREACH_ROOT "/services/import/example";
     const auto bytes = [&](const std::string& name) {
@@ -296,7 +296,7 @@ TEST(Import, TheTerrainMakesARunoutThatIsChecked) {
     ASSERT_EQ(test::told(imported.faults), "");
     EXPECT_EQ(imported.scene.at("mpm").at("runout").at("toe"), json::parse("[80.0,0.0]"));
     EXPECT_EQ(imported.scene.at("mpm").at("domain_x"), json::parse("[0.0,300.0]"));
-    // A centimetre above the base of the section: the soil lies on it all the same.
+    // A centimetre above the section's base: the soil counts as lying on it.
     request.terrain->bytes = "x,y\n0,0\n50,0.01\n80,-0.01\n300,-6\n";
     const Imported healed = import_section(request);
     ASSERT_EQ(test::told(healed.faults), "");

@@ -1,4 +1,4 @@
-// A drawn section that an earthquake shakes: the FEM's part of the scene, or why there can be none.
+// A drawn section under an earthquake: the FEM part of the scene, or why there is none.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -27,7 +27,7 @@ Request shaken(const Line& rock = test::rock) {
 
 std::string faults_of(const Request& request) { return test::told(import_section(request).faults); }
 
-/// As every phase reads the files that `breach import` writes.
+/// Faults when a phase reads the files of `breach import`.
 std::string faults_of_files(const Imported& imported) {
     const breach::test::Folder folder;
     std::ofstream(folder.path() / "motion.csv") << imported.motion;
@@ -66,7 +66,7 @@ TEST(ShakenImport, CompletesTheMaterialsAndKeepsWhatIsGiven) {
     EXPECT_EQ(materials.at("clay").at("void_ratio"), 0.66);
     EXPECT_EQ(materials.at("tailings_runout"), given.at("tailings"));
     EXPECT_EQ(materials.at("tailings").at("density"), given.at("tailings").at("density"));
-    // A section that was completed once is not completed again.
+    // A completed section is not completed again.
     request.materials = materials;
     request.materials["tailings"]["law"]["D_R"] = 0.41;
     const Imported again = import_section(request);

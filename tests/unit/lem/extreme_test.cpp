@@ -1,4 +1,4 @@
-// Every scene gets an answer or a clear refusal.
+// Every scene gets a factor of safety or a clear refusal.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST(Extreme, TwoHundredLayersAreCutAtEveryOne) {
         small::some_circle()));
     const double F = small::circle_bishop(plain).factor_of_safety;
     const double same = small::circle_bishop(striped).factor_of_safety;
-    // hundreds of slices against 50: the plain one's own error is 1e-4
+    // Hundreds of slices against 50: the error with 50 is 1e-4.
     EXPECT_NEAR(same, F, 5e-4 * F);
 }
 

@@ -1,4 +1,4 @@
-// The factor of safety has no place, no side and no unit.
+// The factor of safety does not depend on position, side and units.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -82,7 +82,7 @@ TEST(FactorOfSafety, OfASearchIsUnchangedByShiftMirrorAndScale) {
         const auto other = small::parsed(moved(text, motion.map, motion.length, motion.stress));
         const double same =
             search(make_model(other), *other.lem->search).critical.value().bishop.factor_of_safety;
-        // the descent stops when a fresh start gains less than 1e-5
+        // The descent stops when a restart gains less than 1e-5.
         EXPECT_NEAR(same, F, 1e-5 * F) << motion.name;
     }
 }
@@ -120,8 +120,7 @@ TEST(Search, IsDeterministicAndNoWorseThanAFinerGrid) {
                 once.critical->bishop.factor_of_safety, static_cast<long long>(once.tally.analysed),
                 fine.critical->bishop.factor_of_safety,
                 static_cast<long long>(fine.tally.analysed));
-    // 50 slices have an error of 1e-4 that jumps as cuts come and go: no search sees deeper than
-    // that
+    // 50 slices have an error of 1e-4 that is discontinuous in the cuts: the limit of any search.
     EXPECT_NEAR(once.critical->bishop.factor_of_safety / fine.critical->bishop.factor_of_safety,
                 1.0, 5e-4);
 }

@@ -1,4 +1,4 @@
-// The limit on m_alpha: the slices it applies to, and the treatment of surfaces below it.
+// The limit of m_alpha: slices to which it applies, and surfaces below it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,8 +12,7 @@ namespace {
 
 using small::json;
 
-/// A circle through the toe's forefield that comes up steeply: its passive slices have a small
-/// m_alpha.
+/// A circle with a steep exit in front of the toe: its passive slices have a small m_alpha.
 json steep_toe(const json& limit, double phi_base = 40.0) {
     json text = small::two_layers({{"circle", {{"center", {38, 6.2}}, {"radius", 9}}}});
     text["materials"]["fill"] = small::soil(20, 1, 10);

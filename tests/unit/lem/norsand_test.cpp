@@ -1,5 +1,5 @@
-// NorSand in the LEM: its undrained strength by place is that of the law's own path, moments follow
-// from it by hand, and drained strength alone is flagged.
+// NorSand in the LEM: undrained strength equals that of the law's own path, moments are checked by
+// hand, and purely drained strength is flagged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -93,7 +93,8 @@ json lem_with(const json& undrained) {
 }
 
 TEST(NorSandByState, FactorOfSafetyIsThatOfTheSameStrengthGivenByHand) {
-    // Where the table's ratio is one number, s_u = ratio sigma'_v0 is what /lem/undrained can say itself.
+    // Where the table's ratio is constant, s_u = ratio sigma'_v0 can also be given in
+    // /lem/undrained.
     const double by_state = safety(lem_with({{{"region", "tailings"}, {"norsand", "peak"}}}));
     double least = 1e9, most = 0.0;
     const NorSand law = tailings(with());
@@ -112,8 +113,8 @@ TEST(NorSandByState, FactorOfSafetyIsThatOfTheSameStrengthGivenByHand) {
 }
 
 TEST(NorSandByState, FactorOfSafetyIsThatOfTheIntegralsOverTheCircle) {
-    // phi = 0: F = R int s_u dl / int W (x_c - x) dx. Water stands at the ground, so that sigma'_v0 is
-    // (gamma - gamma_w) d, and s_u is one ratio times that. No slices, and nothing of the tool's.
+    // phi = 0: F = R int s_u dl / int W (x_c - x) dx. Water at the ground, so sigma'_v0 = (gamma -
+    // gamma_w) d, and s_u is a constant ratio of it. Independent of the tool.
     constexpr double x_c = 30.0, y_c = 24.0, R = 18.0, gamma = 19.5e3, gamma_w = 10e3;
     const double ratio = ratio_by_path(tailings(with()), 50e3, OnPath::peak);
     const double from = x_c - std::sqrt(R * R - (20.0 - y_c) * (20.0 - y_c));
@@ -173,7 +174,7 @@ TEST(DrainedOnly, IsFlaggedWhereLooseWetSoilIsJudgedByIt) {
     EXPECT_TRUE(flags_of_drained(with()).empty()) << "the shipped scene says how it fails";
 }
 
-/// The loose bank, 20 m of tailings, judged by friction alone; `more` comes into /lem.
+/// The loose bank, 20 m of tailings with friction only; `more` is added to /lem.
 std::vector<fault::Flag> flags_of_bank(const json& more, const json& state = {{"psi_0", 0.05}}) {
     json text = bank({{"circle", {{"center", {30, 24}}, {"radius", 18}}}});
     text["lem"].update(more);
@@ -195,7 +196,7 @@ TEST(DrainedOnly, IsWetByAnyWaterOfTheAnalysis) {
     EXPECT_EQ(
         flags_of_bank({{"pore_pressure_ratios", {{{"region", "tailings"}, {"r_u", 0.3}}}}}).size(),
         1u);
-    // A mound of water between corners that are all above it.
+    // A mound of water between corners above it.
     EXPECT_EQ(flags_of_bank({{"water", {{"line", {{0, -1}, {10, 5}, {20, -1}}}}}}).size(), 1u);
     EXPECT_TRUE(flags_of_bank(json::object()).empty()) << "dry";
     const json low = {{"line", {{0, -5}, {60, -5}}}};
@@ -208,7 +209,8 @@ TEST(DrainedOnly, IsLooseWhereItIsWet) {
     const auto with_state = [](const json& state) {
         return flags_of_bank({{"water", high}}, state).size();
     };
-    // CJ1's e_c at 100 kPa is 0.9 - 0.02 ln 100: denser than critical there, looser below about 14 m.
+    // CJ1's e_c at 100 kPa is 0.9 - 0.02 ln 100: denser than critical there, looser below about 14
+    // m.
     const double at_100_kPa = 0.9 - 0.02 * std::log(100.0);
     EXPECT_EQ(with_state({{"e_0", at_100_kPa - 0.0005}}), 1u);
     EXPECT_EQ(with_state({{"e_0", at_100_kPa - 0.05}}), 0u);

@@ -1,4 +1,4 @@
-// A wider search finds no higher factor of safety: it may look everywhere the narrower one does.
+// A wider search finds no higher factor of safety, as it includes the narrower one.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using small::json;
 
-// relative; a tenth of what 50 slices resolve
+// relative; a tenth of the resolution with 50 slices
 constexpr double allowed = 1e-5;
 
 double least_factor(const Model& model, const scene::SlipSearch& ranges) {
@@ -30,7 +30,7 @@ void expect_no_worse_shallower(const char* name, const scene::Scene& scene) {
     }
 }
 
-/// Ranges that shrink onto the ends of the critical surface of the widest.
+/// Ranges that shrink to the ends of the widest search's critical surface.
 void expect_no_worse_wider(const char* name, const scene::Scene& scene) {
     const Model model = make_model(scene);
     const scene::SlipSearch widest = *scene.lem->search;
@@ -51,7 +51,7 @@ void expect_no_worse_wider(const char* name, const scene::Scene& scene) {
     }
 }
 
-/// A long slope of 20 degrees without cohesion: its critical surface is as shallow as it may be.
+/// A long slope of 20 degrees without cohesion: its critical surface has the least depth.
 json long_slope(double c_kPa, double inclination) {
     const double rise = 60.0 * std::tan(inclination);
     json text = small::scene(

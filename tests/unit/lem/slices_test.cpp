@@ -37,7 +37,7 @@ TEST(Slices, CircularSegmentHasItsAreaAndArcLength) {
     EXPECT_NEAR(total(slices.length, slices.count), 20.0 * half, 1e-6 * 20.0 * half);
     EXPECT_NEAR(total(slices.width, slices.count), 16.0, 1e-12);
     EXPECT_NEAR(slices.depth, 4.0, 1e-12);
-    // level ground drives nothing
+    // Level ground has no driving moment.
     EXPECT_EQ(bishop(slices, slide_of(slices), 0.0).balance, Balance::no_driving_moment);
 }
 
@@ -99,8 +99,7 @@ TEST(SlipCircle, DeepestArcStartsVertically) {
     EXPECT_NEAR(surface.circle.center.y(), 10.0, 1e-9);
 }
 
-// What is above its phreatic line has no water to liquefy by; soil that no line fills has no line to
-// lie above.
+// Soil above its phreatic line has no water to liquefy; soil without a line liquefies everywhere.
 TEST(Slices, OfALiquefiedLayerKeepTheirStrengthAboveThePhreaticLine) {
     json lem = small::some_search();
     lem.update(small::some_circle());

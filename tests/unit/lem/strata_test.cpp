@@ -29,7 +29,8 @@ TEST(Strata, WeightAboveALayerIsThatOfEverythingOnIt) {
 }
 
 TEST(Strata, FastSoilTakesItsEffectiveWeightAlone) {
-    // Left of the crest 10 m of fill at 20 kN/m3 lie on the base; the water in them was there before.
+    // Left of the crest 10 m of fill with 20 kN/m3 are on the base; the water in it was there
+    // before.
     const auto taken = [](const json& water) {
         json text = small::two_layers(small::some_circle());
         text["lem"]["unconsolidated"] = {"fill"};

@@ -101,7 +101,7 @@ TEST_F(LemTool, FlagsAKinkedSurfaceWithoutFriction) {
     EXPECT_EQ(facts.at("non_circular").at("frictionless_share"), 1.0);
 }
 
-/// Liquefied, surfaces reach farther back than a range allows that suits the sound dam.
+/// After liquefaction, surfaces reach farther back than a range for the sound dam allows.
 TEST_F(LemTool, FlagsTheEdgeOfARangeWhereAStageEndsToo) {
     const std::string narrow =
         " --set '/lem/search/entry=[102.5,114.5]' --set /lem/search/entry_points=10"
@@ -130,8 +130,8 @@ TEST_F(LemTool, FindsNoCriticalSurfaceAtTheEdgeOfATemplatesRanges) {
     }
 }
 
-/// Spencer's factors are higher in every stage, so that the least valid one is Bishop's: the
-/// comparison with the published staging stays.
+/// Spencer's factors are higher in every stage, so the least valid one is Bishop's, and the
+/// comparison with the published staging remains.
 TEST_F(LemTool, KeepsBishopsStagingOfMochikoshi) {
     ASSERT_EQ(run("--progress none --output " + folder_.string(), "mochikoshi"), 0) << printed();
     const json facts = result();

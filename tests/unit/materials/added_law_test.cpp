@@ -1,5 +1,5 @@
-// Laws that this test adds to the list: one without memory, and one that answers every question. They
-// compile with the answers alone; one that leaves an answer out does not.
+// Laws added to the list by this test: one without memory, and one with every interface. They
+// compile with these functions alone; a law that lacks one does not compile.
 #include <gtest/gtest.h>
 
 #include "core/materials/law.hpp"
@@ -27,7 +27,7 @@ inline double yield_excess(const Rock&, const State&) { return -1.0; }
 inline Voigt return_to_surface(const Rock&, const State& state) { return state.sigma; }
 inline std::optional<LawLanes> for_particles(const Rock&) { return std::nullopt; }
 
-/// Elastic, with what a rock answers; undrained it carries (1 - S) of twice p' + u.
+/// Elastic, with Rock's functions; undrained strength (1 - S) times twice p' + u.
 struct Peat : Rock {
     static constexpr bool has_state_parameter = true;
     struct Memory {
@@ -97,7 +97,7 @@ inline UndrainedByPlace undrained_by_place(const Peat& law, OnPath part) {
 }
 inline void set_s(Peat& law, double S) { law.S = S; }
 
-/// Leave an answer out: all of them, those of memory.hpp, those of state_parameter.hpp.
+/// Lack functions: all, those of memory.hpp, those of state_parameter.hpp.
 struct Silent {
     mechanics::Elasticity elasticity;
 };

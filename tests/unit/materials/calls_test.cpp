@@ -1,4 +1,4 @@
-// The protocol of a call that walks: a call ends for any answer of the law.
+// Integration in sub-steps: a call ends for any behaviour of the law.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -10,8 +10,8 @@ namespace {
 
 using mechanics::Voigt;
 
-/// A law without physics. A strain of 1 walks through in ten steps; one of 2 wants to begin again after
-/// every `begin` and never gets anywhere.
+/// A law without physics. A strain of 1 takes ten steps; one of 2 begins again after every `begin`
+/// and makes no progress.
 namespace turning {
 
 struct Ready {};

@@ -1,4 +1,4 @@
-// Drucker-Prager against what it is fitted to: Mohr-Coulomb in plane-strain flow.
+// Drucker-Prager compared with Mohr-Coulomb in plane-strain flow, to which it is fitted.
 #include "core/materials/drucker_prager/drucker_prager.hpp"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ TEST(DruckerPrager, InPlaneStrainFlowItHasTheStrengthAndDilatancyOfMohrCoulomb) 
     for (const double phi_deg : {0.0, 20.0, 35.0, 45.0}) {
         for (const double share : {0.0, 0.4, 1.0}) {
             const DruckerPrager law = soil(phi_deg, share * phi_deg, 15e3, samples::no_cut_off);
-            // Shear at the dilatancy that psi asks for, oblique to the axes: the stress comes to
-            // rest, and then every strain is plastic.
+            // Shear with the dilatancy of psi, oblique to the axes: the stress becomes constant,
+            // and then all strain is plastic.
             const double rate = 1e-4, volume = rate * std::sin(law.psi), turn = 0.7;
             const Voigt d_epsilon{0.5 * volume + 0.5 * rate * std::cos(turn),
                                   0.5 * volume - 0.5 * rate * std::cos(turn), 0.0,
@@ -87,7 +87,7 @@ TEST(DruckerPrager, EveryReturnEndsOnTheSurfaceAndStaysThere) {
             ASSERT_LT(yield_excess(law, update.state), 1e-12 * size);
             ASSERT_LT((return_to_surface(law, update.state) - update.state.sigma).norm(),
                       1e-11 * size);
-            // The stress is that of the elastic part of the strain, and flow costs work.
+            // The stress follows from the elastic strain, and flow dissipates work.
             const Voigt elastic = d_epsilon - update.d_epsilon_plastic;
             const Voigt by_hooke = old.sigma + mechanics::elastic_stress(law.elasticity, elastic);
             ASSERT_LT((by_hooke - update.state.sigma).norm(), 1e-10 * size);

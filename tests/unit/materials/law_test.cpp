@@ -1,4 +1,4 @@
-// What holds of the answers of every law in the list.
+// Properties of every law in the list.
 #include "core/materials/law.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace breach::materials::law_test {
 namespace {
 
-/// One of each law, with all that an answer could depend on.
+/// One of each law, with all optional parts.
 template <class... Each>
 std::vector<Law> one_of_each(const std::variant<Each...>*) {
     return {Law(Each{})...};

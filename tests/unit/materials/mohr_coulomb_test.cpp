@@ -21,8 +21,8 @@ double scale_of(const MohrCoulomb& law, const State& old, const Voigt& d_epsilon
            mechanics::elastic_stress(law.elasticity, d_epsilon).cwiseAbs().maxCoeff();
 }
 
-// Round-off of the trial stress is the only error there is: 1e-13 of the largest stress is a few
-// hundred units in the last place.
+// Only the round-off of the trial stress remains: 1e-13 of the largest stress is a few hundred
+// units in the last place.
 constexpr double round_off = 1e-13;
 
 TEST(MohrCoulomb, ReturnedStressIsAdmissibleAndOnTheSurface) {
@@ -126,7 +126,7 @@ TEST(MohrCoulomb, DilatesAtItsDilatancyAngleOnThePlane) {
     const double psi = 12 * degree;
     const MohrCoulomb law{{2e7, 0.3}, 1e4, 30 * degree, psi, 0.0, std::nullopt};
     const State confined{{-1e5, -1e5, -1e5, 0.0}};
-    // in simple shear the out-of-plane stress stays in between: one plane, plane plastic strain
+    // In simple shear the out-of-plane stress stays intermediate: one plane, plane plastic strain.
     const Update update = integrate(law, confined, {0.0, 0.0, 0.0, 0.05});
     ASSERT_EQ(update.kind, Return::plane);
     const Voigt& e = update.d_epsilon_plastic;
@@ -142,7 +142,7 @@ TEST(MohrCoulomb, YieldsAtTheCoulombLineInBiaxialCompression) {
     State state{{-5e4, -5e4, -5e4, 0.0}};
     for (int n = 0; n < 50; ++n) state = integrate(law, state, {1e-3, -1e-3, 0.0, 0.0}).state;
     EXPECT_NEAR(k * state.sigma[0] - state.sigma[1], q, 1e-12 * 5e4);
-    // without volume change the mean of the in-plane stresses stays where the elastic path left it
+    // Without volume change the mean of the in-plane stresses stays that of the elastic path.
     EXPECT_NEAR(0.5 * (state.sigma[0] + state.sigma[1]), -5e4, 1e-12 * 5e4);
 }
 
@@ -164,7 +164,7 @@ TEST(MohrCoulomb, SmallStepsAndOneStepAgreeOnAProportionalPlanePath) {
     const State once = integrate(law, start, path).state;
     State many = start;
     for (int n = 0; n < 1000; ++n) many = integrate(law, many, path / 1000.0).state;
-    // The axes turn along the path, so the two differ by the size of that turn; both must be on the
+    // The axes rotate along the path, so the two differ by that rotation; both must be on the
     // surface.
     EXPECT_NEAR(yield_excess(law, many), 0.0, 1e-9);
     EXPECT_NEAR(yield_excess(law, once), 0.0, 1e-9);

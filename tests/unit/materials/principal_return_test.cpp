@@ -1,5 +1,5 @@
-// The closed forms against a solver that knows nothing of them: Koiter's rule by trying every set
-// of up to three of the nine planes.
+// The closed forms against an independent solver: Koiter's rule by trying every set of up to three
+// of the nine planes.
 #include "core/materials/mohr_coulomb/principal_return.hpp"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ Matrix3 stiffness(const Moduli& moduli) {
     return D;
 }
 
-/// The returned stress if this set of planes satisfies Koiter's rule, and how badly it does not.
+/// The returned stress for this set of planes, and its violation of Koiter's rule.
 struct Attempt {
     Triple sigma;
     double violation;
@@ -115,9 +115,8 @@ TEST(PrincipalReturn, AgreesWithEnumerationOnEveryFacet) {
             const PrincipalReturn mine = return_to_cone(cone, moduli, trial);
             const Attempt reference = by_enumeration(cone, moduli, trial);
             ++reached[mine.facet];
-            // Relative to the largest stress that takes part. The enumeration itself solves systems
-            // of condition number up to lambda / G = 5000 at nu = 0.4999: 1e-8 leaves three digits
-            // above its round-off.
+            // Relative to the largest stress. The enumeration solves systems with condition numbers
+            // up to lambda / G = 5000 at nu = 0.4999: 1e-8 leaves three digits above its round-off.
             const double scale = trial.cwiseAbs().maxCoeff() + cone.q;
             const double error = (mine.sigma - reference.sigma).cwiseAbs().maxCoeff() / scale;
             worst = std::max(worst, error);
@@ -161,15 +160,15 @@ TEST(PrincipalReturn, IsTheClosestPointInEnergyWhenFlowIsAssociated) {
 TEST(PrincipalReturn, CutOffAloneIsRankine) {
     const Cone cone = cone_of(samples::soil(30, 0, 1e6, 2e3));
     const Moduli moduli = make_moduli({2e7, 0.25});  // lambda = G = 8 MPa
-    // One axis pulled by e: the other two follow by lambda / (lambda + 2 G) = 1/3 of what the first
-    // loses.
+    // One axis is extended by e: the other two follow by lambda / (lambda + 2 G) = 1/3 of the loss
+    // of the first.
     const PrincipalReturn one = return_to_cone(cone, moduli, {8e3, 1e3, -4e3});
     EXPECT_EQ(one.facet, Facet::cut_plane);
     EXPECT_NEAR(one.sigma[0], 2e3, 1e-9);
     EXPECT_NEAR(one.sigma[1], -1e3, 1e-9);
     EXPECT_NEAR(one.sigma[2], -6e3, 1e-9);
     EXPECT_NEAR(one.d_epsilon_plastic[0], 6e3 / 2.4e7, 1e-15);
-    // All three pulled apart.
+    // All three are extended.
     const PrincipalReturn all = return_to_cone(cone, moduli, {9e4, 9e4, 9e4});
     EXPECT_EQ(all.facet, Facet::tip);
     EXPECT_NEAR(all.d_epsilon_plastic.sum(), (9e4 - 2e3) / moduli.K, 1e-12);

@@ -1,4 +1,4 @@
-// Soils and strain increments that between them reach every facet of the yield surface.
+// Soils and strain increments that reach every facet of the yield surface.
 #pragma once
 
 #include <cmath>

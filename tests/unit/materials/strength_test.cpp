@@ -1,4 +1,4 @@
-// Strength profiles, and the published relations for liquefied soil at points that others give.
+// Strength profiles, and published relations for liquefied soil at values given by others.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ TEST(ResidualStrength, OfWeberAtOneAtmosphere) {
     EXPECT_EQ(residual_strength(weber_2015, 2.0, 0.0), 0.0) << "the formula is negative there";
 }
 
-// The line of the paper's mean, and that it ends where the data do.
+// The line of the paper's mean, and its end at the end of the data.
 TEST(ResidualStrength, OfOlsonAndStarkIsALineInTheSounding) {
     EXPECT_NEAR(residual_strength(olson_stark_2002_spt, 0.0, 100 * kPa), 3 * kPa, 1e-9);
     EXPECT_NEAR(residual_strength(olson_stark_2002_spt, 12.0, 100 * kPa), 12 * kPa, 1e-9);
@@ -44,8 +44,8 @@ TEST(ResidualStrength, OfOlsonAndStarkIsALineInTheSounding) {
 }
 
 // The monograph has one pair of curves over two axes: soundings with the same strength after
-// redistribution have the same without. Negligible redistribution doubles the ratio at (N1)60cs-Sr =
-// 15.84 and q_c1Ncs-Sr = 109.0.
+// redistribution have the same without. Negligible redistribution doubles the ratio at (N1)60cs-Sr
+// = 15.84 and q_c1Ncs-Sr = 109.0.
 TEST(ResidualStrength, OfIdrissAndBoulangerIsOneCurveForBothSoundings) {
     const auto ratio = [](Relation relation, double sounding) {
         return residual_strength(relation, sounding, 100 * kPa) / (100 * kPa);

@@ -20,8 +20,8 @@ Matrix4 by_differences(const MohrCoulombNumbers& law, const State& old, const Vo
     return tangent;
 }
 
-/// True when no perturbation of the step crosses into another facet (differences would then mix two
-/// tangents).
+/// True if no perturbation of the step reaches another facet, which would mix two tangents in the
+/// differences.
 bool same_facet_around(const MohrCoulombNumbers& law, const State& old, const Voigt& d_epsilon,
                        double step) {
     const auto facet_at = [&](const Voigt& e) {

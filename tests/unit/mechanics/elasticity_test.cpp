@@ -35,7 +35,7 @@ TEST(Elasticity, ConstrainedCompressionHasTheConstrainedModulus) {
     EXPECT_NEAR(soil.wave_speed(1800.0), std::sqrt(soil.constrained_modulus() / 1800.0), 1e-12);
 }
 
-/// Shear stays as it is down to nu = 0.2; below that both moduli fall together.
+/// The shear modulus stays down to nu = 0.2; below, both moduli decrease.
 TEST(Elasticity, IsSlowedByItsBulkModulusFirst) {
     const Elasticity undrained{72e6, 0.495};
     for (const double limit : {1000.0, 400.0}) {

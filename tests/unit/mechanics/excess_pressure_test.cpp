@@ -1,4 +1,4 @@
-// Excess pore pressure as means of element means: what alternates drops out, what is even stays.
+// Excess pore pressure as average of element averages: alternating parts cancel, uniform ones stay.
 #include "core/mechanics/excess_pressure.hpp"
 
 #include <gtest/gtest.h>

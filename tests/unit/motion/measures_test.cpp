@@ -1,4 +1,4 @@
-// Measures of a motion against closed forms and against another way to compute them.
+// Measures of a motion against closed forms and an independent method.
 #include "core/motion/measures.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Motions in the wrong unit: refused or flagged, and the slip is named.
+// Motions in a wrong unit are refused or flagged, with the likely unit.
 #include "core/motion/plausibility.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace breach::motion {
 namespace {
 
-/// Ten seconds of 2 Hz that begin and end at rest.
+/// Ten seconds of 2 Hz, at rest at both ends.
 Recording shaking(double peak, Quantity quantity = Quantity::acceleration, double dt = 0.01) {
     Recording motion{quantity, {dt, {}}, "test"};
     for (int i = 0; i <= 1000; ++i) {

@@ -115,7 +115,7 @@ TEST(TwoColumns, HaveTheUnitThatACommentNames) {
         {"# cm/s2", 0.01},
         {"# acceleration in m/s2 scaled to a PGA of 0.3 g", 1.0},
         {"time acceleration(m/s2)", 1.0},
-        // as ever
+        // no unit: g
         {"# made up", standard_gravity},
         {"# time [s] acceleration [g]", standard_gravity},
         {"# Units: sec, g", standard_gravity},
@@ -196,7 +196,7 @@ TEST(Csv, OfManyShortStepsIsReadAsItWasWritten) {
     }
 }
 
-/// The header's unit in SI and what it measures; 0: it is refused, and the header quoted.
+/// The header's unit in SI and its quantity; 0: refused, with the header in the message.
 std::pair<double, Quantity> unit_of(const std::string& units) {
     std::istringstream in("PEER\nA quake\n" + units + "\nNPTS= 2, DT= .01 SEC\n 1.0 1.0\n");
     try {

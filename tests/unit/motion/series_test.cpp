@@ -1,4 +1,4 @@
-// What is measured on a motion, against closed forms and against a record's own integral.
+// Measures of a series, against closed forms and a record's own integral.
 #include "core/motion/series.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ TEST(Record88, IntegratesToItsOwnVelocity) {
     std::printf("    PGA %.5f g, PGV %.3f cm/s (record's %.3f), Arias %.3f m/s, D5-95 %.2f s\n",
                 peak(a) / standard_gravity, 100 * peak(v), 100 * peak(given), arias_intensity(a),
                 strong_part(a).duration());
-    // PEER took g = 9.81 (3.4e-4 more) and its own filtered velocity starts from rest as ours does.
+    // PEER uses g = 9.81 (3.4e-4 more), and its filtered velocity starts from rest like ours.
     std::printf("    largest difference of velocity %.3e of PGV, allowed 1e-3\n",
                 difference / peak(given));
     EXPECT_LT(difference, 1e-3 * peak(given));
@@ -85,7 +85,8 @@ TEST(Record88, IntegratesToItsOwnVelocity) {
     EXPECT_NEAR(strong_part(a).duration(), 23.61, 0.02);
 }
 
-/// The power of two sines is that of their amplitudes squared; of a wide noise it is flat.
+/// The power of two sines is proportional to their amplitudes squared; of wide-band noise it is
+/// flat.
 TEST(Series, BandIsWhereThePowerLies) {
     Series motion{0.01, {}};
     for (int i = 0; i < 4000; ++i) {

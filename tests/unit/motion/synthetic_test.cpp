@@ -1,4 +1,4 @@
-// The made-up motion meets what it was asked for, and the shipped file is one of them.
+// The synthetic motion meets its targets, and the shipped file is one.
 #include "core/motion/synthetic.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Small scenes made in code, and bodies of points made from them: fixtures of the MPM's tests.
+// Small scenes for MPM tests, and bodies filled with points.
 #pragma once
 
 #include <functional>
@@ -96,7 +96,7 @@ inline Body filled_body(const scene::Scene& scene, const Velocity& velocity = {}
     return make_body(scene, zoned_points(scene, state, "test"), "test");
 }
 
-/// Steps at the Courant number of the scene until `end` [s]; each(time) is called after every step.
+/// Steps at the scene's Courant number until `end` [s]; calls each(time) after every step.
 inline void advance(Body& body, const scene::Scene& scene, double end,
                     const std::function<void(double)>& each = {}) {
     for (double time = 0.0; time < end * (1.0 - 1e-12);) {

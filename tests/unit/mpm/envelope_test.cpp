@@ -25,7 +25,7 @@ TEST(Envelope, KeepsTheLargestAndWhenItCame) {
     envelope.see(0.0, depths({2.0, 0.0, 0.0}), 0.5);
     envelope.see(1.0, depths({1.5, 1.0, 0.0}, -3.0), 0.5);
     envelope.see(2.0, depths({1.0, 3.0, 0.0}), 0.5);
-    envelope.see(2.0, depths({9.0, 9.0, 9.0}), 0.5);  // has been seen
+    envelope.see(2.0, depths({9.0, 9.0, 9.0}), 0.5);  // already sampled
     EXPECT_EQ(envelope.depth, (std::vector<double>{2.0, 3.0, 0.0}));
     EXPECT_EQ(envelope.velocity, (std::vector<double>{3.0, 3.0, 0.0}));
     EXPECT_EQ(envelope.flux, (std::vector<double>{13.5, 12.0, 0.0}));
@@ -78,7 +78,7 @@ TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
     static constexpr double v = 3.0;
     Body body = filled_body(scene, [](const Vec2&) -> Vec2 { return {v, 0.0}; });
     const FlowView view = flow_view(scene, body.grid);
-    // Downstream, at the edge, within, upstream; at the grid's ends nothing can pass.
+    // Downstream, at the edge, inside, upstream; nothing can pass the grid's ends.
     const std::vector<scene::FlowSection> sections{{"down", 8.0}, {"edge", 6.0}, {"in", 4.3},
                                                    {"up", 1.0},   {"low", 0.0},  {"high", 12.0}};
     SectionRecords records;
@@ -99,7 +99,8 @@ TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
         EXPECT_NEAR(records[s].mass.back(), 2000.0 * records[s].volume.back(), 1e-8);
         const auto closure = closure_of(records[s]);
         EXPECT_EQ(closure.has_value(), passed[s] > 0.0) << sections[s].name;
-        // Between two samples the layer goes 15 mm; of 2.5 m2 that passes, half of it at its edges.
+        // Between two samples the layer moves 15 mm, of the 2.5 m2 that pass; half of that at its
+        // edges.
         EXPECT_NEAR(closure.value_or(0.0), 0.0, 0.016) << sections[s].name;
     }
     EXPECT_NEAR(records[1].discharge.back(), 7.5, 1e-9);
@@ -110,7 +111,7 @@ TEST(Sections, WhatPassesARigidLayerIsItsDepthTimesItsWay) {
     EXPECT_NEAR(peak->window, 2.0 / v, 1e-12);
     EXPECT_NEAR(peak->discharge, 7.5, 1e-9);
     EXPECT_FALSE(peak_of(records[3], times, view, 0.1));
-    records[1].velocity.front() = 10.0 * v;  // of next to nothing
+    records[1].velocity.front() = 10.0 * v;  // of almost no soil
     records[1].depth.front() = 0.01;
     EXPECT_NEAR(peak_of(records[1], times, view, 0.1)->window, 2.0 / v, 1e-12);
     EXPECT_NEAR(peak_of(records[1], times, view, 9.0)->window, 0.2 / v, 1e-12)
@@ -183,7 +184,7 @@ TEST(Envelope, HasTheSameBitsForAnyThreadsAndAfterAStop) {
     expect_same(whole.records(), resumed.simulation.records());
 }
 
-// What the collapse carries past a section is what lies beyond it, to 1 % at the toe.
+// The flux of the collapse through a section equals the volume beyond it, to 1 % at the toe.
 TEST(Sections, OfACollapseClose) {
     scene::Scene scene = watched_heap();
     scene.mpm->cell_size = 0.25;
@@ -199,7 +200,7 @@ TEST(Sections, OfACollapseClose) {
     const Points& points = simulation.body().points;
     for (std::size_t p = 0; p < points.size(); ++p)
         if (points.x[p] > 4.0) beyond_toe += points.V_0[p];
-    // Points counted whole: off by what straddles the section.
+    // Points counted whole: the error is the volume of those on the section.
     EXPECT_NEAR(sections[0].volume.back(), beyond_toe, 0.05 * beyond_toe);
 }
 

@@ -63,7 +63,7 @@ TEST(Fill, AMovedLatticeIsTheSameSoil) {
     const auto moved = fill_section(scene);
     EXPECT_NEAR(moved.regions[0].sampled_area, plain.regions[0].sampled_area, 1e-12);
     EXPECT_NEAR(moved.regions[0].sampled_level, plain.regions[0].sampled_level, 1e-12);
-    // A square that no edge cuts, 0.3 and 0.8 squares of half a metre from where it was.
+    // A square not cut by edges, moved by 0.3 and 0.8 squares of half a metre.
     const auto has = [&](double x, double y) {
         return std::ranges::any_of(moved.state.position, [&](const mechanics::Vec2& each) {
             return std::abs(each.x() - x) < 1e-12 && std::abs(each.y() - y) < 1e-12;
@@ -86,7 +86,7 @@ TEST(Fill, LevelsBetweenGridLinesKeepTheirHeight) {
     EXPECT_NEAR(moment / volume, 1.47, 1e-12);
 }
 
-// Light soil over heavy, the heavy one with a notch in its side: what lies in the notch is air.
+// Light soil over heavy soil with a notch in its side: the notch is air.
 TEST(Fill, OverburdenIsTheWeightOfEveryRegionAbove) {
     scene::Scene scene =
         one_soil(elastic(1e6, 0.25), 2000.0,
@@ -117,8 +117,8 @@ TEST(Fill, PointsStartUnderTheirOverburdenAndStayAtRest) {
         }
         const mechanics::Vec2 start = centre_of_mass(body.points);
         advance(body, scene, 0.5);
-        // What the grid does not see of a linear stress moves the points by far less than the
-        // settlement that they are spared, rho g H^2 / (2 M) = 15 mm at full stiffness.
+        // The part of a linear stress that the grid cannot represent moves the points by far less
+        // than the settlement without initial stress, rho g H^2 / (2 M) = 15 mm at full stiffness.
         EXPECT_LT((centre_of_mass(body.points) - start).norm(), 1e-3 / scale);
     }
 }

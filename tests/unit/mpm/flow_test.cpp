@@ -64,7 +64,8 @@ TEST(Flow, GaugeBetweenColumnsSeesTheLayerToo) {
     const Body body = moving_layer(scene);
     const FlowView view = flow_view(scene, body.grid);
     for (const double x : {0.0, 0.25, 2.5, 5.0}) {
-        // Two points to a cell's width: between lattice lines the hat's mean is off by up to 1/23.
+        // Two points per cell: between lattice lines the hat function's average is off by up to
+        // 1/23.
         EXPECT_NEAR(flow_at(body.points, view, x).depth, 2.5, 2.5 / 20.0) << x;
         EXPECT_NEAR(flow_at(body.points, view, x).velocity, v, 1e-12);
     }

@@ -27,7 +27,7 @@ void expect_complete(const Kernel& kernel) {
         EXPECT_NEAR(first, s.centre, 1e-13) << xi;
         EXPECT_NEAR(d_sum, 0.0, 1e-14) << xi;
         EXPECT_NEAR(d_first, 1.0, 1e-13) << xi;
-        // Nothing beyond the walls.
+        // No weights beyond the walls.
         if (s.first < walls.low) {
             EXPECT_EQ(s.N[0], 0.0) << xi;
         }
@@ -45,7 +45,7 @@ TEST(Kernel, BSplineSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
     expect_complete(BSplineKernel{});
 }
 
-/// The top of a bed is a wall to the soil of the bed alone, and only while it lies below it.
+/// The top of a bed is a wall for the bed's soil only, and only below it.
 template <class Kernel>
 void expect_end_of_a_bed(const Kernel& kernel) {
     const WallRows bed{.low = 1, .high = 4};

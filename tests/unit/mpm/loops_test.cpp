@@ -1,5 +1,5 @@
-// The loops over blocks of points against the laws point by point, for each CPU and each number of
-// threads.
+// The loops over blocks of points against the laws point by point, for each instruction set and
+// number of threads.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -83,7 +83,7 @@ void shake(Points& points) {
     }
 }
 
-/// The state of point p after dt by the law alone.
+/// The state of point p after dt by the law, without loop.
 materials::State by_the_law(const materials::Law& law, const Points& points, std::size_t p,
                             double dt) {
     const InPlane<double> turned_stress = turned<double>(

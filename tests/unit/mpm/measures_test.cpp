@@ -88,7 +88,7 @@ TEST(Sort, ChangesTheOrderAndNothingElse) {
     }
 }
 
-/// Sums of a zone's cells are emptied and averaged in these cells alone.
+/// Sums in a zone's cells are reset and averaged in these cells only.
 TEST(Sort, KnowsTheCellsThatEachZonesPointsReach) {
     scene::Scene scene = sand_block();
     scene.materials.push_back({.name = "other", .density = 1600.0, .law = elastic(5e6, 0.3)});

@@ -1,4 +1,4 @@
-// What a run holds in memory, as the allocator counts it.
+// Memory of a run, by the allocator's count.
 #pragma once
 
 #include <malloc.h>
@@ -8,7 +8,7 @@
 
 namespace breach::mpm::test {
 
-/// 10 m x 20 m of sand that collapses along a floor of 60 m: what speed and memory are measured with.
+/// 10 m x 20 m of sand that collapses on a floor of 60 m, for measurements of speed and memory.
 inline scene::Scene tall_column(double h, int fill_points) {
     scene::Scene scene =
         one_soil(sand(20e6, 0.3, 1e3, 30.0), 1800.0, rectangle(0, 0, 10, 20), h, 60.0, 24.0);
@@ -19,13 +19,13 @@ inline scene::Scene tall_column(double h, int fill_points) {
     return scene;
 }
 
-/// Bytes that the program has asked for and not given back; 0 where a sanitizer has the allocator.
+/// Allocated bytes of the program; 0 if a sanitizer replaces the allocator.
 inline double bytes_in_use() {
     const auto use = mallinfo2();
     return static_cast<double>(use.uordblks + use.hblkhd);
 }
 
-/// Of a run that has made some steps.
+/// For a run after some steps.
 inline double bytes_per_point(const scene::Scene& scene) {
     const double before = bytes_in_use();
     Simulation simulation(scene, filled_body(scene), 0.0);

@@ -5,7 +5,7 @@
 namespace breach::mpm::test {
 namespace {
 
-/// Of which the points' own numbers are 168; nodes of the grid, 1.8 per point, are most of the rest.
+/// The points' numbers are 168 of these; most of the rest are grid nodes, 1.8 per point.
 TEST(Memory, OfARunIsAtMost359BytesPerPoint) {
     const double bytes = bytes_per_point(tall_column(0.2, 2));
     if (bytes < 1.0) GTEST_SKIP() << "a sanitizer's allocator does not count";

@@ -1,6 +1,6 @@
-// How wide nonlocal softening makes a band of shear: a layer of 40 m between rough plates, one
-// row of points for every height, its strains those of the grid's cells. The effective width is
-// the work that softening dissipates over that of a layer one metre high.
+// Width of a shear band with nonlocal softening: a layer of 40 m between rough plates, one row of
+// points per height, strains constant within cells. Effective width: work dissipated by softening
+// over that of a layer one metre high.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double height = 40.0;                // of the layer [m]
 constexpr double peak = 25.0, residual = 5.0;  // shear strength [kPa]
 constexpr double strain_to_residual = 0.1;     // [-]
-constexpr double G = 5e4;                      // stiff enough that nothing snaps back [kPa]
+constexpr double G = 5e4;                      // stiff enough to prevent snap-back [kPa]
 constexpr double length = 4.0;                 // l [m]
 
 struct Layer {
@@ -23,10 +23,10 @@ struct Layer {
     int points_per_cell;  ///< along the height
     double shift;         ///< of the weak seam from the middle [m]
     bool nonlocal;
-    bool at_its_pace = false;  ///< growth is shared by the solver's pace, not in each step
+    bool at_its_pace = false;  ///< averages when the solver does, not in each step
 };
 
-/// Points of a soil whose rows are the layer's; many columns, for the average has two dimensions.
+/// Points whose rows form the layer; many columns, because averages are two-dimensional.
 class Rows {
   public:
     explicit Rows(const Layer& layer) : body_(body_of(layer)), at_its_pace_(layer.at_its_pace) {
@@ -45,7 +45,7 @@ class Rows {
     double strain(std::size_t row) const {
         return body_.points.epsilon_q_plastic[rows_[row].point];
     }
-    /// What each row's softening strain grows by; the middle column stands for all.
+    /// Increments of each row's softening strain; the middle column represents all.
     void grow(const std::vector<double>& by) {
         std::vector<double>& k = body_.points.epsilon_q_plastic;
         for (std::size_t p = 0; p < k.size(); ++p) k[p] += by[row_of_[p]];
@@ -67,7 +67,8 @@ class Rows {
                                       rectangle(0, 0, width, height), layer.h, width, height);
         std::get<materials::MohrCoulomb>(scene.materials[0].law).softening =
             materials::Softening{.epsilon_q_start = 0.0,
-                                 // In steps nobody is to be spent; the pace goes by it.
+                                 // Fully softened points would not take part; the averaging
+                                 // interval depends on this strain.
                                  .epsilon_q_end = layer.at_its_pace ? strain_to_residual : 100.0,
                                  .c_residual = 5e3,
                                  .tan_phi_residual = 0.0};
@@ -85,8 +86,8 @@ class Rows {
     std::vector<Row> rows_;
 };
 
-/// Shear stress of a column of cells in series that yield at these strengths, and by how much each
-/// flows: the strain that the plates add is elastic or plastic, the stress the same everywhere.
+/// Shear stress of a column of cells in series with these yield strengths, and the flow of each:
+/// the plates' additional strain is elastic or plastic, and the stress is uniform.
 double flow(std::vector<double>& growth, const std::vector<double>& strength, double trial) {
     constexpr double stiffness = 40.0;  // of the flow within a step: small beside G [kPa]
     std::vector<double> sorted = strength;
@@ -126,12 +127,12 @@ double band_width(const Layer& layer) {
     std::vector<double> strength(n);
     double tau = 0.0;
     double work = 0.0;
-    for (double slip = 0.0; slip < 1.5; slip += step) {  // nothing softens any more then
+    for (double slip = 0.0; slip < 1.5; slip += step) {  // everything is softened by then
         for (std::size_t i = 0; i < n; ++i) {
             const double softened = std::min(rows.strain(i) / strain_to_residual, 1.0);
             strength[i] = std::max(residual, peak * weak[i] - (peak - residual) * softened);
         }
-        for (std::size_t cell = 0; cell < n; cell += per_cell) {  // strains are the grid's
+        for (std::size_t cell = 0; cell < n; cell += per_cell) {  // strains are constant in a cell
             const auto begin = strength.begin() + static_cast<std::ptrdiff_t>(cell);
             const auto end = begin + layer.points_per_cell;
             std::fill(begin, end, std::accumulate(begin, end, 0.0) / layer.points_per_cell);
@@ -159,10 +160,7 @@ Widths widths_of(double h, bool nonlocal) {
     return widths;
 }
 
-/// Over three shifts of the lattice and 4, 9 and 16 points per cell, within the 5 % that are asked
-/// for. A prototype, which let the ways to the nodes and back widen the band, found
-/// 10.3 (10.1 to 11.0), 10.1 (9.9 to 10.4) and 9.95 (9.92 to 9.98) m for the three sizes of cells with
-/// l = 4 m, in steps a fifth of ours; so did this (2.59 to 2.80, 2.53 to 2.65, 2.52).
+/// Over three shifts of the lattice and 4, 9 and 16 points per cell, within the required 5 %.
 TEST(NonlocalSoftening, BandIsTwoAndAHalfLengthsWideOnAnyCells) {
     constexpr double wanted = scene::band_in_nonlocal_lengths;
     const auto expect_within = [&](const Widths& widths, double share) {
@@ -214,7 +212,7 @@ scene::Scene one_region() {
 
 bool is_left(const Body& body, std::size_t p) { return body.points.x[p] < 4.0; }
 
-/// A step's growth by the points' own strains, averaged: what each has gained, by its place in the input.
+/// Increments by the points' own strains, averaged: the gain of each, in the order of the input.
 template <class Own>
 std::vector<double> gains(Body& body, const Own& own) {
     std::vector<double>& k = body.points.epsilon_q_plastic;
@@ -272,7 +270,7 @@ TEST(NonlocalSoftening, IsSharedTheOftenerTheFasterBandsGrow) {
     EXPECT_EQ(due_after(1e-9), NonlocalSoftening::most_steps);
 }
 
-/// The points on the right are out of it in one of two ways, or just not yet.
+/// The points on the right do not take part for one of two reasons, or just do.
 TEST(NonlocalSoftening, PointsThatAreSpentOrTornOffNeitherGiveNorTake) {
     using Change = std::function<void(Body&, std::size_t)>;
     const auto strained_to = [](double k) -> Change {

@@ -1,4 +1,4 @@
-// When a run may end, and what is said when it ended too early.
+// When a run may end, and messages if it ended too early.
 #include "mpm_solver/measure/rest.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What ended runs before: the percentiles of x alone.
+/// A criterion by the percentiles of x alone.
 bool front_stands(const History& history, const scene::Rest& rest) {
     const Row& now = history.back();
     const double from = now.time - rest.window;
@@ -30,7 +30,7 @@ bool front_stands(const History& history, const scene::Rest& rest) {
     return true;
 }
 
-/// Blocks of one soil that nothing holds or draws, 1 m cells with four points each.
+/// Blocks of one soil without loads, 1 m cells with four points each.
 scene::Scene blocks() {
     scene::Scene scene =
         one_soil(elastic(1e6, 0.3), 2000.0, rectangle(2, 2, 6, 6), 1.0, 40.0, 10.0);
@@ -59,7 +59,7 @@ TEST(Rest, IsNotYetThereWhileAMassMovesBehindAFrontThatStandsStill) {
     EXPECT_THAT(*simulation.moving(), HasSubstr("kinetic energy"));
 }
 
-/// A row every 0.1 s to `end`, with the kinetic energy that a rule gives and a front at 0.
+/// A row every 0.1 s to `end`, with the kinetic energy of a rule and a front at 0.
 template <class Kinetic>
 History history_to(double end, Kinetic kinetic) {
     History history;
@@ -72,7 +72,7 @@ struct RestRule : testing::Test {
     scene::Scene scene = blocks();
     Body body = filled_body(scene);
     std::vector<std::uint8_t> all{1, 1};
-    Energy start{.gravitational = 1e6};  // of which a row without any has released all
+    Energy start{.gravitational = 1e6};  // a row without energy has released all of it
 
     std::optional<std::string> reason(const History& history) {
         return why_moving(history, start, body, all, scene.mpm->rest);
@@ -132,7 +132,7 @@ TEST_F(RestRule, AConnectedBodyThatMovesIsMotionAndSingleGrainsAreNot) {
     EXPECT_FALSE(reason(history));
     quick(23.5, 24.0, 0.2);  // as many far away: no connection, no larger body
     EXPECT_FALSE(reason(history));
-    quick(2.0, 3.5, 0.2);  // beside the first, in the next cell
+    quick(2.0, 3.5, 0.2);  // next to the first, in the adjacent cell
     EXPECT_TRUE(reason(history));
     EXPECT_NEAR(heaviest_moving_body(body, all, 0.05).mass, 6.0 * 500.0, 1e-6);
     EXPECT_EQ(heaviest_moving_body(body, {0, 1}, 0.05).mass, 2.0 * 500.0) << "of mobile soil only";

@@ -21,7 +21,7 @@ scene::Scene heap() {
 
 Simulation fresh(const scene::Scene& scene) { return {scene, filled_body(scene), 0.0}; }
 
-/// As a transfer leaves it where there was water.
+/// As after a transfer with water.
 Simulation fresh_and_wet(const scene::Scene& scene) {
     exchange::ParticleState state = fill_section(scene).state;
     for (std::size_t p = 0; p < state.size(); ++p)
@@ -86,7 +86,7 @@ TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
     EXPECT_THROW(load_checkpoint(file, scene, other), fault::BadInput);
 }
 
-/// Enough points for two threads; they soften from the first hundred steps on.
+/// Enough points for two threads; they soften within the first hundred steps.
 scene::Scene brittle_heap() {
     scene::Scene scene = heap();
     scene.mpm->cell_size = 0.16;
@@ -213,7 +213,7 @@ TEST(ShakenRun, StandsOnTheGroundWithTheMomentumThatItHad) {
     EXPECT_EQ(after.y(), before.y());
 }
 
-// Ground that does not move, moves nothing: not a bit.
+// Ground at rest changes no bit.
 TEST(ShakenRun, OnGroundAtRestHasTheBitsOfARunWithout) {
     const scene::Scene scene = heap();
     Simulation without = fresh(scene);
@@ -283,7 +283,7 @@ TEST(LastGoodState, IsThatOfEveryPointInAnyLaterOrder) {
     }
 }
 
-/// A checkpoint that another program changed.
+/// A checkpoint modified by another program.
 class ChangedCheckpoint : public testing::Test {
   protected:
     ChangedCheckpoint() : scene_(heap()) {
@@ -379,7 +379,7 @@ TEST(Simulation, ABlockThatStandsHasNoLargeShareOfNumericalEnergy) {
     EXPECT_LT(std::abs(row.energy_numerical_share), 1e-2);
 }
 
-/// Its sides press on the walls harder along the floor than friction holds: nothing slides there.
+/// The wall pressure along the floor exceeds friction: no sliding there.
 TEST(Simulation, SoilBetweenWallsRubsNothingAtTheirFeet) {
     scene::Scene scene =
         one_soil(sand(1e7, 0.49, 50e3, 25.0), 1800.0, rectangle(0, 0, 10, 10), 1.0, 10.0, 14.0);
@@ -389,7 +389,7 @@ TEST(Simulation, SoilBetweenWallsRubsNothingAtTheirFeet) {
     scene.mpm->floor.friction = {{0.0, 10.0, 0.2}};
     Simulation standing = fresh(scene);
     while (standing.clock().time < 1.0) advance_looking(standing, 1);
-    const double released = 1e-3 * 1800.0 * 100.0 * 9.81 * 5.0;  // a thousandth of what it could
+    const double released = 1e-3 * 1800.0 * 100.0 * 9.81 * 5.0;  // 0.1 % of the possible energy
     EXPECT_LT(standing.look().friction_dissipation, released);
 }
 

@@ -31,7 +31,7 @@ TEST(Zones, SofteningStrainsGrowAsTheCellsShrink) {
     EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_start, 0.05);
     EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end, 0.25);
     EXPECT_EQ(softening_of(scene).c_residual, 2e3);
-    // At any strain the displacement across a band one cell wide is the same: epsilon h.
+    // The displacement across a band one cell wide is constant: epsilon h.
     scene.mpm->cell_size = 0.25;
     EXPECT_DOUBLE_EQ(softening_of(scene).epsilon_q_end * 0.25, 0.25 * 0.5);
 }
@@ -49,7 +49,7 @@ TEST(Zones, SofteningStrainsOfANonlocalSoilAreThoseOfItsBandOnAnyCells) {
     EXPECT_EQ(softening_of(scene).epsilon_q_end, 0.1);
 }
 
-/// A file has the scene's strains; of soil whose law is stretched a point has softened as far.
+/// A file has the scene's strains; with scaled softening, a point is softened by the same share.
 TEST(Zones, SoftenedSoilStaysAsSoftenedAtAnyScale) {
     scene::Scene scene = softening_soil();
     scene.mpm->softening_length = 1.25;
@@ -110,7 +110,7 @@ TEST(Zones, OutputsCarryWhatTheTransferKnewOfTheWater) {
     EXPECT_TRUE(particle_state(scene, dry.points).stress_of_regions.empty());
 }
 
-/// Every number of every field of the points, one after the other.
+/// Every number of every field of the points.
 template <class AnyState>
 auto numbers_of(AnyState& state) {
     std::vector<decltype(state.mass.data())> numbers;

@@ -1,4 +1,5 @@
-// Points side by side answer as they do alone: to the last bit, in any order, on every width.
+// Points side by side give the results of single points: the same bits, in any order, for every
+// width.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +28,7 @@ bool same(const Update& a, const Update& b) {
            same_bits(a.counts, b.counts);
 }
 
-/// A zone of points that have gone different ways, and strains from tiny to large, one of them NaN.
+/// A zone of points with different histories, and strains from tiny to large, one of them NaN.
 struct Zone {
     Ready law;
     std::vector<State> states;
@@ -86,7 +87,7 @@ TEST(NorSandBatch, AnswersAsSingleCallsDoToTheLastBit) {
                 for (std::size_t k = 0; k < n; ++k) different += !same(alone[k], updates[k]);
                 EXPECT_EQ(different, 0) << name;
             }
-            // Turned round, nobody notices.
+            // In reverse order.
             std::vector<State> states(points.states.rbegin(), points.states.rend());
             std::vector<Voigt> strain(points.strain.rbegin(), points.strain.rend());
             std::vector<Update> updates(n);

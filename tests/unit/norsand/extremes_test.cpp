@@ -1,5 +1,5 @@
-// NorSand where it is hardest: at the limits of its parameters, at pressures that vanish, on the
-// vertex, in steps far too large. Every call ends done, refused or unresolved, never with NaN.
+// NorSand in hard cases: limits of its parameters, vanishing pressure, the vertex, far too large
+// steps. Every call ends done, refused or unresolved, without NaN.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -131,7 +131,7 @@ TEST(NorSandExtremes, OpenedSoilCarriesNothingMoreAndClosesAgain) {
 }
 
 TEST(NorSandExtremes, StartOnTheVertexGoesEitherWay) {
-    // K_0 states lie exactly in triaxial compression: shear leaves it, compression stays.
+    // K_0 states are exactly in triaxial compression: shear leaves it, compression stays.
     for (const FlowRule rule : {FlowRule::js, FlowRule::radial, FlowRule::normal}) {
         Parameters parameters = soil("CJ1");
         parameters.flow = rule;
@@ -183,7 +183,7 @@ TEST(NorSandExtremes, WildPathsNeverGiveAnUnsoundState) {
                     unresolved += update.outcome == Outcome::unresolved;
                     state = update.state;
                     if (update.outcome == Outcome::unresolved) {
-                        // What asks for a cut can be followed when it is cut.
+                        // A call that asks for a cut succeeds in parts.
                         const element_bench::Specimen whole{
                             element_bench::NorSandPoint{law, {}, state}};
                         const auto cut = element_bench::strained(whole, d);
@@ -196,15 +196,15 @@ TEST(NorSandExtremes, WildPathsNeverGiveAnUnsoundState) {
             std::printf("%s: %d of %d calls asked for a cut, %d in vain\n", name, unresolved, calls,
                         stuck);
             EXPECT_LT(unresolved, calls / 10) << name;
-            // At the tip of the surface, where flow has no direction, cuts may be in vain.
+            // At the tip of the surface, where flow has no direction, cuts may fail.
             EXPECT_LT(stuck, calls / 20) << name;
         }
     }
 }
 
 TEST(NorSandExtremes, CappedUnloadingYieldsAtTheImageRatioAndSoftens) {
-    // q held, p lowered: elastic far beyond M_i; with the cap the surface comes down to the stress,
-    // which yields where falling pressure loads it.
+    // q constant, p decreasing: elastic far beyond M_i; with the cap the surface shrinks to the
+    // stress, which yields where decreasing pressure loads it.
     for (const Unloading unloading : {Unloading::elastic, Unloading::capped}) {
         Parameters parameters = soil("CJ1");
         parameters.unloading = unloading;
@@ -213,7 +213,7 @@ TEST(NorSandExtremes, CappedUnloadingYieldsAtTheImageRatioAndSoftens) {
         const double p_0 = 400e3 / 3.0;
         State state = initialise(law, sigma, 0.05 + critical_void_ratio(law, p_0)).state;
         const double q = read(law, state).q;
-        // Isotropic swelling holds q while the point is elastic.
+        // Isotropic swelling keeps q constant while the point is elastic.
         double most = 0.0, yielded_at = 0.0, ratio = 0.0;
         for (int i = 0; i < 400 && read(law, state).p > 62e3; ++i) {
             const Voigt swelling = 1e-5 * Voigt(1.0, 1.0, 1.0, 0.0);

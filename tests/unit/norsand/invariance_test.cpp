@@ -1,5 +1,5 @@
-// NorSand is isotropic and dissipates: turned axes give the turned answer, the same deformation out
-// of the plane the same stress, and plastic work is p M_i d epsilon_q.
+// NorSand is isotropic and dissipative: rotated axes give the rotated result, out-of-plane
+// deformation the same stress, and the plastic work is p M_i d epsilon_q.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using mechanics::Voigt;
 
 const Options tight{.tolerance = 1e-7, .most_evaluations = 10000};
 
-/// Strain turned as a tensor; engineering shear.
+/// Strain rotated as a tensor; engineering shear.
 Voigt turned_strain(const Voigt& strain, double angle) {
     Voigt tensor = strain;
     tensor[3] *= 0.5;
@@ -23,7 +23,7 @@ Voigt turned_strain(const Voigt& strain, double angle) {
     return tensor;
 }
 
-/// A crooked path, with unloading in it.
+/// A path with changing directions and unloading.
 Voigt strain_of(int step) {
     const double t = 0.07 * step;
     const double way = step % 60 < 50 ? 1e-4 : -1e-4;
@@ -36,7 +36,7 @@ State begun(const Ready& law, const Voigt& sigma) {
 }
 
 TEST(NorSandInvariance, TurnedAxesGiveTheTurnedAnswer) {
-    // `normal` has a vertex in triaxial compression, which this path comes back to.
+    // `normal` has a vertex in triaxial compression, to which this path returns.
     for (const FlowRule rule : {FlowRule::js, FlowRule::radial}) {
         Parameters parameters = soil("CJ2");
         parameters.flow = rule;
@@ -67,7 +67,7 @@ TEST(NorSandInvariance, TurnedAxesGiveTheTurnedAnswer) {
 }
 
 TEST(NorSandInvariance, TheAxesAreWorthTheSame) {
-    // A shear-free path with its axes exchanged in every way.
+    // A shear-free path with all permutations of its axes.
     const Ready law = ready(soil("CJ1"));
     const int orders[6][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0}, {1, 2, 0}, {2, 0, 1}};
     const double sigma[3] = {-80e3, -120e3, -70e3};

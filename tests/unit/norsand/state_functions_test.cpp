@@ -1,5 +1,5 @@
-// The state functions of NorSand against the formulas of docs/reference/methods/norsand.md written a second
-// time with angles, and the beginning of a point.
+// The state functions of NorSand against the formulas of docs/reference/methods/norsand.md in terms
+// of angles, and the initial state of a point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -181,8 +181,8 @@ TEST(NorSandBeginning, StressesBeyondTheLimitAreShrunkAndReported) {
 }
 
 TEST(NorSandFunctions, FirstDrainedIncrementIsTheClosedForm) {
-    // From isotropic stress D = M_i, and d eta / d epsilon_q = M_i H e^2 (p_mx/p - 1/e) / (1 + M_i/3)
-    // without the rate of M_i: N = 0.
+    // From isotropic stress D = M_i, and d eta / d epsilon_q = M_i H e^2 (p_mx/p - 1/e) / (1 +
+    // M_i/3) without the rate of M_i: N = 0.
     Parameters parameters = soil("CJ1");
     parameters.N = 0.0;
     const auto start = specimen(parameters, 100e3, 1.0, -0.05, {.tolerance = 1e-9});

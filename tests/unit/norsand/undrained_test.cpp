@@ -1,5 +1,5 @@
-// What NorSand carries without drainage, against closed forms; and that a call of nothing costs
-// the next one nothing.
+// Undrained strength of NorSand against closed forms; a call with zero strain must not slow the
+// next one.
 #include "core/materials/norsand/undrained.hpp"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ State at_rest(const Ready& law, double psi_0) {
     return initialise(law, sigma, psi_0 + critical_void_ratio(law, p_0)).state;
 }
 
-// docs/reference/methods/norsand.md, section 15: tau/sigma'_v0 = 0.039360 at psi_0 = 0.05, K_0 = 0.7.
+// docs/reference/methods/norsand.md, section 15: tau/sigma'_v0 = 0.039360 at psi_0 = 0.05, K_0 =
+// 0.7.
 TEST(NorSandUndrained, TheResidualIsThatOfTheCriticalState) {
     const Ready law = cj1();
     const materials::UndrainedStrength loose = undrained_strength(law, at_rest(law, 0.05), far);
@@ -81,7 +82,7 @@ TEST(NorSandUndrained, DenseSoilHasStrengthUpToTheBoundOnly) {
     EXPECT_GT(undrained_strength(law, dense, far).peak, 2.0 * bounded.peak);
 }
 
-// A guess of 1e-300 left behind used up the next call's evaluations in doublings.
+// A remaining guess of 1e-300 would use up the next call's evaluations in doublings.
 TEST(NorSandUndrained, ACallOfNothingCostsTheNextOneNothing) {
     const Ready law = cj1();
     const State state = at_rest(law, 0.05);

@@ -23,7 +23,7 @@ TEST(Team, DoesEveryTaskOnceInRoundsThatFollowAtOnce) {
     }
 }
 
-/// Task n of the one's part and task n of the other's can meet only if neither takes the other's.
+/// Task n of both parts can wait for each other only if neither thread takes the other's.
 TEST(Team, GivesEachThreadAPartOfItsOwn) {
     using Clock = std::chrono::steady_clock;
     Team team(2);

@@ -1,4 +1,4 @@
-// Accuracy studies over the API, with phases whose error is known: second order in the cells.
+// Accuracy studies over the API, with phases of known error: second order in the cells.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,7 +58,8 @@ TEST(Accuracy, ASettingIsOffByWhatItsBaseIsOffOnTheOtherLadders) {
     service.wait_for_end(run);
     const json answer = accuracy_of(service, run);
     const double index = 1.25 * 0.0625 / 10.3125;
-    const double of_cells = 0.1875 / 10.3125 + index;  // 0.5 m against 0.25 m, which is off itself
+    // 0.5 m relative to 0.25 m, which has an error itself
+    const double of_cells = 0.1875 / 10.3125 + index;
     EXPECT_NEAR(answer.at("ladders")[0].at("error_of_base").get<double>(), of_cells, 1e-6);
     const json& base = answer.at("rows")[3];
     EXPECT_EQ(base.at("variants"), answer.at("rows")[1].at("variants")) << "one scene, run once";
@@ -85,7 +86,7 @@ TEST(Accuracy, NoSettingMeetsWhatIsAskedTooSharply) {
     EXPECT_TRUE(answer.at("rows")[2].at("error").is_null());
 }
 
-/// What a ladder of meshes says that goes up and down: cells of 1, 0.25 and 0.5 m make it do so.
+/// Message for an oscillating ladder of meshes: cells of 1, 0.25 and 0.5 m.
 std::string words_of_meshes(Service& service, const json& base) {
     const json meshes = {{{"name", "meshes"},
                           {"sizes", {2, 1, 0.6667}},
@@ -112,7 +113,7 @@ TEST(Accuracy, MeshesWithoutALimitAreExplainedWhereTheSoilSoftens) {
     EXPECT_EQ(plain.find("the soil softens"), std::string::npos) << plain;
 }
 
-/// Meshes of which the first override tells no size, and cells of 1, 0.5 and 0.25 m with them.
+/// Meshes whose first override has no size, with cells of 1, 0.5 and 0.25 m.
 json meshes_without_sizes() {
     return {{"name", "meshes"},
             {"steps",
@@ -210,7 +211,7 @@ TEST(Accuracy, DrawsGiveTheNoiseAndRungsOfALaterStudyComeFromTheCache) {
     EXPECT_EQ(accuracy_of(service, again).at("rows")[0].at("draws"), 2);
 }
 
-/// Of the finest rung one run scatters by 0.07 %, and its bias is 0.003 %.
+/// A run of the finest rung scatters by 0.07 %; its bias is 0.003 %.
 json noisy_study() {
     return accuracy_study({{"draws", 4},
                            {"asked_error", 0.0015},
@@ -228,7 +229,7 @@ TEST(Accuracy, WhereOneRunScattersTooMuchItReportsHowManyToAverage) {
     EXPECT_EQ(best.at("step"), 3);
     EXPECT_EQ(best.at("draws"), 2);
     EXPECT_DOUBLE_EQ(best.at("cpu_seconds"), 2 * 128.0);
-    // The shifts 0, 0.4588, 0.0176, -0.4237 move the runout by 2 cm each: s = 7.21 mm.
+    // Shifts 0, 0.4588, 0.0176, -0.4237 times 2 cm: s = 7.21 mm.
     const double half = 2.3534 * 0.007207 / 10.3125 * std::sqrt(1.0 / 2 + 1.0 / 4);
     EXPECT_NEAR(best.at("error").get<double>(), half + 0.000263 / 10.3125, 2e-6);
     const std::string words = answer.at("recommendation");
@@ -263,7 +264,7 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
     // Shifts -0.8649 and 0.4939.
     EXPECT_NEAR(told.at("means")[0].at("value").get<double>(), 10.3125 - 0.02 * 0.1855, 1e-5);
 
-    // One by one the same six lattices: 0.02 m x 0.8649 and x 0.8298 are more than 0.15 %.
+    // The same six lattices individually: 0.02 m x 0.8649 and x 0.8298 exceed 0.15 %.
     const std::string single =
         service.post(route + "?repeats=6&ladder=cells&step=3&mean_of=1", "{}").body.at("id");
     const json ended = service.wait_for_end(single);
@@ -278,7 +279,7 @@ TEST(BlindCheck, DrawsTheRecommendedSettingOnLatticesThatTheStudyHasNotSeen) {
         << one_by_one.at("verdict");
 }
 
-/// The fakes tell no crest: what is checked here is that the check asks for what its study did.
+/// The fakes have no crest: tests only that the check runs what its study did.
 TEST(BlindCheck, OfANumberOfTheFemDrawsFemsAtItsTime) {
     const Sandbox sandbox;
     Service service(sandbox);
@@ -349,8 +350,8 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     const std::string study = service.submit(accuracy_study());
     service.wait_for_end(study);
     const json found = rows(before);
-    // Against the finest, 10.5 - 10.3125 m, and what that is off; at the study's own transfer time
-    // and at another.
+    // Relative to the finest, 10.5 - 10.3125 m, plus the error of that; at the study's own transfer
+    // time and at another.
     const double wanted = 0.1875 + 1.25 * 0.0625;
     EXPECT_NEAR(found[0].at("runout_error").get<double>(), wanted, 1e-6);
     EXPECT_NEAR(found[1].at("runout_error").get<double>(), wanted, 1e-6);
@@ -359,7 +360,7 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     EXPECT_NE(service.get("/v1/runs/" + before + "/results?format=csv").text.find("runout_error"),
               std::string::npos);
 
-    // The finest has no error against itself, but an index: 1.25 x 0.0625 m.
+    // The finest has no error relative to itself, but an index: 1.25 x 0.0625 m.
     const json own = rows(study);
     EXPECT_NEAR(own[2].at("runout_error").get<double>(), 1.25 * 0.0625, 1e-6);
     sweep["scene"]["materials"]["slope_soil"]["density"] = 1900;
@@ -368,7 +369,7 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     EXPECT_TRUE(rows(other)[0].at("runout_error").is_null()) << "another soil";
 }
 
-/// Results of a sweep that is the accuracy study's scene with other entries and without its ladders.
+/// Results of a sweep with the accuracy study's scene, other entries and no ladders.
 json rows_of_sweep(const json& entries) {
     const Sandbox sandbox;
     Service service(sandbox);
@@ -411,7 +412,7 @@ TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
 }
 
 TEST(RunoutError, OfNeighboursIsAtLeastWhatLatticesScatterBy) {
-    // Times so near each other that their runouts hardly differ.
+    // Transfer times so close that the runouts hardly differ.
     const double cell = accuracy_study().at("scene").at("mpm").at("cell_size");
     for (const double step : {1e-3, 1e-5}) {
         json times = json::array();
@@ -454,7 +455,7 @@ TEST(RunoutError, OfDrawsSaysWhatTransferTimesScatterBy) {
     }
 }
 
-// The shifts of the first three lattices are 0, 0.4588 and 0.0176, and each moves the runout by 2 cm.
+// Shifts of the first three lattices: 0, 0.4588 and 0.0176, times 2 cm of runout.
 json drawn_study(const std::string& title = "") {
     json sweep = study("by_cell=1 fem_steps=1 mpm_steps=1 " + title, {0.5, 0.75});
     sweep["scene"]["mpm"]["cell_size"] = 1;
@@ -552,12 +553,12 @@ TEST(Means, BiasComesFromTheAccuracyStudyOfAnEqualScene) {
     service.wait_for_end(study);
     const json mean = service.get("/v1/runs/" + run + "/results").body.at("means").at(0);
     const double scatter = 2.920 * mean.at("runout_deviation").get<double>() / std::sqrt(3.0);
-    // Cells of 1 m against 0.25 m, 11.25 - 10.3125 m, and what those are off: 1.25 x 0.0625 m.
+    // Cells of 1 m relative to 0.25 m, 11.25 - 10.3125 m, plus the error of those: 1.25 x 0.0625 m.
     EXPECT_NEAR(mean.at("runout_error").get<double>(), 0.9375 + 1.25 * 0.0625 + scatter, 1e-4);
     EXPECT_NE(mean.at("runout_error_from").get<std::string>().find(study), std::string::npos);
 }
 
-/// As Faults.KillingServiceAndPhasesTogetherLosesNothing, with draws.
+/// As Faults.KillingServiceAndPhasesTogetherLosesNothing, with repeats.
 TEST(Means, AreTheSameAfterAKill) {
     const auto means_of = [](Service& service, const std::string& run) {
         return service.get("/v1/runs/" + run + "/results?format=csv&table=means").text;

@@ -1,4 +1,4 @@
-// The entries "accuracy" and "draws" of a study: what they become, and what is refused.
+// The entries "accuracy" and "draws" of a study: their tasks, and refusals.
 #include <gtest/gtest.h>
 
 #include "services/orchestrator/accuracy/measured.hpp"

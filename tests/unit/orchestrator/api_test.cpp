@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Sends bytes as they are and returns the first line of the answer.
+/// Sends raw bytes and returns the first line of the answer.
 std::string raw(int port, const std::string& bytes) {
     const int descriptor = socket(AF_INET, SOCK_STREAM, 0);
     sockaddr_in address{};
@@ -34,7 +34,7 @@ std::string raw(int port, const std::string& bytes) {
     return answer.substr(0, answer.find("\r\n"));
 }
 
-/// One service for all cases that do not change much.
+/// One service for all tests that change little.
 class Api : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {

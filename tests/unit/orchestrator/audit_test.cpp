@@ -1,4 +1,4 @@
-// breachline check on a database with rows of every kind (audit_rows.sql), sound and damaged.
+// breachline check on a database with rows of every kind (audit_rows.sql), valid and damaged.
 #include "services/orchestrator/audit/audit.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ class AuditTest : public ::testing::Test {
     void make_database(const std::string& sql) const {
         Connection(data_.database(), Access::read_write).script(sql);
     }
-    /// Files that are what the database says of them.
+    /// Creates the files that the database lists.
     void make_outputs() const {
         Connection database(data_.database(), Access::read_write);
         const auto outputs = database.select(

@@ -1,4 +1,4 @@
-// A run with a budget: it stops when that is spent, says what is missing, and goes on with more.
+// A run with a budget stops when it is spent, reports what is missing, and continues with more.
 #include <gtest/gtest.h>
 
 #include "tests/faults/service_under_test.hpp"
@@ -8,7 +8,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Every fake phase takes some CPU time, however little: the first that ends has spent this.
+/// Every fake phase takes some CPU time: the first one exceeds this budget.
 json with_budget(double cpu_seconds) {
     json wanted = study("", {0.25, 0.5, 0.75});
     wanted["budget"] = {{"cpu_seconds", cpu_seconds}};
@@ -91,7 +91,7 @@ TEST(Budget, HoldsOverAKillAndARestart) {
         service.kill_at_once();
     }
     Service service(sandbox);
-    const std::string other = service.submit(study("", {0.5}));  // the dispatcher has looked around
+    const std::string other = service.submit(study("", {0.5}));  // the dispatcher has had a turn
     EXPECT_EQ(service.wait_for_end(other).at("state"), "succeeded");
     const json after = service.get("/v1/runs/" + run).body;
     EXPECT_EQ(after.at("state"), "budget_exhausted");

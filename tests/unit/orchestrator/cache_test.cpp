@@ -1,4 +1,4 @@
-// What is computed once, what is computed again, and what the service says about why.
+// What is computed once or again, and the reasons that the service gives.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -55,7 +55,7 @@ TEST(Cache, AnswersWhatEndedWhileAnEqualTaskWaited) {
         return task_labelled(run, label).at("state").get<std::string>();
     };
     ASSERT_TRUE(eventually([&] { return state("mpm_0.500000") == "running"; }));
-    // It is looked for now, in vain: the first study has it done only later.
+    // The cache lookup fails now: the first study completes it only later.
     const std::string second = service.submit(study("mpm_steps=25", {0.25, 0.5, 0.75}));
     ASSERT_EQ(service.wait_for_end(first).at("state"), "succeeded");
     const json end = service.wait_for_end(second);
@@ -83,7 +83,7 @@ TEST(Cache, AnswersWhatEndedWhileItWasLookedForInVain) {
     const Sandbox sandbox;
     const auto hold = sandbox.root() / "hold";
     std::ofstream(hold) << "\n";
-    // Of each study the runout of 0.5 s is looked for, as that of 0.25 s has its recipe.
+    // Looks up the runout of 0.5 s in each study, as that of 0.25 s has its recipe.
     Service service(sandbox, {"--slots", "1"}, {"BREACHLINE_HOLD=reuse_none:2:" + hold.string()});
     const std::string first = service.submit(study("mpm_steps=60", {0.25, 0.5}));
     const auto state = [&](const std::string& run, const char* label) {
@@ -234,7 +234,7 @@ TEST(Variants, ShareWhatDoesNotDiffer) {
                           {{"name", "weak"}, {"overrides", {"/materials/slope_soil/law/c_kPa=9"}}}};
     const json run = service.wait_for_end(service.submit(wanted));
     ASSERT_EQ(run.at("state"), "succeeded") << run.at("message");
-    // long and short: one FEM, two transfers; weak: the same again; and each its LEM and two runouts
+    // long and short: one FEM, two transfers; weak: the same; and each its LEM and two runouts.
     EXPECT_EQ(run.at("tasks").size(), 2u * 3u + 3u * 3u);
     EXPECT_EQ(task_labelled(run, "lem_short").at("state"), "cached") << "it is that of long";
     EXPECT_EQ(task_labelled(run, "mpm_0.250000_short").at("variant"), "short");
@@ -256,7 +256,7 @@ TEST(Variants, OfSoilThatOnlyTheRunoutKnowsShareTheFem) {
                           {{"name", "coarse"}, {"overrides", {"/mpm/cell_size=2"}}}};
     const json run = service.wait_for_end(service.submit(wanted));
     ASSERT_EQ(run.at("state"), "succeeded") << run.at("message");
-    // one FEM, one LEM; what soil becomes, and on which grid, is the transfer's: three of them
+    // One FEM, one LEM; soil mapping and grid belong to the transfer: three of them.
     EXPECT_EQ(run.at("tasks").size(), 2u + 3u + 3u);
 }
 

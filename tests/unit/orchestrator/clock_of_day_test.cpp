@@ -1,4 +1,4 @@
-// A duration is taken from the clock of the day only where somebody watched it all the while.
+// A duration is taken from the clock of the day only if the service observed it throughout.
 #include "services/orchestrator/dispatch/clock_of_day.hpp"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ using namespace std::chrono_literals;
 
 constexpr ClockReading start{.of_day = 1'000'000s, .monotonic = 50s};
 
-/// That much later, by a clock of the day that was set forward by so much since the start.
+/// A later reading, with the clock of the day changed by `set`.
 ClockReading later(std::chrono::milliseconds passed, std::chrono::milliseconds set = 0ms) {
     return {start.of_day + passed + set, start.monotonic + passed};
 }

@@ -1,4 +1,4 @@
-// The column as a study's scene, and the resulting study or its faults.
+// A study of the column scene, and its faults.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ inline std::size_t count(const TaskGraph& graph, const std::string& phase) {
     return static_cast<std::size_t>(std::ranges::count(graph.tasks, phase, &TaskPlan::phase));
 }
 
-/// The fault with this pointer; fails when there is none.
+/// The fault with this pointer; fails if there is none.
 inline fault::Fault refusal(const nlohmann::json& study, const std::string& pointer) {
     std::string found;
     try {

@@ -1,4 +1,4 @@
-// What the dispatcher is made of, each part without the others and without its thread.
+// The dispatcher's parts, each separately and without its thread.
 #include <gtest/gtest.h>
 
 #include "services/orchestrator/dispatch/attempts.hpp"
@@ -17,7 +17,7 @@ TaskPlan planned(const std::string& phase, std::int64_t cores = 1) {
     return task;
 }
 
-/// The executor that takes everything, and tells of each attempt what the test wants.
+/// An executor that accepts everything and reports what the test sets.
 class Told : public Executor {
   public:
     void submit(const AttemptFolder&, const Order& order) override { orders.push_back(order); }

@@ -1,4 +1,4 @@
-// A sweep that is extended: what was computed stays, and the whole is that of one submission.
+// An extended sweep keeps its results and equals a single submission.
 #include <gtest/gtest.h>
 
 #include "tests/faults/service_under_test.hpp"
@@ -38,7 +38,7 @@ TEST(Extension, AddsTimesAndKeepsWhatIsThere) {
     EXPECT_EQ(attempts.at("mpm_0.500000"), 1u);
     EXPECT_EQ(end.at("study").at("transfer_times"), json::array({0.5, 0.75, 1.0}));
 
-    // The same in one submission is answered by what was computed for the extension.
+    // A single submission reuses what was computed for the extension.
     const std::string whole = service.submit(study("", {0.5, 0.75, 1.0}));
     EXPECT_EQ(service.wait_for_end(whole).at("state"), "succeeded");
     const json body = service.get("/v1/runs/" + whole).body;
@@ -60,7 +60,7 @@ TEST(Extension, KeepsTheVariantsThatOnlyDrawsAreRunOf) {
     const std::string run = service.submit(wanted);
     const json before = service.wait_for_end(run).at("study");
     const std::vector<std::string> names{"light_d2", "light_d3", "slip_d2", "slip_d3"};
-    for (const double time : {0.75, 1.0}) {  // each from what the one before has stored
+    for (const double time : {0.75, 1.0}) {  // each resumes from the one before
         const auto answer =
             service.post("/v1/sweeps/" + run + "/extend", json{{"transfer_times", {time}}}.dump());
         ASSERT_EQ(answer.status, 202) << answer.text;

@@ -1,4 +1,4 @@
-// What the dashboard gets of a FEM's snapshot: nodal values of a column that one can work out by hand.
+// Data of a FEM snapshot for the dashboard: nodal values of a column, checked by hand.
 #include "services/orchestrator/files/frames.hpp"
 
 #include <gtest/gtest.h>

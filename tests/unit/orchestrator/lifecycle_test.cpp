@@ -9,7 +9,7 @@
 namespace breach::orchestrator::lifecycle_test {
 namespace {
 
-/// The allowed moves as "from --event--> to", written down a second time on purpose.
+/// The allowed transitions as "from --event--> to", independent of the code's table.
 const std::set<std::string> task_moves{
     "blocked release ready",
     "blocked skip skipped",

@@ -1,4 +1,4 @@
-// What the service tells of itself: workers, transfers, and how a file came to be.
+// What the service reports about itself: workers, transfers, provenance of files.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -14,11 +14,11 @@ TEST(Workers, AreWhatRunsWithItsProcess) {
     const Sandbox sandbox;
     Service service(sandbox);
     EXPECT_TRUE(service.get("/v1/workers").body.at("workers").empty());
-    json wanted = study("fem_steps=500", {2.7});  // its FEM is still on the way
+    json wanted = study("fem_steps=500", {2.7});  // its FEM is still running
     wanted["resources"] = {{"fem_solver", {{"cores", 1}, {"memory_MB", 700}}}};
     const std::string run = service.submit(wanted);
     json workers;
-    ASSERT_TRUE(eventually([&] {  // its supervisor tells every two seconds what it has used
+    ASSERT_TRUE(eventually([&] {  // its supervisor reports usage every two seconds
         workers = service.get("/v1/workers").body;
         for (const json& each : workers.at("workers"))
             if (each.at("phase") == "fem_solver" && each.at("pid").is_number()) return true;
@@ -74,7 +74,7 @@ TEST(Transfers, SayWhyTheyWereMadeAndWhatCameOfThem) {
     EXPECT_EQ(service.get("/v1/runs/none/transfers").status, 404);
 }
 
-/// Everything that a document's relations name is described in it.
+/// Every name in a document's relations is described in it.
 void expect_closed(const json& prov) {
     const std::map<std::string, const char*> kinds{
         {"prov:entity", "entity"},     {"prov:activity", "activity"},
@@ -129,7 +129,7 @@ TEST(Provenance, LeadsFromARunoutToItsSceneAndStudy) {
     EXPECT_TRUE(derived.contains("breach:file/" + runout + " breach:file/" + particles));
     EXPECT_TRUE(derived.contains("breach:file/" + particles + " breach:file/" + snapshot));
 
-    // Taken from the cache, a file names the task that computed it.
+    // A reused file names the task that computed it.
     const std::string again = service.submit(study("", {0.5}));
     const json cached = service.wait_for_end(again);
     EXPECT_EQ(task_labelled(cached, "fem").at("state"), "cached");
@@ -139,7 +139,7 @@ TEST(Provenance, LeadsFromARunoutToItsSceneAndStudy) {
     for (const json& each : of_same.at("activity")) EXPECT_EQ(each.at("breach:run"), run);
     EXPECT_EQ(service.get("/v1/artifacts/" + std::string(64, '0') + "/provenance").status, 404);
 
-    // Its run is gone: what took it is what is left to tell.
+    // Its run was removed: only the one that reused it can be reported.
     EXPECT_EQ(service.ask("DELETE", "/v1/runs/" + run).status, 202);
     const json orphan = service.get("/v1/artifacts/" + same + "/provenance").body;
     expect_closed(orphan);

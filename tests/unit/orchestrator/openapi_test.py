@@ -52,7 +52,7 @@ def shortened(value, schema, document):
 
 
 def learn(old, new, known):
-    """Which identifiers of an old answer are which of the new one."""
+    """Maps identifiers of an old answer to those of the new one."""
     if isinstance(old, dict) and isinstance(new, dict):
         for name in old.keys() & new.keys():
             learn(old[name], new[name], known)
@@ -99,7 +99,7 @@ class Api(unittest.TestCase):
 
     @classmethod
     def wait(cls):
-        """For the end of all runs."""
+        """Waits for the end of all runs."""
         for _ in range(6000):
             if all(run["finished"] for run in json.loads(cls.ask("GET", "/v1/runs?limit=500")[2])["runs"]):
                 return
@@ -107,7 +107,7 @@ class Api(unittest.TestCase):
         raise AssertionError("a run does not end")
 
     def check(self, method, template, path, status, body=None, **headers):
-        """The answer has this status and is as its operation says."""
+        """The answer has this status and matches its operation."""
         operation = self.document["paths"][template][method.lower()]
         self.seen.add((template, method.lower()))
         got, answer_headers, text = self.ask(method, path, body, **headers)
@@ -175,7 +175,7 @@ class Described(Api):
         cls.wait()
 
     def read_back(self, document):
-        """By a reader of PROV-JSON that is not ours: what is related is what is described."""
+        """By an independent PROV-JSON reader: everything related is described."""
         if prov is None:
             self.skipTest("python3-prov is not installed")
         read = prov.model.ProvDocument.deserialize(content=json.dumps(document), format="json")

@@ -1,4 +1,4 @@
-// Who goes first, how much at the same time, and what people may do with a run under way.
+// Order of the queue, limits, and commands for a running run.
 #include <gtest/gtest.h>
 
 #include <thread>

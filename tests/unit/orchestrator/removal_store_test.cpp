@@ -1,4 +1,4 @@
-// What the store keeps of a run that was removed, and what its file gives back.
+// What the store keeps of a removed run, and the space that its file releases.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ class RemovalStore : public ::testing::Test {
   protected:
     std::filesystem::path file() const { return folder_ / "test.db"; }
 
-    /// A run that is over and has something in every table.
+    /// A completed run with rows in every table.
     static std::string whole_run(Store& store) {
         NewRun run = small_run();
         run.study = R"({"variants": [{"name": "a"}], "draws": 2})";
@@ -87,7 +87,7 @@ TEST_F(RemovalStore, TakesEveryRowOfARunAndNoneOfAnother) {
     EXPECT_EQ(rows().at("recipes"), 0) << "nobody asks for it any more";
 }
 
-// Of two equal runs the one is removed before the other's trigger has fired.
+// One of two equal runs is removed before the other's trigger has fired.
 TEST_F(RemovalStore, LeavesRecipesThatATriggerOfAnotherRunHasStillToUse) {
     Store store(file());
     const auto waiting_run = [&] {

@@ -121,7 +121,7 @@ TEST_F(StoreTest, WhatWaitsInAClustersQueueHasNotBegun) {
     EXPECT_TRUE(started);
     EXPECT_EQ(left_of_fem().running, 1);
     EXPECT_LT(left_of_fem().running_for, 3600.0);
-    // As when a service that was started again notes it once more.
+    // As when a restarted service records it again.
     store.write([&](Transaction& t) {
         t.cancel_run(run.id, "");
         t.move_task(fem, TaskEvent::start);
@@ -202,7 +202,7 @@ TEST_F(StoreTest, OutputsAreThoseOfTheLastAttemptAndOfNoneThatGoesOn) {
     EXPECT_EQ(names(), (Names{"fault.json", "snapshot_1"}));
     store.write([&](Transaction& t) { t.retry_run(run.id); });
     EXPECT_TRUE(names().empty());
-    // The registrar has read the remains, and comes to the store after the retry.
+    // The registrar has read the remains and reaches the store after the retry.
     store.write([&](Transaction& t) { t.keep_remains(fem, {artifact("fault.json")}, "old"); });
     EXPECT_TRUE(names().empty());
     store.write([&](Transaction& t) {
@@ -274,7 +274,7 @@ TEST(FiringPlan, AFemComputedAgainStandsWhereItsVariantsStands) {
     EXPECT_EQ(place_of_fem(plan, "fem_deep_2", "deep"), 2u);
     EXPECT_FALSE(place_of_fem(plan, "fem_wet", "wet"));
     EXPECT_FALSE(place_of_fem({}, "fem", ""));
-    // Version 0.1.0 noted no variants: there the label decides.
+    // Version 0.1.0 stored no variants: the label decides.
     EXPECT_EQ(place_of_fem({fem("fem_firm", ""), fem("fem_deep", "")}, "fem_deep", ""), 1u);
 }
 
@@ -410,7 +410,7 @@ TEST_F(StoreTest, QuestionableResultMakesItsRowAndItsRunQuestionable) {
     EXPECT_EQ(value_of(rows[0], "at_rest"), false);
     EXPECT_EQ(value_of(rows[0], "lower_bound"), true);
     const json flags = value_of(rows[0], "flags");
-    ASSERT_EQ(flags.size(), 2u) << flags;  // what all three phases say is said once
+    ASSERT_EQ(flags.size(), 2u) << flags;  // flags of all three phases are given once
     EXPECT_EQ(flags[0].at("code"), "still_moving");
     EXPECT_EQ(flags[1].at("phase"), "fem_solver");
     EXPECT_EQ(store.task(task_id(run.id, 2))->state, TaskState::succeeded);
@@ -596,7 +596,7 @@ TEST_F(StoreTest, RecentEventsAreThoseOfTheDatabase) {
                 {each.seq, each.time, each.run, each.task.value_or(""), each.kind, each.detail});
         return list;
     };
-    // More than are kept, from jobs of which every tenth is taken back.
+    // More than are kept, from jobs of which every tenth is rolled back.
     for (int i = 0; i < 100; ++i) {
         try {
             store.write([&](Transaction& t) {
@@ -639,7 +639,7 @@ TEST_F(StoreTest, OneBadJobInAGroupDoesNotHarmTheOthers) {
     EXPECT_EQ(store.runs(1000).size(), 35u);
 }
 
-/// Far more pages than are kept in memory to put back.
+/// More pages than memory can restore.
 TEST_F(StoreTest, AJobOfThousandsOfTasksIsDoneWholeOrPutBackWhole) {
     Store store(file());
     NewRun run = small_run();
@@ -812,7 +812,7 @@ TEST_F(StoreTest, ViewsAreThoseOfTheProgramInAnyDatabase) {
                            .texts("SELECT name FROM pragma_table_info('sweep_results')");
     const std::set<std::string> columns(names.begin(), names.end());
     for (const ResultColumn& each : result_columns()) {
-        // What the error is comes from other runs; the service works it out beside the database.
+        // The error comes from other runs; the service computes it outside the database.
         const std::string_view name = each.name;
         const bool worked_out = name.starts_with("runout_error") || name == "lower_bound";
         EXPECT_EQ(columns.contains(each.name), !worked_out) << each.name;

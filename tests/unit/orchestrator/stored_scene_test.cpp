@@ -1,4 +1,4 @@
-// Scenes that the service keeps: by content and by name, and the runs that are made of them.
+// Stored scenes: by content and by name, and runs that use them.
 #include <gtest/gtest.h>
 
 #include "tests/faults/service_under_test.hpp"
@@ -27,7 +27,7 @@ TEST(StoredScenes, AreKnownByTheirContentAndByNamesWithVersions) {
     ASSERT_EQ(first.status, 201) << first.text;
     const std::string sha256 = first.body.at("sha256");
     EXPECT_EQ(first.headers.find("Location")->second, "/v1/scenes/" + sha256);
-    // The same content, written otherwise: what is completed decides.
+    // The same content in another form: the completed scene decides.
     EXPECT_EQ(service.post("/v1/scenes?name=dam", scene_with(0.3).dump(3)).status, 200);
     EXPECT_EQ(service.post("/v1/scenes", scene_with(0.3).dump()).status, 200);
     const Answer second = service.post("/v1/scenes?name=dam", scene_with(0.4).dump());

@@ -371,7 +371,7 @@ TEST(Graph, VariantsShareAFemThatATriggerWatchesForItsCriticalDepthOnlyWhereTheD
     EXPECT_EQ(labels("crest_displacement > critical_depth"), one) << "one analysis serves both";
 }
 
-/// All that a task's row is made from.
+/// Everything in a task's row.
 std::vector<std::string> rows_of(const std::vector<TaskPlan>& tasks) {
     std::vector<std::string> rows;
     for (TaskPlan task : tasks) {
@@ -388,7 +388,7 @@ TEST(Graph, OneMoreTransferIsTheTasksThatTheStudyWouldHaveMadeForThatTime) {
     json study = study_with_variants();
     study["transfer_times"] = {0.5};
     const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
-    // Kept as text in the database, and read again.
+    // Stored as text in the database and read again.
     std::vector<TaskPlan> added =
         json::parse(json(graph.one_more_transfer).dump()).get<std::vector<TaskPlan>>();
     for (TaskPlan& each : added)
@@ -405,7 +405,7 @@ TEST(Recipe, FollowsTheNumericsThatThePhaseSays) {
     EXPECT_EQ(recipe.cache_version, 3);
 }
 
-/// What a phase reads beside its own part of the scene is of its question, too.
+/// The recipe includes what a phase reads outside its part of the scene.
 TEST(Recipe, KnowsTheGroundThatTheMpmFillsTheProfileThatAnotherNamesAndTheWaterOfStrengths) {
     json chain = read_study(slope_study().dump()).scene;
     json filled = chain;
@@ -435,7 +435,7 @@ TEST(Recipe, KnowsTheGroundThatTheMpmFillsTheProfileThatAnotherNamesAndTheWaterO
         EXPECT_TRUE(differs(phase, like, "/materials/profile/strength/peak/ratio", 0.15)) << phase;
 }
 
-/// Else a result could depend on an entry that the key of its cache lacks.
+/// Otherwise a result could depend on an entry outside its cache key.
 TEST(Recipe, HasEveryEntryThatAPhaseOrOneBeforeItCanSee) {
     const json scene = read_study(slope_study().dump()).scene;
     const auto keys = [](std::size_t phase, const json& of) {
@@ -463,7 +463,7 @@ TEST(Recipe, HasEveryEntryThatAPhaseOrOneBeforeItCanSee) {
     }
 }
 
-/// A folder with four programs that answer --version so.
+/// A folder with four programs that give these answers to --version.
 class NumericsOfPhases : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -516,15 +516,16 @@ TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
     for (const int code : {1, 2, 65, 70, 74, 127})
         EXPECT_EQ(verdict(code, {}), Verdict::badly) << code;
     EXPECT_EQ(judge({.attempt = "a", .exit_code = 65, .signal = {}, .stopped = {}}, true),
-              Verdict::retryable);  // afresh: its checkpoint was refused
+              Verdict::retryable);  // starts again: its checkpoint was refused
     EXPECT_EQ(verdict(75, {}), Verdict::retryable);
     EXPECT_EQ(verdict({}, 9), Verdict::retryable);
     EXPECT_EQ(verdict(143, {}),
-              Verdict::retryable);  // somebody else's TERM: its checkpoint is there
+              Verdict::retryable);  // TERM from elsewhere: its checkpoint exists
     EXPECT_EQ(verdict(143, {}, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict({}, 9, StopReason::shutdown), Verdict::interrupted);
     EXPECT_EQ(verdict(0, {}, StopReason::shutdown), Verdict::well);
-    // A time limit: what saved a checkpoint goes on; what had to be killed would only begin again.
+    // Time limit: a run with a checkpoint continues; one that had to be killed would only start
+    // again.
     EXPECT_EQ(verdict(143, {}, StopReason::signal), Verdict::interrupted);
     EXPECT_EQ(verdict({}, 9, StopReason::signal), Verdict::retryable);
     EXPECT_EQ(verdict({}, 15, StopReason::signal), Verdict::retryable);
@@ -534,7 +535,7 @@ TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
 TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {
     for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()}) {
         for (const telemetry::Column& each : table) {
-            // Not through a study: whether its scene watches what a column tells is asked there.
+            // Without a study, which would check whether its scene measures the column.
             json entries = json::array();
             entries.push_back({{"kind", "criterion"}, {"when", std::string(each.name) + " > 0.5"}});
             std::vector<fault::Fault> faults;

@@ -1,4 +1,4 @@
-// Submitting once however often it is sent, and finding runs again.
+// Repeated submissions count once, and runs are found again.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -149,7 +149,7 @@ TEST(ResultsThatMove, AreQuestionableWhereverTheyAreShown) {
     EXPECT_EQ(task.at("questionable"), true);
     EXPECT_EQ(task.at("ended"), "duration");
     EXPECT_EQ(task.at("flags").size(), 2u);
-    EXPECT_TRUE(task_labelled(ended, "fem").at("flags").is_null());  // the fake FEM says nothing
+    EXPECT_TRUE(task_labelled(ended, "fem").at("flags").is_null());  // the fake FEM has no flags
 
     const std::string path = "/v1/runs/" + run + "/results";
     const json rows = service.get(path).body.at("rows");

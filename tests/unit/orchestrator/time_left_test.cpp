@@ -6,12 +6,12 @@ namespace breach::orchestrator::time_left_test {
 namespace {
 
 TEST(TimeLeft, GoesByThePaceOfEachPhaseAndTheWorkersOfNow) {
-    // 10 runouts wait, two run since 30 s in all, one took 100 s; 4 transfers of 0.5 s wait.
+    // 10 runouts wait, two run for 30 s in total, one took 100 s; 4 transfers of 0.5 s wait.
     const std::vector<PhaseLeft> left{
         {.waiting = 10, .running = 2, .running_for = 30.0, .pace = 100.0},
         {.waiting = 4, .running = 0, .running_for = 0.0, .pace = 0.5}};
     EXPECT_DOUBLE_EQ(*time_left(left, 0.7), (1000.0 + 170.0 + 2.0) / 2.0);
-    // Longer than the last ones: nothing is owed for it, and nothing is taken off the others.
+    // Longer than the last ones: adds nothing and reduces nothing.
     EXPECT_DOUBLE_EQ(
         *time_left({{.waiting = 1, .running = 1, .running_for = 500.0, .pace = 100.0}}, 0.9),
         100.0);

@@ -1,4 +1,4 @@
-// What is read of a watched FEM, and what its triggers come to by it: without a service.
+// Reading of a watched FEM and states of its triggers, without a service.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,5 +1,5 @@
-// Uncertainty studies through the whole service, with stand-in phases: planned, extended, stopped when a
-// percentile is known well enough, and killed in the middle.
+// Uncertainty studies through the whole service with fake phases: planned, extended, stopped when a
+// percentile is known well enough, and killed.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The stand-in's runout is 10 + t^2 + (stiffness scale)^2.
+/// The fake runout is 10 + t^2 + (stiffness scale)^2.
 json spread(std::size_t samples) {
     json wanted = study("by_stiffness=1 mpm_steps=1 fem_steps=3", {0.5});
     wanted["uncertainty"] = {
@@ -121,7 +121,7 @@ TEST(Samples, AreDrawnUntilAPercentileIsKnown) {
     const json end = service.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
     const std::size_t rows = service.table(run).size();
-    EXPECT_GE(rows, 8u);  // 5 are the fewest that tell a median
+    EXPECT_GE(rows, 8u);  // a median needs at least 5
     EXPECT_LT(rows, 200u);
     EXPECT_EQ(rows % 4, 0u);
     const json trigger = only_trigger(service, run);
@@ -181,7 +181,7 @@ TEST(Samples, ArePlannedBeforeTheyAreSubmitted) {
     ASSERT_EQ(answer.status, 200) << answer.text;
     EXPECT_EQ(answer.body.at("tasks").at("fem_solver"), 1);
     EXPECT_EQ(answer.body.at("tasks").at("transfer_tool"), 1);
-    EXPECT_EQ(answer.body.at("tasks").at("mpm_solver"), 50);  // at most: until may stop before
+    EXPECT_EQ(answer.body.at("tasks").at("mpm_solver"), 50);  // at most: "until" may stop earlier
     wanted["uncertainty"]["parameters"][0]["distribution"]["to"] = 0.1;
     const Answer refused = service.post("/v1/cost", wanted.dump());
     EXPECT_EQ(refused.status, 422);

@@ -1,6 +1,5 @@
-// Uncertainty studies over the API, with phases whose answers are known in closed form
-// (tests/faults/fake_phase.cpp). How often intervals cover them in many seeds is for the tests of the
-// pure functions; here is what comes through the whole service.
+// Uncertainty studies over the API, with phases whose results are known in closed form
+// (tests/faults/fake_phase.cpp). Tests of the pure functions cover many seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +53,8 @@ TEST(UncertaintyResults, OfALinearModelIsItsClosedForm) {
     EXPECT_EQ(found.at("count"), 64);
     EXPECT_NEAR(found.at("mean").get<double>(), 10.0, 0.1) << "a hypercube knows the mean well";
     EXPECT_NEAR(found.at("sd").get<double>(), std::sqrt(5.0), 0.2);
-    // Nine of ten intervals cover: of eight, five do at least by three deviations of the binomial.
+    // Nine of ten intervals cover: of eight, at least five (three standard deviations of the
+    // binomial).
     int covered = 0;
     EXPECT_EQ(found.at("percentiles").size(), 5u);
     for (const json& each : found.at("percentiles")) {
@@ -96,7 +96,7 @@ TEST(UncertaintyResults, OfIshigamisFunctionIsItsClosedFormAndItsTornadoIsRefuse
 TEST(UncertaintyResults, SamplesThatFailAreCountedAndSaid) {
     const Sandbox sandbox;
     Service service(sandbox);
-    // A cfl above 0.4 breaks the MPM: half of the samples.
+    // A cfl above 0.4 makes the MPM fail: half of the samples.
     const json answer =
         ended(service, uncertain_study("linear=1 breaks_from=0.4", 8, linear_parameters));
     const json& samples = answer.at("samples");

@@ -1,4 +1,4 @@
-// The entry "uncertainty" of a study: what its samples become, what they share, and what is refused.
+// The entry "uncertainty" of a study: its samples, what they share, and refusals.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -30,7 +30,7 @@ json with_scene(json study) {
     return study;
 }
 
-/// Only what the MPM reads.
+/// Parameters of the MPM only.
 json runout_only() {
     json study = with_scene(wanted());
     study["uncertainty"]["parameters"].erase(1);
@@ -141,7 +141,7 @@ TEST(UncertaintyStudy, OneSampleIsOneState) {
     refusal(study, "/triggers");
 }
 
-/// The study with one parameter more.
+/// The study with one more parameter.
 json with(const json& parameter) {
     json study = runout_only();
     study["uncertainty"]["parameters"].push_back(parameter);
@@ -183,12 +183,12 @@ TEST(UncertaintyStudy, RefusesDistributionsThatAreNone) {
 TEST(UncertaintyStudy, RefusesWhatDoesNothing) {
     json study = with(on_viscosity({{"type", "uniform"}, {"from", 1}, {"to", 2}}));
     study["uncertainty"]["parameters"][1]["sets"] = {"/title"};
-    refusal(study, "/uncertainty/parameters/1");  // a number where words stand
+    refusal(study, "/uncertainty/parameters/1");  // a number instead of words
     study["uncertainty"]["parameters"][1] = {{"name", "words"},
                                              {"one_of", {{"/title=one"}, {"/title=two"}}}};
     const fault::Fault fault = refusal(study, second);
     EXPECT_NE(fault.cause.find("mpm_solver"), std::string::npos) << fault.cause;
-    // Read by lem_tool alone, which does not run without "stability".
+    // Only lem_tool reads it, which does not run without "stability".
     json slope = wanted();
     slope.erase("transfer_times");
     slope["scene"] = json::parse(std::ifstream(BREACH_ROOT "/workflows/scenes/flow_slope.json"));
@@ -243,7 +243,7 @@ TEST(UncertaintyStudy, RefusesASettingThatIsGivenTwice) {
     study = with(viscosity);
     study["draws"] = 3;
     refusal(study, "/draws");
-    // What an override gives, a factor multiplies.
+    // A factor multiplies the value of an override.
     study = with({{"name", "viscosity"},
                   {"factor_on", {"/materials/sand/viscosity"}},
                   {"distribution", {{"type", "uniform"}, {"from", 1}, {"to", 1.0001}}}});

@@ -11,8 +11,8 @@
 namespace breach::outflow {
 namespace {
 
-/// A triangle of 8 m2 over 4 s with its peak of 4 m2/s at 1 s, after 0.5 s of nothing, every 0.05 s; `returns`
-/// flow back over the last second.
+/// A triangle of 8 m2 over 4 s with its peak of 4 m2/s at 1 s, after 0.5 s of nothing, every 0.05
+/// s; `returns` flow back over the last second.
 Hydrograph triangle(double returns = 0.0) {
     Hydrograph h{.section = "toe"};
     for (int k = 0; k <= 120; ++k) {
@@ -46,7 +46,7 @@ TEST(Ordinates, CarryExactlyWhatPassedAtAnyInterval) {
         EXPECT_NEAR(flows.volume, 576.0, 1e-9);
         for (const double flow : flows.m3_per_s) EXPECT_GE(flow, 0.0);
     }
-    // The middle of the ordinate after t = 1.5 s, one interval late, sees the peak.
+    // The middle of the ordinate after t = 1.5 s, one interval later, contains the peak.
     const Ordinates fine = ordinates_of(triangle(), 1.0, 0.1, "test");
     EXPECT_NEAR(fine.m3_per_s[16], 4.0, 0.15);
 }
@@ -82,7 +82,7 @@ TEST(Exports, HecRasHasOneFlowPerIntervalAndSaysWhatItIs) {
     EXPECT_THROW(as_hec_ras(triangle(), 72.0, 0.7, "test"), fault::BadInput);
 }
 
-/// 453 m3/s for 3 s: 1359 m3, which flows every 60 s spread over one or two of them.
+/// 453 m3/s for 3 s: 1359 m3; with ordinates every 60 s spread over one or two of them.
 TEST(Exports, SayThePeakBeforeAndAfterAndWhereItIsLost) {
     Hydrograph h{.section = "toe"};
     for (int k = 0; k <= 600; ++k) {

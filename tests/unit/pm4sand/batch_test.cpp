@@ -1,4 +1,5 @@
-// Points side by side answer as they do alone: to the last bit, in any order, on every width.
+// Points side by side give the results of single points: the same bits, in any order, for every
+// width.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ bool same(const Update& a, const Update& b) {
            std::memcmp(&a.counts, &b.counts, sizeof(Counts)) == 0;
 }
 
-/// A zone of points that have gone different ways, and strains from tiny to large, one of them NaN.
+/// A zone of points with different histories, and strains from tiny to large, one of them NaN.
 struct Zone {
     Ready law;
     std::vector<State> states;

@@ -1,5 +1,5 @@
-// The default scheme along a strain path: results do not depend on how the path is cut into
-// calls, nor its reversals on the tolerance.
+// The default scheme along a strain path: results do not depend on the division into calls, nor
+// reversals on the tolerance.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 using namespace pm4sand;
 using mechanics::Voigt;
 
-/// Ten cycles of shear of 1e-3 while the axes of compression swing at another frequency: no
-/// component turns when another does.
+/// Ten cycles of shear of 1e-3 while the compression axes oscillate at another frequency:
+/// components reverse at different times.
 Voigt strain_at(double cycle) {
     const double turn = 2.0 * std::numbers::pi * cycle;
     const double shear = 1e-3 * (0.3 + 0.7 * std::min(1.0, cycle / 5.0)) * std::sin(turn);
@@ -26,7 +26,7 @@ Voigt strain_at(double cycle) {
     return {swing, -swing, 0.0, shear};
 }
 
-/// Mean stress along the path [kPa]: `parts` straight pieces a cycle, each in so many calls.
+/// Mean stress along the path [kPa]: `parts` straight pieces per cycle, each in `calls` calls.
 std::vector<double> course(int parts, int calls) {
     const Ready law = ready(soil("tailings_cal"));
     State state = consolidated(law, 100.0, 0.5);
@@ -60,7 +60,7 @@ TEST(Pm4SandCalls, PathDoesNotDependOnHowItIsCut) {
     EXPECT_NEAR(course(32, 1).back() / fine.back(), 1.0, 0.03);
 }
 
-/// Calls of random directions after which alpha_in^true is another.
+/// Number of calls in random directions that change alpha_in^true.
 int reversals(double tolerance) {
     const Ready law = ready(soil("tailings_def"));
     State state = consolidated(law, 100.0, 0.5);
@@ -70,7 +70,7 @@ int reversals(double tolerance) {
     Voigt held = Voigt::Zero();
     for (int i = 0; i < 4000; ++i) {
         const Voigt d(1e-5 * normal(random), 1e-5 * normal(random), 0.0, 1e-4 * normal(random));
-        // It swings about its beginning: nothing drifts to where no sand is.
+        // Oscillates about its beginning, so that the state stays realistic.
         const Plane before = state.alpha_true;
         state = integrate(law, state, d - 0.1 * held, {.tolerance = tolerance}).state;
         held += d - 0.1 * held;

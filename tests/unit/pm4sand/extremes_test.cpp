@@ -1,5 +1,5 @@
-// Stiff and extreme calls: never NaN out, never an endless loop; a call that cannot be integrated
-// says so and leaves the state alone. And what must hold for every call.
+// Stiff and extreme calls: no NaN, no endless loop; a call that cannot be integrated reports it and
+// keeps the state. Also invariants of every call.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,7 +34,7 @@ struct Tally {
     Counts counts;
 };
 
-/// One call, checked; the state goes on only if it was resolved.
+/// One checked call; the state changes only if it was resolved.
 void call(const Ready& law, const Options& options, const Voigt& d, State& state, Tally& tally) {
     const double z_cum = state.z_cum;
     const Update update = integrate(law, state, d, options);
@@ -100,7 +100,7 @@ TEST(Pm4SandExtremes, PressureMayVanishAndComeBack) {
     for (const Options& options : schemes) {
         Tally tally;
         State state = consolidated(law, 20.0, 0.5);
-        for (int i = 0; i < 20; ++i) {  // swells far beyond what the stress can follow
+        for (int i = 0; i < 20; ++i) {  // swells more than the stress can follow
             call(law, options, Voigt(1e-4, 3e-4, 0.0, 2e-4), state, tally);
         }
         const double lowest = state.p;
@@ -115,8 +115,8 @@ TEST(Pm4SandExtremes, PressureMayVanishAndComeBack) {
     }
 }
 
-/// In a folded mesh an element may report that its soil has expanded to eight times its volume: M_b
-/// of the formula is then below m, and a projection onto it used to turn alpha without end.
+/// In a folded mesh an element may report an eightfold volume: the formula's M_b is then below m,
+/// and a projection onto it would rotate alpha endlessly.
 TEST(Pm4SandExtremes, SoilThatHasExpandedWithoutLimitGoesOn) {
     const Ready law = ready(soil("embankment"));
     std::mt19937 random(1033);

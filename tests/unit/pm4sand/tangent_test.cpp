@@ -13,7 +13,7 @@ using namespace pm4sand;
 using mechanics::Matrix4;
 using mechanics::Voigt;
 
-/// A point of the foundation soil on its way up.
+/// A foundation point during loading.
 State sheared(const Ready& law, double gamma) {
     State state = consolidated(law, 100.0, 0.5);
     for (int i = 0; i < 200; ++i) state = integrate(law, state, shear(gamma / 200.0), {}).state;
@@ -32,7 +32,7 @@ TEST(Pm4SandTangent, PlasticOneIsTheDerivativeAlongLoading) {
         const Ready law = ready(soil(name));
         const State state = sheared(law, 3e-3);
         const Voigt d(1e-10, 2e-10, 0.0, 1e-8);
-        // The plastic direction lags the strain direction; undrained shear has long aligned them.
+        // The plastic direction lags the strain direction; in undrained shear they are aligned.
         const Voigt change = stress(law, integrate(law, state, d, {}).state) - stress(law, state);
         const Voigt predicted = plastic_tangent(law, state, d) * d;
         for (const int i : {0, 1, 3}) {

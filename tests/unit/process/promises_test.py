@@ -69,7 +69,7 @@ def main(folder):
         process.send_signal(number)
         check(f"signal {number} ends with {code}", process.wait(timeout=30) == code)
         with open(out / "telemetry.jsonl", "a") as file:
-            file.write('{"n": 9')  # a torn last line is normal after a kill
+            file.write('{"n": 9')  # an incomplete last line is normal after a kill
         done = run(scene, "--output", out, "--resume")
         counted = [json.loads(line)["n"] for line in (out / "telemetry.jsonl").read_text().splitlines()]
         check("resume goes on without a gap or a repeat", done.returncode == 0 and counted == list(range(20)), counted)

@@ -1,5 +1,5 @@
-// The smallest real phase, for testing run_phase: counts to 20, one telemetry line each, and fails
-// as the scene's title tells it to.
+// The smallest real phase, to test run_phase: counts to 20 with one telemetry line each, and fails
+// as the scene's title requests.
 #include <chrono>
 #include <fstream>
 #include <thread>

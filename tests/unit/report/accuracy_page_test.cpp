@@ -1,4 +1,4 @@
-// The page of accuracy studies, from answers as the service gives them.
+// The page of accuracy studies, from stored answers of the service.
 #include "services/report/accuracy_page.hpp"
 
 #include <gtest/gtest.h>

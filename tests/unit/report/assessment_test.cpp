@@ -22,7 +22,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 json from_file() {
-    // Made by `node tests/browser/samples.mjs 64` from a model that is known.
+    // Made by `node tests/browser/samples.mjs 64` from a known model.
     std::ifstream stream(BREACH_ROOT "/tests/unit/report/uncertainty.json");
     return json::parse(stream);
 }
@@ -32,7 +32,7 @@ void write(const fs::path& file, const json& content) {
     std::ofstream(file) << content.dump();
 }
 
-/// The export of a static study of 64 samples, as far as the assessment reads it.
+/// The export of a static study of 64 samples, as the assessment reads it.
 class Sampled : public testing::Test {
   protected:
     void SetUp() override {

@@ -67,7 +67,7 @@ class WetRun : public testing::Test {
         return text;
     }
 
-    /// Entries put into a phase's result.json, which is made if it is not there.
+    /// Adds entries to a phase's result.json, creating it if necessary.
     void edit_result(const std::string& label, const nlohmann::json& entries) const {
         const fs::path file = folder_ / "tasks" / label / "result.json";
         nlohmann::json result = nlohmann::json::object();
@@ -90,7 +90,7 @@ class WetRun : public testing::Test {
         std::ofstream(folder_ / "tasks" / label / "scene.completed.json") << scene.dump();
     }
 
-    /// As the phases of this version write it: all runouts warn, one still moves, the FEM entangled.
+    /// As this version's phases write it: all runouts warn, one still moves, the FEM is entangled.
     void flag_all() const {
         const nlohmann::json moving = {{"code", "still_moving"},
                                        {"severity", "questionable"},

@@ -1,5 +1,5 @@
-// The section's picture: every region once and in its colour, everything on the page, faults at their
-// places, and colours that stay apart.
+// The drawing of a section: every region once in its colour, everything within the page, faults at
+// their places, distinguishable colours.
 #include "services/report/section/section_drawing.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ std::string drawn(const std::string& name, const std::vector<std::string>& overr
     return as_svg(draft_of_scene(shipped(name), overrides), {});
 }
 
-/// All matches of a pattern's groups.
+/// All matches with their groups.
 std::vector<std::vector<std::string>> all(const std::string& text, const std::string& pattern) {
     const std::regex wanted(pattern);
     std::vector<std::vector<std::string>> found;

@@ -1,4 +1,4 @@
-// Firm soil that weaker soil lies on: where it is found, and what is said where it cuts cells.
+// Beds of firm soil: where they are found, and warnings where they cut cells.
 #include "core/scene/beds.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A slope of weak soil on 2 m of firm ground, cells of 1 m from the ground's bottom.
+/// A slope of weak soil on 2 m of firm ground, cells of 1 m from the bottom of the ground.
 json slope_on_ground() {
     return json::parse(R"({
         "format": "breachline-scene/1", "name": "bedded",
@@ -57,7 +57,7 @@ TEST(Beds, SoilThatIsNoFirmerThanItsCoverIsNone) {
     EXPECT_TRUE(scene::beds_of(parsed(document)).empty());
     document["materials"]["firm"]["law"]["c_kPa"] = 13;
     EXPECT_EQ(scene::beds_of(parsed(document)).size(), 1U);
-    // What counts is what softening leaves.
+    // The strength after softening counts.
     document["materials"]["firm"]["law"]["softening"] = {{"epsilon_q_start", 0.01},
                                                          {"epsilon_q_end", 0.1},
                                                          {"c_residual_kPa", 4},

@@ -1,4 +1,4 @@
-// What a scene may say about terrain, gauges and the stress of filled points.
+// Entries of a scene about terrain, gauges and the stress of filled points.
 #include <gtest/gtest.h>
 
 #include <cmath>

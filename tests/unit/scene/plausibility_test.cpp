@@ -1,5 +1,4 @@
-// Slips of units and entries that cannot be meant together: each is refused or flagged, and the
-// text names the slip.
+// Wrong units and contradictory entries are refused or flagged, with the likely mistake.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +27,7 @@ void PrintTo(const Slip& slip, std::ostream* stream) {
     *stream << slip.pointer << " = " << slip.value;
 }
 
-/// A dam on a foundation under water, with every part a scene can have, and nothing odd in it.
+/// A dam on a foundation under water, with every part of a scene and no implausible entry.
 json dam() {
     return json::parse(R"({
         "format": "breachline-scene/1", "name": "dam",
@@ -72,7 +71,7 @@ json with(const Slip& slip) {
     return document;
 }
 
-/// What is said of entries; whether the cells are fine enough is another test's affair.
+/// Warnings about entries, without those about cell sizes.
 std::vector<fault::Flag> warnings_of(const scene::Scene& read) {
     std::vector<fault::Flag> warnings = read.warnings;
     std::erase_if(warnings, [](const fault::Flag& each) { return each.code != "implausible"; });
@@ -103,7 +102,7 @@ TEST_P(UnitSlip, IsCaughtAndNamed) {
     EXPECT_NE(said.find(slip.says), std::string::npos) << said;
 }
 
-// Grouped by the unit that was mistaken for another.
+// Grouped by the confused unit.
 const Slip unit_slips[] = {
     {"/materials/fill/density", "19", Caught::refused, "19 looks like kN/m3: write 1937 kg/m3"},
     {"/materials/fill/density", "1.9", Caught::refused, "1.9 looks like t/m3 (g/cm3): write 1900"},
@@ -166,7 +165,7 @@ TEST(UnitSlips, AreMany) { EXPECT_GE(std::size(unit_slips), 50U); }
 
 INSTANTIATE_TEST_SUITE_P(Scene, UnitSlip, testing::ValuesIn(unit_slips));
 
-// Entries against each other.
+// Entries compared with each other.
 INSTANTIATE_TEST_SUITE_P(
     Together, UnitSlip,
     testing::Values(
@@ -217,7 +216,7 @@ TEST(Plausibility, AnEntryHasOneFlagWithAllThatIsSaidOfIt) {
 }
 
 TEST(Plausibility, AFaultMentionsTheWarningThatExplainsIt) {
-    // phi in radians below psi in degrees: the fault alone would send the reader to psi.
+    // phi in radians below psi in degrees: the fault alone would mislead to psi.
     const json document = with({"/materials/fill/law/phi_deg", "0.5585", Caught::refused, ""});
     try {
         scene::parse_scene(document.dump(), "dam");
@@ -254,7 +253,7 @@ TEST(Plausibility, ASectionInMillimetresIsRefused) {
     }
 }
 
-/// Every entry with a plausible range, wherever it stands in the schema.
+/// Every entry of the schema with a plausible range.
 template <class Visit>
 void each_range(const json& node, const std::string& path, const Visit& visit) {
     if (node.is_object() && node.contains("x-plausible")) visit(node, path);

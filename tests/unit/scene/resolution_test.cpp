@@ -1,4 +1,4 @@
-// Cells and elements across what they have to resolve, and the times that follow from the soil's height.
+// Cells and elements across the lengths to resolve, and times that follow from the soil's height.
 #include "core/scene/resolution.hpp"
 
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ TEST(Cells, FewerThanTwoAreRefusedWithTheSizeThatWouldDoUnlessTheSceneSaysSo) {
         EXPECT_NE(error.faults()[0].cause.find("region \"dyke\""), std::string::npos)
             << error.faults()[0].cause;
         EXPECT_NE(error.faults()[0].remedy.find("allow_coarse_cells"), std::string::npos);
-        // The size that the remedy names is taken.
+        // The remedy's size is accepted.
         const std::string& remedy = error.faults()[0].remedy;
         const double enough = std::stod(remedy.substr(remedy.find("at most ") + 8));
         EXPECT_NEAR(enough, 3.0, 0.15);
@@ -104,7 +104,7 @@ TEST(Cells, FewerThanTwoAreRefusedWithTheSizeThatWouldDoUnlessTheSceneSaysSo) {
     EXPECT_EQ(codes(document), Codes{"coarse_cells questionable /mpm/cell_size"});
 }
 
-/// The pointer and the cause of what is refused, or nothing.
+/// Pointer and cause of a refusal, or nothing.
 std::vector<std::string> refused(const json& document) {
     std::vector<std::string> found;
     try {

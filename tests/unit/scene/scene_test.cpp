@@ -177,8 +177,8 @@ TEST(Scene, MissingFileIsAnIoFault) {
     EXPECT_THROW(scene::read_scene("/"), fault::IoError);
 }
 
-// Each entry of a sound scene is replaced by values of every kind: the reader must refuse or
-// accept, never crash.
+// Replaces each entry of a valid scene by values of every kind: the reader must refuse or accept,
+// never crash.
 TEST(Scene, SurvivesEveryWrongValueAnywhere) {
     const json sound = column();
     const std::vector<json> values{nullptr,

@@ -1,4 +1,4 @@
-// /transfer in scenes: what points become, and what is refused.
+// /transfer in scenes: soils of points, and refusals.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

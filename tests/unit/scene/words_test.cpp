@@ -1,4 +1,4 @@
-// The words that the readers know are those that the schema lets pass.
+// The readers know the same words as the schema.
 #include "core/scene/words.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 using nlohmann::json;
 using Words = std::set<std::string>;
 
-/// Where the schema lists words that no enum stands for.
+/// Lists of words in the schema without an enum.
 const std::set<std::string> without_enum{
     "/$defs/support/properties/fixes",                         // two flags
     "/properties/transfer/properties/window/properties/pick",  // criteria::Pick
@@ -35,7 +35,7 @@ const std::set<std::string> without_enum{
 
 class WordsOfTheSchema {
   public:
-    /// Together these entries of the schema take the enum's words, and no others.
+    /// These entries of the schema together have exactly the enum's words.
     template <class Enum>
     void are_those_of(const std::vector<std::string>& pointers) {
         Words listed;

@@ -38,7 +38,7 @@ std::vector<double> grid(std::size_t count) {
     return times;
 }
 
-/// The paper's shape: nothing, a rise, a plateau of 215 m from 15.25 to 20 s, a decline.
+/// As in the paper: nothing, a rise, a plateau of 215 m from 15.25 to 20 s, a decline.
 double paper(double t) {
     if (t < 12.5) return 0.0;
     if (t < 15.25) return 215 * (t - 12.5) / 2.75;
@@ -48,7 +48,7 @@ double paper(double t) {
 TEST(Bisection, FindsBothEdgesOfThePapersPlateauWithFewRuns) {
     const auto times = grid(226);  // to 22.5 s
     const Search found = search(times, paper, 0.9);
-    std::vector<double> on;  // what the uniform sweep says
+    std::vector<double> on;  // by the full sweep
     for (const double t : times) {
         if (paper(t) >= 0.9 * 215) on.push_back(t);
     }
@@ -72,7 +72,7 @@ TEST(Bisection, AnEdgeBeyondTheRangeIsOpen) {
 
 TEST(Bisection, ALargerRunoutOnTheWayRaisesTheLevel) {
     const auto times = grid(65);
-    // A peak beside a shoulder: the seeds see the shoulder first.
+    // A peak beside a shoulder: the seeds find the shoulder first.
     const auto runout = [](double t) { return t < 2.5 ? 0.0 : t < 3.6 ? 10.0 : 6.0; };
     const Search found = search(times, runout, 0.75);
     EXPECT_NEAR(found.plateau.largest, 10, 0);

@@ -49,14 +49,14 @@ TEST(Convergence, AnOrderThatNoSchemeHasIsNotReliedOn) {
 }
 
 TEST(Convergence, SaysWhatTheOrderCouldBeByTheNoise) {
-    // Runouts of 25, 36 and 64 points per cell, eight draws each.
+    // Runouts with 25, 36 and 64 points per cell, eight repeats each.
     const std::array near{rung(8, 191.9, 2.16, 8), rung(6.667, 193.6, 2.16, 8),
                           rung(5, 196.0, 2.16, 8)};
     const Convergence open = convergence_of(near);
     ASSERT_TRUE(open.order);
     EXPECT_EQ(open.order_by_noise->low, 0.0);
     EXPECT_GT(open.order_by_noise->high, 4.0);
-    // With differences of 4 and 2 that are off by 1 each: 3 to 3 is no order, 5 to 1 is 2.32.
+    // Differences of 4 and 2 with an error of 1 each: 3 to 3 gives no order, 5 to 1 gives 2.32.
     const double deviation = 4.0;
     const Convergence known = convergence_of(std::array{
         rung(4, 16.0, deviation, 32), rung(2, 12.0, deviation, 32), rung(1, 10.0, deviation, 32)});
@@ -100,7 +100,7 @@ TEST(Convergence, WithoutAnOrderTheFinestIsOffByTheIndexForTwoGrids) {
     EXPECT_FALSE(convergence_of(two).gci);
 }
 
-/// If a course uses no sizes, its error of the finest rung does not depend on them.
+/// If the course does not use sizes, the error of the finest rung does not depend on them.
 TEST(Convergence, SizesDoNotMatterWhereTheCourseRestsOnNone) {
     const auto with_middle = [](double middle, const std::array<double, 3>& values) {
         return convergence_of(
@@ -130,8 +130,8 @@ TEST(Convergence, TwoRungsHaveNoOrder) {
 }
 
 TEST(Convergence, ADifferenceBelowTheNoiseGivesNoOrder) {
-    // Differences 3 and 1; the mean of 4 runs that scatter by 1, with 9 degrees of freedom, is
-    // distinguished from 2.262 / sqrt 2 on (Student's 97.5 % by any table).
+    // Differences 3 and 1; the mean of 4 runs that scatter by 1, with 9 degrees of freedom, differs
+    // significantly from 2.262 / sqrt 2 on (Student's 97.5 %).
     const auto with_noise = [](double deviation) {
         return convergence_of(std::array{rung(4, 14.0, deviation, 4), rung(2, 11.0, deviation, 4),
                                          rung(1, 10.0, deviation, 4)});
@@ -155,13 +155,13 @@ TEST(Convergence, TwoRungsWithinTheNoiseAreOffByTheirDifference) {
 }
 
 TEST(Convergence, RungsThatAreNearAgreeAtAnyError) {
-    // 10 + 4 h: rungs at 1.25 and 1 differ by 1 and are off by 4, which a noise of 1 hides.
+    // 10 + 4 h: rungs at 1.25 and 1 differ by 1 and have an error of 4, hidden by a noise of 1.
     const std::array near{rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
     EXPECT_EQ(convergence_of(near).course, Course::below_noise);
     EXPECT_NEAR(*convergence_of(near).error_of_finest, 4.0 / 14.0, 1e-12);
     const std::array far{rung(4, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
     EXPECT_NEAR(*convergence_of(far).error_of_finest, 1.0 / 14.0, 1e-12) << "not less for that";
-    // A third rung, twice as coarse and as near: what noise makes of near rungs is not blown up.
+    // A third rung of twice the size: the noise of close rungs is not extrapolated.
     const std::array wide{rung(2, 13.9, 1.0, 3), rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
     EXPECT_NEAR(*convergence_of(wide).error_of_finest, 1.0 / 14.0, 1e-12);
     const std::array apart{rung(2, 24.0, 1.0, 3), rung(1.25, 15.0, 1.0, 3), rung(1, 14.0, 1.0, 3)};
@@ -177,7 +177,7 @@ TEST(Shares, AddUpAboveTheNoiseAndAsSquaresWithinIt) {
 }
 
 TEST(Convergence, CoarseRungsThatScatterDoNotAffectTheFineOnes) {
-    // 10 + h at 8, 4, 2, 1: the coarsest scatters by more than the finest differ
+    // 10 + h at 8, 4, 2, 1: the coarsest scatters more than the finest differ.
     std::vector<Rung> rungs;
     for (const double h : {8.0, 4.0, 2.0, 1.0})
         rungs.push_back({h, Repeats{10.0 + h, h > 4.0 ? 20.0 : 0.1, 3}});

@@ -51,7 +51,7 @@ TEST(Importance, OfAChoiceIsItsCorrelationRatioAndNoRankCorrelation) {
     EXPECT_NEAR(found.first_order->value, 0.17815740097237465, 1e-12);
 }
 
-/// How often of `seeds` the intervals of the first-order indices cover the closed form.
+/// Coverage of the closed form by the intervals of the first-order indices, over `seeds` seeds.
 struct Model {
     std::function<double(std::mt19937_64&)> draw;
     std::function<double(const std::array<double, 3>&)> result;
@@ -82,8 +82,8 @@ std::array<int, 3> covered(const Model& model, std::size_t samples, int seeds) {
     return found;
 }
 
-/// 90 % of 100 seeds, less three deviations of the binomial. An index of zero is covered more
-/// often: it is the end of what an index can be.
+/// 90 % of 100 seeds, minus three standard deviations of the binomial. An index of zero is covered
+/// more often, as the lower end of its range.
 constexpr int seeds = 100;
 constexpr int least_kept = 81;
 
@@ -127,7 +127,8 @@ TEST(Importance, WithTooFewSamplesOrNothingThatVariesThereIsNone) {
     one[0].values = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
     const std::vector<double> same(12, 3.0);
     EXPECT_FALSE(importance_of(one, same)[0].first_order);
-    one[0].is_choice = true;  // every sample another option: the options' importance is unknown
+    // a different option in every sample: the options' importance is unknown
+    one[0].is_choice = true;
     EXPECT_FALSE(importance_of(one, one[0].values)[0].first_order);
 }
 

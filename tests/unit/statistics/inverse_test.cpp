@@ -1,4 +1,4 @@
-// The inverse search against functions whose answers are known.
+// The inverse search on functions with known solutions.
 #include "core/statistics/inverse.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Search {
     std::vector<InverseStep> steps;
 };
 
-/// Runs what is advised until there is nothing more.
+/// Runs the advised values until there are no more.
 Search search(const InverseQuestion& asked, const std::function<double(double)>& run,
               std::size_t lattices) {
     Search found;
@@ -85,7 +85,7 @@ TEST(Inverse, NineOfTenIntervalsCoverTheTrueValue) {
         covered += each.low <= 150.0 / 215.0 && 150.0 / 215.0 <= each.high ? 1 : 0;
         steps += found.steps.size();
     }
-    // 90 % less three deviations of the binomial.
+    // 90 % minus three standard deviations of the binomial.
     EXPECT_GE(covered, 0.9 * seeds - 3.0 * std::sqrt(0.09 * seeds));
     EXPECT_LT(steps, 8u * seeds) << "what noise hides is not halved on";
 }
@@ -106,9 +106,9 @@ TEST(Inverse, WithoutATransferTheResultIsZeroAndNotPartOfTheNoise) {
               "the target itself");
 }
 
-/// 0 up to 0.9 and rising from there, as the runout of a dam that stands.
+/// 0 up to 0.9, then increasing, as the runout of a dam that stands first.
 double rises_from(double v) { return std::max(0.0, 100.0 * (v - 0.9)); }
-/// The same the other way round.
+/// The mirrored function.
 double falls_to(double v) { return std::max(0.0, 100.0 * (1.6 - v)); }
 
 TEST(Inverse, OfATargetThatManyValuesGiveFindsWhereTheResultLeavesIt) {
@@ -160,7 +160,7 @@ TEST(Inverse, RefusesATargetThatBothEndsGive) {
 }
 
 TEST(Inverse, LowerBoundsBesideTheTargetMakeItABoundAsWell) {
-    // It falls with the value: what would run on reaches the target at a larger one.
+    // Decreases with the value: a longer run would reach the target at a larger one.
     std::vector<InverseStep> steps{{.value = 0.4, .results = {300, 302}},
                                    {.value = 0.69, .results = {216, 217}, .moving = 1},
                                    {.value = 0.7, .results = {213, 214}},

@@ -1,4 +1,4 @@
-// Scatter of a curve about itself, from samples that were not repeated.
+// Scatter of a curve about itself, without repeats.
 #include "core/statistics/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ TEST(Neighbours, OneThatStandsOutIsSeenWhereItStands) {
     std::vector<CurvePoint> curve;
     for (int i = 0; i < 20; ++i) curve.push_back({0.05 * i, i == 10 ? 40.0 : 100.0});
     const auto scatter = scatter_among_neighbours(curve);
-    // Deviations of -60 at it and 30 to either side.
+    // Deviations of -60 there and 30 on both sides.
     const double expected = std::sqrt((60.0 * 60.0 + 2 * 30.0 * 30.0) / 1.5 / 5.0);
     EXPECT_NEAR(scatter[10].value(), expected, 1e-9);
     EXPECT_NEAR(scatter[6].value(), 0.0, 1e-9);

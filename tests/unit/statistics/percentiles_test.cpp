@@ -61,7 +61,7 @@ TEST(Percentiles, TheShareBelowALimitHasWilsonsInterval) {
     EXPECT_EQ(share_below(factors, 1.0).value, 0.0);
     EXPECT_NEAR(share_below(factors, 1.0).high, 0.0405594995, 1e-6);
     for (std::size_t i = 0; i < 5; ++i) factors[i] = 0.9;
-    factors[5] = 1.0;  // stands
+    factors[5] = 1.0;  // not below 1: stable
     const Interval failed = share_below(factors, 1.0);
     EXPECT_EQ(failed.value, 5.0 / 64.0);
     EXPECT_NEAR(failed.low, 0.0385443904, 1e-6);
@@ -69,7 +69,7 @@ TEST(Percentiles, TheShareBelowALimitHasWilsonsInterval) {
 }
 
 TEST(Percentiles, EqualValuesAreAllowed) {
-    std::vector<double> values(64, 0.0);  // nothing got beyond the toe but in 8 samples
+    std::vector<double> values(64, 0.0);  // runout beyond the toe in 8 samples only
     for (std::size_t i = 0; i < 8; ++i) values[i] = 10.0 + static_cast<double>(i);
     const Interval median = percentile(values, 50);
     EXPECT_EQ(median.value, 0.0);
@@ -78,11 +78,13 @@ TEST(Percentiles, EqualValuesAreAllowed) {
     EXPECT_GT(percentile(values, 95).value, 10.0);
 }
 
-/// So few of the trials keep a promise of 90 % by chance in one of a thousand times (3 deviations).
+/// Fewest successes for a promise of 90 %; fewer by chance once in a thousand times (3 standard
+/// deviations).
 double least_kept(double trials) { return 0.9 * trials - 3.0 * std::sqrt(0.09 * trials); }
 
 TEST(Percentiles, NineOfTenIntervalsCoverThePercentile) {
-    // Independent lognormal samples, 300 seeds: 90 % within three deviations of the binomial.
+    // Independent lognormal samples, 300 seeds: 90 % within three standard deviations of the
+    // binomial.
     constexpr int seeds = 300;
     const std::pair<double, double> known[] = {
         {5, -1.6448536}, {10, -1.2815516}, {50, 0.0}, {90, 1.2815516}, {95, 1.6448536}};

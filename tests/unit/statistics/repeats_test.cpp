@@ -1,4 +1,4 @@
-// Student's factor against published tables, and how many draws a mean needs.
+// Student's factor against published tables, and the number of repeats for a mean.
 #include "core/statistics/repeats.hpp"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ TEST(MeanOfDraws, NeedsFewerDrawsTheLessItIsOff) {
     const double t = 2.132;  // four degrees of freedom
     EXPECT_NEAR(promised_error(0.01, measured, 10.0, 4),
                 0.01 + t * 0.03 * std::sqrt(1.0 / 4 + 1.0 / 5), 1e-5);
-    // One draw: 1 + 7.0 %; two: 1 + 5.4 %; three: 1 + 4.7 %; twenty: 1 + 3.2 %.
+    // One repeat: 1 + 7.0 %; two: 1 + 5.4 %; three: 1 + 4.7 %; twenty: 1 + 3.2 %.
     EXPECT_EQ(draws_within(0.081, 0.01, measured, 10.0), 1u);
     EXPECT_EQ(draws_within(0.065, 0.01, measured, 10.0), 2u);
     EXPECT_EQ(draws_within(0.060, 0.01, measured, 10.0), 3u);
@@ -47,7 +47,8 @@ TEST(MeanOfDraws, OfOneMeasuredDrawIsWorthItsBias) {
     EXPECT_EQ(draws_within(0.02, 0.02, once, 10.0), 1u);
 }
 
-/// What the promise says: nine of ten means of new draws keep it, however few draws were measured.
+/// Nine of ten means of new repeats are within the promised error, however few repeats were
+/// measured.
 TEST(MeanOfDraws, KeepsItsPromiseInNineOfTenTimes) {
     std::mt19937 random(5);
     std::normal_distribution<double> value(10.0, 0.4);
@@ -69,9 +70,9 @@ TEST(MeanOfDraws, KeepsItsPromiseInNineOfTenTimes) {
     }
 }
 
-/// A setting on three ladders, each halved once above it and once below, whose value runs with the
-/// size by a random amount up to `slope` of itself, up or down. Whether the mean of new draws of it
-/// is as near to the limit of all ladders as is promised.
+/// A setting on three ladders, each with one coarser and one finer rung of half the size. The value
+/// depends on the size by a random slope of up to `slope`. Returns whether the mean of new repeats
+/// is as near to the limit of all ladders as promised.
 bool keeps_promise_over_ladders(double slope, std::size_t draws, std::size_t mean_of,
                                 std::mt19937& random) {
     constexpr double scatter = 0.04;
@@ -99,8 +100,8 @@ bool keeps_promise_over_ladders(double slope, std::size_t draws, std::size_t mea
     return std::abs(mean - 1.0) <= promised_error(sum_of(shares), base, 1.0, mean_of);
 }
 
-/// Rungs that differ by less than one run scatters, and by as much: then first order is what three
-/// noisy rungs tell worst.
+/// Rungs that differ by less than the scatter of one run, and by as much: the worst case for first
+/// order from three noisy rungs.
 TEST(MeanOfDraws, OverSeveralLaddersKeepsItsPromise) {
     std::mt19937 random(7);
     const struct {

@@ -1,4 +1,4 @@
-// What a sample is drawn from: distributions, hypercubes, Sobol points, rank correlations.
+// Sampling: distributions, hypercubes, Sobol points, rank correlations.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,8 +12,8 @@
 namespace breach::statistics::sampling_test {
 namespace {
 
-// The numbers of scipy below were printed by Debian's python3-scipy 1.10.1 (scipy.stats.norm, lognorm,
-// truncnorm, triang: ppf; scipy.stats.qmc.Sobol(64, scramble=False, bits=32).random(1024)).
+// Reference values: Debian's python3-scipy 1.10.1 (scipy.stats.norm, lognorm, truncnorm, triang:
+// ppf; scipy.stats.qmc.Sobol(64, scramble=False, bits=32).random(1024)).
 
 TEST(Distribution, QuantilesAreThoseOfScipy) {
     const auto near = [](double value, double wanted) {
@@ -41,8 +41,8 @@ TEST(Distribution, BetweenTakesTheQuantilesThatLieThere) {
     const Distribution cut{DistributionKind::lognormal, {1.0, 0.3}, {{0.4, 2.5}}};
     EXPECT_NEAR(quantile(cut, 0.05), 0.6184293137021929, 1e-13);
     EXPECT_NEAR(quantile(cut, 0.9), 1.4550077116616316, 1e-13);
-    EXPECT_GT(quantile(cut, 1e-12), 0.4);  // no value piles up at the bound
-    // Far out, where the shares below are 1 to round-off.
+    EXPECT_GT(quantile(cut, 1e-12), 0.4);  // no probability at the bound
+    // Far in the tail, where the probabilities below are 1 to round-off.
     const Distribution tail{DistributionKind::normal, {0.0, 1.0}, {{6.0, 8.0}}};
     EXPECT_NEAR(quantile(tail, 0.1), 6.017085051314984, 1e-12);
     EXPECT_NEAR(quantile(tail, 0.9), 6.363413413274562, 1e-12);
@@ -68,7 +68,7 @@ TEST(Sobol, IsThatOfJoeAndKuoInAllDimensions) {
     const std::vector<std::size_t> dimensions{0, 1, 9, 31, 62, 63};
     for (std::size_t k = 0; k < dimensions.size(); ++k)
         EXPECT_EQ(share(777, dimensions[k]), of_777[k]);
-    // Every number of the 1024 x 64, folded in order: h = (h * 1099511628211) xor x, modulo 2^64.
+    // Hash of all 1024 x 64 numbers in order: h = (h * 1099511628211) xor x, modulo 2^64.
     std::uint64_t hash = 0;
     for (const auto& point : points)
         for (const std::uint32_t x : point) hash = (hash * 1099511628211ULL) ^ x;
@@ -87,7 +87,7 @@ TEST(Sobol, ShiftedByASeedIsStillANet) {
     }
 }
 
-/// Whether each of `slices` equal slices of every dimension holds one of the first points.
+/// Whether each of `slices` equal slices of every dimension contains one of the first points.
 void expect_hypercube(const Points& points, std::size_t slices) {
     for (std::size_t d = 0; d < points.front().size(); ++d) {
         std::set<std::size_t> taken;
@@ -117,7 +117,7 @@ TEST(RankCorrelation, IsSpearmans) {
 }
 
 TEST(Points, AreTheSameOnEveryMachine) {
-    // Written down once: with other numbers the same seed would draw another study.
+    // Fixed: with other numbers the same seed would give another study.
     const Points cube = latin_hypercube(4, 4, 1, 7);
     const std::vector<double> drawn{0.55055943378086536, 0.91635354718279849, 0.36814719443571819,
                                     0.0015524645651292523};

@@ -1,4 +1,4 @@
-// The surrogate and its tornado against functions whose answers are known.
+// The surrogate and its tornado for known functions.
 #include "core/statistics/surrogate.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace breach::statistics::surrogate_test {
 namespace {
 
-/// Two lognormal numbers of medians 1 and 5 and a choice between three.
+/// Two lognormal numbers with medians 1 and 5, and a choice of three.
 struct Samples {
     std::array<Drawn, 3> parameters{Drawn{.name = "strength", .values = {}},
                                     Drawn{.name = "viscosity", .values = {}},
@@ -50,7 +50,8 @@ TEST(Surrogate, TornadoOfAKnownPolynomialIsItsOwn) {
     ASSERT_EQ(found.bars.size(), 3u);
     EXPECT_EQ(found.bars[0].name, "strength") << "the widest first";
     constexpr double z = 1.2815515655446004;
-    // The scores are those of the sample's ranks: 400 of them know a percentile to a few hundredths.
+    // The scores are those of the sample's ranks: with 400, percentiles are accurate to a few
+    // hundredths.
     EXPECT_NEAR(found.bars[0].p10, model(-z, 0, 0), 0.5);
     EXPECT_NEAR(found.bars[0].p90, model(z, 0, 0), 0.5);
     EXPECT_EQ(found.bars[1].name, "motion");

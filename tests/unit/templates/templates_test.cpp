@@ -22,7 +22,7 @@ using nlohmann::json;
 using Line = std::vector<Vec2>;
 using Numbers = std::function<double(const std::string&)>;
 
-/// The ground from the crest's edge (or the heap's top) to the toe, walked upwards from the toe by the
+/// The ground from the crest's edge (or the heap's top) to the toe, constructed from the toe by the
 /// options alone.
 Line asked_ground(const std::string& name, const Numbers& option, bool beach) {
     Line up{Vec2(0.0, 0.0)};
@@ -83,8 +83,7 @@ double area_below(const Line& ground, double left) {
     return sum;
 }
 
-/// No overlap, no gap, and the ground as it was asked for: areas to the millimetres that places are
-/// rounded to.
+/// No overlap, no gap, and the requested ground: areas to the millimetres of rounding.
 void hold_section(const std::string& name, const Made& made) {
     const json options = made.options;
     const Numbers option = [&](const std::string& key) { return options.at(key).get<double>(); };
@@ -115,7 +114,7 @@ void hold_section(const std::string& name, const Made& made) {
             EXPECT_LT(geometry::overlap_area(rings[i], rings[k]), length);
 }
 
-/// As it is written by `breach new` and read by every phase.
+/// Faults of the scene as `breach new` writes it.
 std::vector<fault::Fault> faults_of(const Made& made, const std::filesystem::path& folder) {
     if (!made.motion.empty()) std::ofstream(folder / "motion.csv") << made.motion;
     return check::checked_text(as_text(made.scene), "scene.json", folder, {}).faults;
@@ -265,12 +264,13 @@ TEST(Templates, SayWhatIsAssumed) {
 TEST(Templates, ALayerHasTheResidualStrengthOfItsStress) {
     const json scene = make("slope", {{"water_depth", 0}, {"residual_ratio", 0.1}}).scene;
     const double first = scene.at("/materials/soil_1/law/c_kPa"_json_pointer);
-    // 1.67 m of soil of 1850 kg/m3 below water and, towards the face, under what lies above the line.
+    // 1.67 m of soil of 1850 kg/m3 below water and, towards the face, under what lies above the
+    // line.
     EXPECT_GT(first, 0.1 * 0.5 * 1.667 * 850 * 9.81e-3);
     EXPECT_LT(first, 0.1 * 60.0);
 }
 
-/// Options drawn at random, most from around their defaults and some from their whole range.
+/// Random options, most near their defaults and some in their whole range.
 json drawn(const Template& of, std::mt19937& random) {
     std::uniform_real_distribution<double> share(0.0, 1.0);
     json options = json::object();

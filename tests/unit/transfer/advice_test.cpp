@@ -19,7 +19,8 @@ scene::Scene case_scene() {
                        "jacobian_least_avg < 0.97 or epsilon_q_avg > 0.2", 0.0, "midpoint"});
 }
 
-/// The course in docs/reference/methods/mochikoshi_case.md: depth 18.5 m at 14.75 s, 20 % at 17.5 s.
+/// The course in docs/reference/methods/mochikoshi_case.md: depth 18.5 m at 14.75 s, 20 % at 17.5
+/// s.
 std::vector<telemetry::Line> course(double until) {
     std::vector<telemetry::Line> lines;
     for (int i = 0; 0.05 * i <= until + 1e-9; ++i) {

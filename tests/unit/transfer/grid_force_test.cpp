@@ -5,7 +5,7 @@
 namespace breach::transfer {
 namespace {
 
-/// One stressless point of 2 kg at a height above the floor, in cells of 1 m.
+/// A point of 2 kg without stress at a height above the floor, in cells of 1 m.
 double force_of_a_point(scene::Kernel kernel, double height) {
     scene::Scene scene{};
     scene.gravity = 10.0;
@@ -31,11 +31,11 @@ double force_of_a_point(scene::Kernel kernel, double height) {
 }
 
 TEST(GridForce, IsWeighedByTheKernelThatTheMpmUses) {
-    // The floor's nodes bear their share of the weight, so that of the row above is out of balance.
-    // Beside a wall the B-spline's weights are hat functions: 0.2 of the point lies on that row.
+    // The floor's nodes support their share of the weight; that of the row above is unbalanced.
+    // Beside a wall the B-spline's weights are hat functions: 0.2 of the point belongs to that row.
     EXPECT_DOUBLE_EQ(force_of_a_point(scene::Kernel::b_spline, 0.2), 0.2 * 20.0);
     EXPECT_DOUBLE_EQ(force_of_a_point(scene::Kernel::linear, 0.2), 0.2 * 20.0);
-    // GIMP clips the point's domain [-0.05, 0.45] at the floor: its centroid then lies at 0.225.
+    // GIMP clips the point's domain [-0.05, 0.45] at the floor: its centroid is at 0.225.
     EXPECT_DOUBLE_EQ(force_of_a_point(scene::Kernel::gimp, 0.2), 0.225 * 20.0);
 }
 

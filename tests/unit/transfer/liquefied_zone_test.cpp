@@ -23,7 +23,7 @@ TEST(LiquefiedZone, ReachesDownToTheDeepestNodeOfEveryColumn) {
     // At x = 0 and 2 two thirds at y = 4, 0.875 at y = 6; at x = 4, half liquefied, 0.5 and 0.656.
     EXPECT_EQ(zone.liquefied_nodes(), 5u);
     EXPECT_EQ(zone.deepest_level(), 4.0);
-    // The node at x = 2 stands for 1 to 3, the one at x = 4 for 3 to 5.
+    // The node at x = 2 represents 1 to 3, the one at x = 4 represents 3 to 5.
     EXPECT_TRUE(zone.holds({2.9, 4.0}));
     EXPECT_TRUE(zone.holds({2.9, 9.9})) << "all soil above, liquefied itself or not";
     EXPECT_FALSE(zone.holds({2.9, 3.9}));
@@ -62,7 +62,7 @@ TEST(LiquefiedZone, OnlySoilThatCanLiquefyCounts) {
     EXPECT_FALSE(zone.holds({6.1, 5.0}));
 }
 
-/// Liquefied down to y = 2 m of 10, but in a strip, where it is to `level`.
+/// Liquefied down to y = 2 m of 10, except in a strip, where to `level`.
 LiquefiedZone zone_with(double from, double to, double level, double narrowest_wall = 0.0) {
     auto mesh = meshes::grid({.nx = 60, .ny = 20, .width = 30.0});
     meshes::soak(mesh, 10.0, [&](const Vec2& x) {
@@ -79,8 +79,8 @@ std::vector<LiquefiedGap> gaps_with(double from, double to, double level) {
 TEST(LiquefiedZone, AWallOfSoundSoilWithinItIsAGap) {
     const auto found = gaps_with(14.0, 15.0, 20.0);
     ASSERT_EQ(found.size(), 1u);
-    // The strip's nodes stand at 14.5 m alone: those on its sides have r_u = 0.75, and 0.56 in the row
-    // where the zone ends beside it.
+    // Only the nodes at 14.5 m are in the strip: those on its sides have r_u = 0.75, and 0.56 in
+    // the row where the zone ends.
     EXPECT_NEAR(found[0].from, 14.25, 1e-9);
     EXPECT_NEAR(found[0].to, 14.75, 1e-9);
     EXPECT_EQ(found[0].level, 10.0) << "not at all: the highest soil";
@@ -116,7 +116,7 @@ TEST(LiquefiedZone, AWideWallAndTheZonesEndsStay) {
     EXPECT_FALSE(wide.holds({15.0, 9.0}));
     const LiquefiedZone end = zone_with(28.0, 30.5, 20.0, 10.0);
     EXPECT_FALSE(end.holds({29.5, 9.0}));
-    // Within 10 m a wall of 6 m is closed, and what lies beside it is as it was.
+    // With 10 m, a wall of 6 m is closed, and the zone beside it is unchanged.
     const LiquefiedZone closed = zone_with(12.0, 18.0, 20.0, 10.0);
     EXPECT_TRUE(closed.holds({15.0, 9.0}));
     EXPECT_EQ(closed.holds({11.0, 2.1}), wide.holds({11.0, 2.1}));
@@ -138,7 +138,7 @@ TEST(LiquefiedGaps, NarrowerThanTwoCellsForbidToRelyOnARunout) {
     EXPECT_EQ(flag_of({narrow}, 0.0)->severity, fault::Severity::warning) << "no runout";
 }
 
-// At t_T the pore pressure has dipped everywhere; before, it had reached down to y = 4.
+// At t_T the pore pressure has fallen everywhere; earlier, liquefaction reached down to y = 4.
 TEST(LiquefiedZone, WhatHasLiquefiedOnceStaysSoUnlessTheInstantIsAskedFor) {
     auto before = meshes::grid({});
     meshes::soak(before, 10.0, [](const Vec2& x) { return x.y() > 3.9 ? 1.0 : 0.0; });
@@ -151,7 +151,7 @@ TEST(LiquefiedZone, WhatHasLiquefiedOnceStaysSoUnlessTheInstantIsAskedFor) {
     EXPECT_EQ(LiquefiedZone(mesh, {1}, 0.7, LiquefiedWhen::at_transfer).liquefied_nodes(), 0u);
 }
 
-// No stress, no ratio: the dry surface with its pressure of nearly nothing does not liquefy.
+// Without stress no ratio: the dry surface with almost no pressure does not liquefy.
 TEST(LiquefiedZone, NodesWithoutStressDoNotCount) {
     auto mesh = meshes::grid({});
     meshes::soak(mesh, 5.0, [](const Vec2&) { return 0.0; });

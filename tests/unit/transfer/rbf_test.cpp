@@ -58,7 +58,7 @@ TEST(LocalInterpolant, CentresOnALineKeepTheSlopeAlongIt) {
     const Vec2 on_it(0.6 * 4.5, 0.8 * 4.5);
     const Vec2 beside(on_it + Vec2(-0.08, 0.06));  // 0.1 across
     EXPECT_NEAR(at(f, on_it), linear(on_it), 1e-11);
-    // Nothing is known across the line: the value beside it stays that of its foot.
+    // Constant across the line: the value beside it equals that at its foot.
     EXPECT_NEAR(at(f, beside), linear(on_it), 1e-9);
 }
 

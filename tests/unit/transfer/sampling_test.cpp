@@ -26,14 +26,15 @@ TEST(PanelledRule, HasTheRulesDegreeAndWithTwoPointsEqualWeights) {
     for (const double w : gauss_legendre(2, 7).weight) EXPECT_DOUBLE_EQ(w, 1.0 / 7.0);
 }
 
-/// Columns of 1 m, then of 10 m; rows of 1 m: the wide ones leave gaps with 2 points per direction.
+/// Columns of 1 m, then of 10 m; rows of 1 m: with 2 points per direction the wide ones leave empty
+/// cells.
 meshes::MeshSnapshot narrow_and_wide() {
     auto mesh = meshes::grid({.nx = 10, .ny = 10, .width = 10.0, .height = 10.0});
     for (auto& x : mesh.position_0) x.x() = x.x() <= 5.0 ? x.x() : 5.0 + 10.0 * (x.x() - 5.0);
     return mesh;
 }
 
-/// Counted anew: points per cell of 2.5 m.
+/// Points per cell of 2.5 m, counted independently.
 std::map<std::pair<int, int>, int> counted(const Points& points) {
     std::map<std::pair<int, int>, int> count;
     for (const auto& x : points.state.position)
@@ -47,7 +48,7 @@ std::vector<Corners> shapes(const meshes::MeshSnapshot& mesh) {
 
 TEST(Sampling, AWideElementBesideSmallCellsLeavesNoGaps) {
     const auto mesh = narrow_and_wide();
-    // 10 m wide, 2 points per direction: cells 2.5 m wide go without.
+    // 10 m wide with 2 points per direction: cells 2.5 m wide stay empty.
     const Points plain = meshes::points_on(mesh, 2);
     EXPECT_LT(counted(plain).size(), 22u * 4u);
 

@@ -1,5 +1,5 @@
-// The catalogue refuses what nobody could check; a program that fails is a row; numbers are found where
-// programs leave them.
+// The catalogue refuses uncheckable entries; a failing program is a row; numbers are found in the
+// outputs of programs.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,7 +33,7 @@ json topic(const json& quantities) {
     return {{"title", "T"}, {"cases", json::array({one})}};
 }
 
-/// A catalogue of one file, and a program that writes these files into its output.
+/// A catalogue of one file, and a program that writes these outputs.
 class Bench {
   public:
     explicit Bench(const json& file,
@@ -165,7 +165,7 @@ TEST(Comparison, ReadsLinesBetweenTwoTimesAndColumnsOfCsv) {
 }
 
 TEST(Comparison, AnOrderOfConvergenceIsOverTheLevelsOfACase) {
-    // The answer is 3 + size^2, whose size comes as --set SIZE.
+    // The result is 3 + size^2, with the size from --set SIZE.
     json order = quantity(2.0);
     order["limit"] = 3.0;
     json file = topic(json::array({order}));

@@ -29,7 +29,7 @@ def alternating_in(snapshot):
 
 
 def alternating(integration):
-    """Largest rms of all snapshots [Pa]."""
+    """Largest rms over all snapshots [Pa]."""
     with tempfile.TemporaryDirectory() as name:
         output = pathlib.Path(name)
         result, lines = run(f"{os.environ['BREACH_BIN']}/fem_solver", SCENE, output, section__element_size=2.4,

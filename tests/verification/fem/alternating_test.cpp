@@ -1,6 +1,6 @@
-// A pore pressure that alternates from node to node: what it costs in one element, and how much of
-// it random plastic contraction leaves in a liquefied band of single-point quads (the prototype's
-// table in docs/reference/methods/pore_pressure.md).
+// A pore pressure that alternates from node to node: its resistance in one element, and how much of
+// it random plastic contraction leaves in a liquefied band of single-point quads (table in
+// docs/reference/methods/pore_pressure.md).
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseLU>
 #include <random>
@@ -53,7 +53,7 @@ TEST(FullPressure, ConductsWithTheEigenvaluesOfTheFullIntegral) {
 
 TEST(FullPressure, IsTheTwoByTwoIntegralOfParallelograms) {
     const Corners x = quad(0.4);
-    // With a modulus this low the usual alpha is more than the alternating part's own.
+    // With so low a modulus, the usual alpha exceeds that of the alternating part.
     const double soft = 1e5;
     const Fluid fluid = fluid_with(PressureIntegration::full);
     const PorousElement one = porous_of(x, fluid, soft);
@@ -137,8 +137,8 @@ struct Assembly {
     }
 };
 
-/// 24 x 24 quads of 1 m on a held base between smooth walls, drained at the top, undrained: an
-/// inclined band of `soft` times the stiffness contracts by 1e-3 in the mean, at random.
+/// 24 x 24 quads of 1 m on a fixed base between smooth walls, drained at the top: an inclined band
+/// with `soft` times the stiffness contracts undrained by 1e-3 on average, at random.
 Pressures contracting_band(const Model& model, double soft, PressureIntegration integration,
                            unsigned seed) {
     std::mt19937 random(seed);
@@ -207,10 +207,10 @@ TEST(LiquefiedBand, LosesThreeQuartersOfWhatAlternatesWithFullIntegrals) {
     const Model model = bench::model_of(bench::parse(scene));
     const auto share = [](const Pressures& p) { return p.alternating / std::abs(p.mean); };
     struct Case {
-        double soft, alternating, moved;  // what full integrals may leave and move
+        double soft, alternating, moved;  // largest alternating part and change with full integrals
     };
-    // A softer alpha for the smooth part as well would leave 10 % in both, and smear the pressure of
-    // the band into its neighbours (docs/reference/methods/pore_pressure.md).
+    // A softer alpha for the smooth part too would leave 10 % in both and smear the band's pressure
+    // (docs/reference/methods/pore_pressure.md).
     for (const Case& c : {Case{0.1, 0.12, 0.03}, Case{0.01, 0.35, 0.02}}) {
         const Pressures one = mean_of_seeds(model, c.soft, PressureIntegration::one_point);
         const Pressures full = mean_of_seeds(model, c.soft, PressureIntegration::full);

@@ -1,4 +1,4 @@
-// One element whose law has begun under a uniform stress, moved by hand: the laws' tests in the mesh.
+// One element whose law starts from a uniform stress, with prescribed displacements.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,7 @@ struct BegunElement {
         begin_memory(model, now);
         trial = now;
     }
-    /// displacement_at(x): of a node [m]. Nothing has moved where the geometry is not sound.
+    /// displacement_at(x): of a node [m]. Nothing changes if the geometry is degenerate.
     template <class DisplacementAt>
     Geometry move(DisplacementAt displacement_at) {
         for (std::size_t i = 0; i < model.mesh.nodes.size(); ++i)

@@ -1,4 +1,4 @@
-// Small scenes for the FEM's tests: a block of soil on rollers, and ways to run it.
+// Small scenes for FEM tests: a block of soil on rollers, and functions to run it.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ inline process::SessionSettings settings_for(const std::filesystem::path& output
     return settings;
 }
 
-/// Runs all stages of a scene in a folder of its own and keeps its course.
+/// Runs all stages of a scene in a temporary folder and keeps its course.
 class Run {
   public:
     explicit Run(const json& scene)
@@ -93,13 +93,13 @@ class Run {
     Course course_;
 };
 
-/// Displacement of the node next to x [m].
+/// Displacement of the node nearest to x [m].
 inline Vec2 u_at(const Course& done, const Vec2& x) {
     const std::size_t node = nearest_node(done.model.mesh, x);
     return done.motion.u.segment<2>(static_cast<Eigen::Index>(2 * node));
 }
 
-/// Where a scene is refused, by reading, checking or building; empty: nowhere.
+/// Pointer of the fault when the scene is read, checked or built; empty: accepted.
 inline std::string place_refused(const json& scene) {
     try {
         const scene::Scene parsed = parse(scene);
@@ -119,7 +119,7 @@ inline json cj1(double psi_0, double K_0 = 0.7) {
             {"psi_0", psi_0},    {"K_0", K_0},   {"tolerance", 1e-6}};
 }
 
-/// Prints what was reached beside what is allowed, then checks it.
+/// Prints the error and its limit, then checks it.
 inline void expect_error(const std::string& what, double reached, double allowed) {
     std::printf("    %-58s reached %.3e, allowed %.1e\n", what.c_str(), reached, allowed);
     EXPECT_LE(reached, allowed) << what;

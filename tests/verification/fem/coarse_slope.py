@@ -5,7 +5,7 @@ from opensees_models import EMBANKMENT, FOUNDATION, TAILINGS, block, scene, sine
 
 
 def write(folder, duration=3.0, strength=1.0, **fem):
-    """strength: 1 is 0.3 g at 2 Hz."""
+    """strength 1: 0.3 g at 2 Hz."""
     write_motion(folder / "motion.csv", 5e-3, [strength * v for v in sine(duration, 0.5, 5e-3)])
     regions = [
         block("foundation", "foundation", [[0, -4], [60, -4], [60, 0], [48, 0], [24, 0], [0, 0]], [20, 2]),

@@ -1,4 +1,4 @@
-// The element alone: patch test, zero-energy modes, volumetric constraint, and nu close to 1/2.
+// Single elements: patch test, zero-energy modes, volumetric constraint, and nu close to 1/2.
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
@@ -59,7 +59,7 @@ TEST(Element, PassesThePatchTestToRoundOff) {
             stress_error = std::max(stress_error, (point.sigma - exact).norm() / exact.norm());
         }
         const double inner = trial.force.tail(8).norm() / trial.force.norm();
-        // Round-off of sums over some twenty terms; the moving mesh differs by its own strain,
+        // Round-off of sums over about twenty terms; the moving mesh differs by its own strain,
         // 2e-6.
         const bool moving = kinematics == scene::Kinematics::updated_lagrangian;
         expect_error("patch: stress at every point", stress_error, moving ? 1e-5 : 1e-14);
@@ -74,7 +74,7 @@ TEST(Element, HasExactlyThreeZeroEnergyModes) {
         const double largest = eigenvalues[7];
         expect_error("third smallest eigenvalue over the largest",
                      std::abs(eigenvalues[2]) / largest, 1e-13);
-        // The softest deformation mode is set by G, the largest eigenvalue by K.
+        // G determines the softest deformation mode, K the largest eigenvalue.
         const mechanics::Elasticity soil{1.0, nu};
         EXPECT_GT(eigenvalues[3], 0.05 * soil.shear_modulus()) << "nu = " << nu;
     }

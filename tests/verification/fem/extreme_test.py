@@ -58,7 +58,7 @@ class Run:
             return opened["breachline/gauss/stress"][:]
 
     def ended_clearly(self):
-        """All numbers of the last state are finite; a stop says when and where, and can be resumed from."""
+        """All numbers of the last state are finite; a stop reports when and where, and can be resumed."""
         sound = all(numpy.isfinite(self.point(name)).all() for name in ("displacement", "velocity", "pore_pressure"))
         if self.code == 0:
             return sound
@@ -98,7 +98,7 @@ def wet_rock_a_million_times_stiffer_gives_the_exact_column(folder):
         passed &= run.code == 0
         y, p = run.place()[:, 1], run.point("pore_pressure") / q
         if k < 1e-6:
-            # Elements' storage is a full matrix: the jump at the border dies away in the rock by a factor of 14 a node.
+            # The storage matrix of an element is full: the jump at the border decays in the rock by a factor of 14 per node.
             for what, E, there, allowed in (("soil", M, (y > 6.9) & (y < 8.1), 1e-9), ("rock", 1e6 * M, y < 1.6, 1e-7)):
                 exact = 1 / (1 + E * storage)
                 passed &= judge(f"undrained pressure in the {what} ({exact:.2e}), over the load",
@@ -146,7 +146,7 @@ def level_tailings(folder, motion, duration, time_step, stages=None, **fem):
 
 
 def tailings_liquefied_from_the_start_stay_so_and_carry_no_more(folder):
-    """Quicksand: upward seepage takes the whole weight of the tailings before the shaking begins."""
+    """Quicksand: upward seepage carries the whole weight of the tailings before the shaking begins."""
     result = level_tailings(folder, sine(2.0, 0.5, 5e-3), 2.0, 5e-3, force_tolerance=1e-5)
     density = TAILINGS["density"] / 1000
     result["fem"]["water"]["boundaries"] = [{"name": "spring", "from": [-9, 0], "to": [21, 0], "level": 10 * density}]
@@ -156,7 +156,7 @@ def tailings_liquefied_from_the_start_stay_so_and_carry_no_more(folder):
     y = run.place()[:, 1]
     weight = 10 * density * WEIGHT_OF_WATER
     p_0, u = run.point("pore_pressure_0"), run.point("displacement")
-    # Sand that shears may dilate and take a little stress back.
+    # Sheared sand may dilate and regain a little stress.
     tailings = y > 1e-9
     passed = run.ended_clearly()
     passed &= judge("p_0 against the weight above, over the whole",
@@ -183,7 +183,7 @@ def three_g_on_liquefying_sand_end_clearly(folder):
     return Run(folder).ended_clearly()
 
 
-SOFTEST = {  # of each law what its schema lets through
+SOFTEST = {  # extreme values that each law's schema allows
     "mohr_coulomb": {"type": "mohr_coulomb", "E_MPa": 0.001, "nu": 0.3, "c_kPa": 1, "phi_deg": 20},
     "elastic": {"type": "linear_elastic", "E_MPa": 0.001, "nu": 0.3},
     "pm4sand": TAILINGS["law"] | {"D_R": 0.01, "G_0": 0.01},
@@ -191,7 +191,7 @@ SOFTEST = {  # of each law what its schema lets through
 
 
 def seam_under_a_slope(folder):
-    """The lowest row of the tailings, beneath the pond and against the embankment's foot."""
+    """The lowest row of the tailings, below the pond and at the embankment's foot."""
     result = json.loads(coarse_slope.write(folder, duration=1.0).read_text())
     foundation, _, embankment = result["section"]["regions"]
     embankment["polygon"] = [[24, 0], [48, 0], [28, 8], [24, 8], [24, 2], [24, 0]]
@@ -210,7 +210,7 @@ def seam_under_level_ground(folder):
 
 
 def a_one_element_seam_of_the_softest_soil_ends_clearly(folder):
-    """Finite numbers, or a stop that names the element; under level ground, which needs no stiffness to stand, the former."""
+    """Finite numbers, or a stop that names the element; under level ground, which needs no stiffness, always finite numbers."""
     passed, finite = True, 0
     for make in (seam_under_level_ground, seam_under_a_slope):
         for name, law in SOFTEST.items():
@@ -228,7 +228,7 @@ def a_one_element_seam_of_the_softest_soil_ends_clearly(folder):
 
 
 def a_folded_quad_of_a_mesh_file_is_refused_by_its_name(folder):
-    """Two squares side by side; the second one's corners are named so that its sides cross, then with one node twice."""
+    """Two squares side by side; the second one with crossing sides, then with a repeated node."""
     nodes = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 1.0)]
     box(folder, {"soil": elastic(1e7)}, [block("soil", "soil", [[0, 0], [2, 0], [2, 1], [0, 1]], [2, 1])], 2, 1,
         [{"type": "static", "name": "gravity"}], msh_file="soil.msh")
@@ -256,7 +256,7 @@ def steps_a_hundred_times_too_large_are_cut_or_end_clearly(folder):
 
 
 def a_wet_mesh_that_entangles_ends_with_its_last_good_state(folder):
-    """A 20 m face of weak wet soil on the moving mesh: it must fail, and its end must be usable."""
+    """A 20 m face of weak wet soil on the moving mesh: it must fail, with a usable last state."""
     law = {"type": "mohr_coulomb", "E_MPa": 20, "nu": 0.3, "c_kPa": 1, "phi_deg": 30}
     soil = {"density": 2000, "void_ratio": 0.8, "permeability": [1e-6, 1e-6], "law": law}
     box(folder, {"soil": soil}, [block("soil", "soil", [[0, 0], [10, 0], [10, 20], [0, 20]], [10, 20])], 10, 20,

@@ -1,5 +1,4 @@
-// The switch from elastic to plastic soil sets a slope in motion: momentum and energy must account
-// for it.
+// The switch from elastic to plastic soil sets a slope in motion: balance of momentum and energy.
 #include <functional>
 
 #include "core/exchange/mesh_snapshot.hpp"
@@ -11,7 +10,7 @@ namespace {
 using bench::expect_error;
 using nlohmann::json;
 
-/// A column of weak soil whose right side has been taken away.
+/// A column of weak soil whose right support is removed.
 json unsupported_column() {
     bench::Block block{.width = 10.0, .height = 20.0, .columns = 10, .rows = 20};
     block.law = {
@@ -26,7 +25,7 @@ json unsupported_column() {
 
 TEST(Failure, EnergyIsAccountedFor) {
     json scene = unsupported_column();
-    scene["fem"]["newmark_beta"] = 0.25;  // no numerical damping: nothing may be lost
+    scene["fem"]["newmark_beta"] = 0.25;  // no numerical damping: energy is conserved
     scene["fem"]["newmark_gamma"] = 0.5;
     bench::Run run(scene);
     const auto& history = run.go().history;
@@ -94,7 +93,7 @@ TEST(Failure, ScarcelyDependsOnTheTimeStep) {
         crest[k] = run.go().history.back().crest_displacement;
     }
     std::printf("    crest after 0.5 s: %.5f and %.5f m\n", crest[0], crest[1]);
-    // Perfect plasticity and gamma 0.6 (first order): a per cent for a fourfold step.
+    // Perfect plasticity and gamma 0.6 (first order): 1 % for a fourfold step.
     expect_error("crest with dt 5 ms against 1.25 ms", std::abs(crest[0] / crest[1] - 1.0), 0.01);
 }
 
@@ -158,7 +157,7 @@ TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
     EXPECT_EQ(history.back().kinetic_energy_over_peak, 1.0);
 }
 
-/// An elastic column that begins to carry its weight at once, damped in the ratio of its mass.
+/// An elastic column under sudden gravity, with mass-proportional damping.
 TEST(KineticEnergy, OverItsPeakFallsToZeroWithTheMotion) {
     constexpr double H = 10.0, damping = 5.0, duration = 4.0;
     bench::Block block{.height = H, .rows = 20};
@@ -179,7 +178,7 @@ TEST(KineticEnergy, OverItsPeakFallsToZeroWithTheMotion) {
             std::max(wrong, std::abs(each.kinetic_energy - each.kinetic_energy_over_peak * peak));
     }
     expect_error("kinetic energy less its share of the peak so far", wrong / peak, 1e-12);
-    // The first mode swings with exp(-damping t / 2), its energy with the square of it.
+    // The first mode decays with exp(-damping t / 2), its energy with the square of it.
     expect_error("energy over its peak at the end", history.back().kinetic_energy_over_peak,
                  std::exp(-damping * (duration - 0.2)));
     EXPECT_GT(history.back().kinetic_energy_over_peak, 0.0);
@@ -204,7 +203,7 @@ TEST(Failure, AMovingMeshCannotGoOnWhereItFolds) {
 
 TEST(Failure, AMeshThatFoldsInItsFirstStepIsAFaultOfTheScene) {
     json scene = unsupported_column();
-    scene["fem"]["least_jacobian_ratio"] = 0.999999;  // any strain is too much
+    scene["fem"]["least_jacobian_ratio"] = 0.999999;  // any strain is beyond the limit
     bench::Run run(scene);
     try {
         run.go();
@@ -216,7 +215,7 @@ TEST(Failure, AMeshThatFoldsInItsFirstStepIsAFaultOfTheScene) {
     }
 }
 
-/// Strain of the elements of a 10 x 10 block, and what folding element 55 then means.
+/// Strain of the elements of a 10 x 10 block; the diagnosis when element 55 folds.
 Entanglement judged(const std::function<double(std::size_t)>& epsilon_q) {
     bench::Block block{.width = 10.0, .height = 10.0, .columns = 10, .rows = 10};
     const scene::Scene scene = bench::parse(bench::scene_of(block));
@@ -254,8 +253,8 @@ TEST(Entangled, InSoilThatHasFailedItIsTheEndOfTheFailure) {
 }
 
 TEST(Entangled, OnAThinBandFromGroundToGroundItIsTheEndOfTheFailure) {
-    // A trough of strained elements: down from the top at column 1, along row 5, up at column 8. Its
-    // neighbours are sound, so that their mean is small.
+    // A trough of strained elements: down from the top at column 1, along row 5, up at column 8.
+    // Its neighbours are unstrained, so that their mean is small.
     const Entanglement what = judged([](std::size_t e) {
         const std::size_t column = e % 10, row = e / 10;
         const bool leg = row >= 5 && (column == 1 || column == 8);
@@ -282,7 +281,7 @@ TEST(Slip, IsThatOfTheBodyCutOffAgainstTheRest) {
     const Model model = bench::model_of(parsed);
     const Watch watch(scene::fem_of(parsed), model);
     Motion motion = at_rest(model);
-    // A trough from column 5 to column 14, four rows deep; what lies in it moves by 0.3, -0.4 m.
+    // A trough from column 5 to column 14, four rows deep; the soil in it moves by 0.3, -0.4 m.
     for (std::size_t e = 0; e < model.body.elements; ++e) {
         const std::size_t column = e % 20, row = e / 20;
         const bool within = column >= 5 && column <= 14 && row >= 6;
@@ -348,8 +347,8 @@ TEST(Refusal, OnAMovingMeshDistinguishesALawThatRefusedFromAnElementThatTurnedIn
     EXPECT_TRUE(holds(costly, "evaluations were used up")) << costly;
 }
 
-/// What a column on a moving mesh gives up with when a weight is put on it in one step of half a
-/// second that cannot be cut.
+/// Message of a column on a moving mesh that gets a load in one step of half a second that cannot
+/// be cut.
 std::string given_up_under(double pressure_kPa) {
     json scene = unsupported_column();
     scene["materials"]["soil"]["law"] = {

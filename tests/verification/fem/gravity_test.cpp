@@ -14,7 +14,7 @@ TEST(GravityColumn, HasExactStressAndSettlement) {
     double stress_error = 0.0, ratio_error = 0.0, settlement_error = 0.0;
     for (std::size_t e = 0; e < a.model.mesh.quads.size(); ++e) {
         const double y = corners_of(a.model.mesh, e).row(1).mean();
-        const double exact = -rho * g * (H - y);  // linear: the element holds its middle value
+        const double exact = -rho * g * (H - y);  // linear: the element has its value at the middle
         for (std::size_t k = 0; k < gauss_points; ++k) {
             const Voigt& s = a.motion.points[e * gauss_points + k].sigma;
             stress_error = std::max(stress_error, std::abs(s[1] - exact) / (rho * g * H));
@@ -28,8 +28,8 @@ TEST(GravityColumn, HasExactStressAndSettlement) {
         const double u_y = a.motion.u[static_cast<Eigen::Index>(2 * i + 1)];
         settlement_error = std::max(settlement_error, std::abs(u_y - exact) / largest);
     }
-    // Linear quads hold the exact nodal values of this one-dimensional problem: only round-off is
-    // left.
+    // Linear quads have the exact nodal values of this one-dimensional problem: only round-off
+    // remains.
     expect_error("vertical stress", stress_error, 1e-12);
     expect_error("K0 = nu / (1 - nu)", ratio_error, 1e-12);
     expect_error("settlement", settlement_error, 1e-12);
@@ -43,7 +43,7 @@ TEST(GravityColumn, WeighsWhatItsMassSays) {
 }
 
 TEST(GravityColumn, StaysInEquilibriumWhenTheSceneLawCanCarryIt) {
-    // phi 35: K0 = 0.43 lies inside the yield surface; a dynamic stage must find nothing to do.
+    // phi 35: K0 = 0.43 is inside the yield surface; a dynamic stage must not move.
     bench::Block block{.width = 4.0, .height = 10.0, .columns = 4, .rows = 10};
     block.law = {
         {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 5}, {"phi_deg", 35}};

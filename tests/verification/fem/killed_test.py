@@ -34,7 +34,7 @@ def lines_of(output):
 
 
 def kill_after_checkpoint(scene, output):
-    """Some steps past it, so that work is lost. Telemetry lines at the checkpoint's appearance and at the end."""
+    """Kills some steps after the checkpoint, so that work is lost. Returns the telemetry lines at the checkpoint and at the end."""
     process = subprocess.Popen(command(scene, output), stderr=subprocess.DEVNULL)
     while not (output / "checkpoint.h5").exists() and process.poll() is None:
         time.sleep(0.002)

@@ -1,5 +1,5 @@
-// LEM and FEM on one section: pore pressure and initial vertical effective stress agree, wherever the
-// phreatic line lies in the mesh.
+// LEM and FEM of one section: pore pressure and initial vertical effective stress agree for any
+// phreatic line in the mesh.
 #include "fem_solver/snapshot.hpp"
 #include "lem_tool/search.hpp"
 #include "tests/verification/fem/wet.hpp"
@@ -31,7 +31,7 @@ json wet_section(const char* element, const char* above, const json& line, doubl
     return scene;
 }
 
-/// What the LEM puts on a slice's base at a point [Pa].
+/// Stresses of the LEM at a slice's base [Pa].
 struct AtBase {
     double u, sigma_v0;
 };
@@ -138,8 +138,9 @@ InSquare in_square(const Compared& all, const Vec2& low) {
     return {sum.lem / count, sum.fem / count};
 }
 
-// Water under a sloping line pushes the soil sideways, and shear carries this push. A smooth side takes
-// no shear. Where the shear fades towards the side, it shifts weight between soil and neighbouring soil.
+// Water under an inclined line exerts a horizontal force on the soil, carried by shear. A smooth
+// side carries no shear: towards it the shear decreases, which shifts weight between neighbouring
+// columns.
 TEST(LemAndFem, DifferAtSmoothSidesByWhatElementsOfAnySizeShow) {
     const Compared coarse = compared(wet_section("ssp", "drained", sloping, 2.0));
     const Compared fine = compared(wet_section("ssp", "drained", sloping, 0.5));

@@ -21,8 +21,8 @@ void PrintTo(const Specimen& specimen, std::ostream* out) {
     *out << specimen.law << "_" << specimen.psi_deg;
 }
 
-/// Largest share of the way from the force `start` to the model's external force, and beyond, at
-/// which `motion` still finds rest: the step is halved down to `least`.
+/// Largest share of the way from the force `start` to the model's external force, and beyond, with
+/// an equilibrium of `motion`; the step is halved down to `least`.
 double limit_load(const Model& model, Motion motion, const Eigen::VectorXd& start, double step,
                   double least) {
     Seconds seconds;
@@ -46,11 +46,11 @@ double limit_load(const Model& model, Motion motion, const Eigen::VectorXd& star
     return load;
 }
 
-/// Share of a unit pressure's force that a node of a side of four elements carries.
+/// Share of a unit pressure's force at a node of a side with four elements.
 double share_of(double along) { return along > 1e-9 && along < 1.0 - 1e-9 ? 1.0 : 0.5; }
 
-/// Largest uniform pressure over c that weightless clay carries on 0 <= x <= 1 m (half the
-/// footing), to 0.2 % of the load.
+/// Largest uniform pressure over c on weightless clay at 0 <= x <= 1 m (half the footing), to 0.2 %
+/// of the load.
 double footing_load(const char* law, int per_metre) {
     constexpr double c = 100e3;
     bench::Block block{
@@ -74,7 +74,7 @@ class StripFooting : public testing::TestWithParam<Specimen> {};
 TEST_P(StripFooting, CarriesPrandtlsLoad) {
     const double exact = 2.0 + std::numbers::pi;
     const double coarse = footing_load(GetParam().law, 4), fine = footing_load(GetParam().law, 8);
-    // Displacement elements approach from above, with an error that halves with the element size.
+    // Displacement elements converge from above, with an error proportional to the element size.
     EXPECT_GT(coarse, fine);
     expect_error("Prandtl: q / ((2 + pi) c) - 1, 8 elements under half the footing",
                  std::abs(fine / exact - 1.0), 0.03);
@@ -86,8 +86,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, StripFooting,
 
 class Biaxial : public testing::TestWithParam<Specimen> {};
 
-/// A smooth block under sigma_3 all round, then pressed from above. Its stress is the same
-/// everywhere: its load is the strength of a point in plane strain, for any psi.
+/// A smooth block under sigma_3 from all sides, then loaded from above. Its stress is uniform: its
+/// load is the strength of a point in plane strain, for any psi.
 TEST_P(Biaxial, CarriesMohrCoulombsLoad) {
     constexpr double sigma_3 = 50e3, c = 10e3;
     bench::Block block{.columns = 4, .rows = 4};
@@ -114,7 +114,7 @@ TEST_P(Biaxial, CarriesMohrCoulombsLoad) {
     const double K_p = 3.0;
     const double exact = (sigma_3 * (K_p - 1.0) + 2.0 * c * std::sqrt(K_p)) / sigma_3;
     const double found = limit_load(model, motion, confined, 0.5, 1e-4);
-    // Load steps of 1e-4; a step converges when 1e-5 of the load is out of balance.
+    // Load steps of 1e-4; a step converges when 1e-5 of the load is unbalanced.
     expect_error("plane strain: q / (sigma_3 (K_p - 1) + 2 c sqrt(K_p)) - 1",
                  std::abs(found / exact - 1.0), 1e-3);
 }
@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(Laws, Biaxial,
                                          Specimen{"drucker_prager", 15},
                                          Specimen{"drucker_prager", 30}));
 
-/// A smooth wall, 4 m high, that gives way by 2 cm: in Rankine's active state all soil yields at once,
-/// and goes on yielding.
+/// A smooth wall, 4 m high, that moves away by 2 cm: in Rankine's active state all soil yields at
+/// once and continues to yield.
 json active_wall(double phi_deg, double c_kPa, double psi_deg) {
     bench::Block block{.width = 6.0, .height = 4.0, .columns = 12, .rows = 8};
     block.density = 1800.0;
@@ -186,8 +186,8 @@ TEST(ActiveWall, GoesOnAtItsLimitState) {
     }
 }
 
-/// The scene as it was handed in, and its kind. Flow without dilatancy is not unique: round-off grows
-/// until bands appear, whose strength is less than Rankine's.
+/// A reported scene, and similar ones. Flow without dilatancy is not unique: round-off grows until
+/// bands appear, whose strength is less than Rankine's.
 TEST(ActiveWall, OfTheSceneThatStoppedGoesOnTo2Centimetres) {
     std::ifstream file(BREACH_ROOT "/tests/verification/fem/smooth_wall.json");
     const json as_handed_in = json::parse(file);

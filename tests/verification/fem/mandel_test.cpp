@@ -1,5 +1,5 @@
-// Mandel's problem: pressure first rises above its initial value, then falls; only a solver that
-// couples skeleton and water both ways shows it.
+// Mandel's problem: the pressure first rises above its initial value, then falls; needs full
+// coupling of skeleton and water.
 #include "tests/verification/fem/wet.hpp"
 
 namespace breach::fem::mandel_test {

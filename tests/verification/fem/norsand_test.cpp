@@ -1,5 +1,5 @@
-// NorSand in the mesh: an element gives what the point gives, its state survives a checkpoint, a
-// scene says what it cannot be.
+// NorSand in the mesh: an element equals the point, its state survives a checkpoint, and a scene
+// reports what is impossible.
 #include <cmath>
 
 #include "core/materials/norsand/undrained.hpp"
@@ -91,8 +91,8 @@ json wet_column(const std::string& element, double psi_0) {
     return scene;
 }
 
-// sigma_xx falls at constant sigma_yy, both total: the column fails where half their difference is
-// the peak of the law's own undrained path.
+// sigma_xx decreases at constant sigma_yy, both total: the column fails when half their difference
+// is the peak of the law's undrained path.
 TEST(NorSandInTheMesh, AWetColumnCollapsesAtThePeakOfThePoint) {
     for (const std::string kind : {"ssp", "bbar"}) {
         bench::Run run(wet_column(kind, 0.05));
@@ -110,10 +110,10 @@ TEST(NorSandInTheMesh, AWetColumnCollapsesAtThePeakOfThePoint) {
         for (const double ratio : {first.strength_ratio_avg, first.strength_ratio_min})
             expect_error(kind + ": s_u over sigma'_v0 of the column against the point's",
                          std::abs(ratio * 100e3 / s_u - 1.0), 1e-3);
-        // Between two looks the last one stands.
+        // Between two evaluations the last value stays.
         EXPECT_EQ(done.history.at(1).strength_ratio_avg, first.strength_ratio_avg);
         EXPECT_LT(done.history.back().strength_ratio_min, 0.9 * first.strength_ratio_min);
-        // Half the difference of the stresses that the stage lets act.
+        // Half the difference of the applied stresses.
         const double load = 0.5 * (30e3 + 70e3 * past / 20.0);
         expect_error(kind + ": load on a wet column past its peak, over s_u",
                      std::abs(load / s_u - 1.0), 0.02);
@@ -202,7 +202,7 @@ TEST(NorSandInTheMesh, LevelGroundRestsWithThePsiThatTheSceneGives) {
     }
 }
 
-/// Where the scene is refused; empty: it is not.
+/// Pointer of the fault; empty: accepted.
 std::string refused_at(const json& law) {
     try {
         bench::parse(bench::scene_of({.law = law}));

@@ -1,5 +1,5 @@
 // Skeleton and pore water: the element against an independent code, Terzaghi's consolidation, the
-// drained and undrained limits, a permeability contrast, hydrostatics, and what is refused.
+// drained and undrained limits, a permeability contrast, hydrostatics, refusals.
 #include <Eigen/LU>
 #include <fstream>
 #include <sstream>
@@ -20,7 +20,7 @@ TEST(Terzaghi, AgreesWithOpenSees) {
         std::string(BREACH_SHARED) + "/reference/opensees/elements/terzaghi.csv";
     std::ifstream in(file);
     if (!in) GTEST_SKIP() << "no reference at " << file;
-    const WetColumn column;  // the input of tcl/terzaghi.tcl, alpha too
+    const WetColumn column;  // input of tcl/terzaghi.tcl, with its alpha
     Model model = column.model();
     Fluid fluid = column.fluid(column.k);
     fluid.mobility.setConstant(column.k / 9810.0);
@@ -50,7 +50,8 @@ TEST(Terzaghi, AgreesWithOpenSees) {
     expect_error("settlement against OpenSees [m] (final 8.3e-2)", largest_u, 1e-7);
 }
 
-/// OpenSees' hourglass form (docs/reference/methods/up_element.md, section 3), to compare with its numbers.
+/// OpenSees' hourglass form (docs/reference/methods/up_element.md, section 3), to compare with its
+/// numbers.
 Matrix2 opensees_form(const Corners& x, double thickness) {
     Gradient natural;
     natural << -0.25, 0.25, 0.25, -0.25, -0.25, -0.25, 0.25, 0.25;
@@ -134,7 +135,7 @@ TEST(CoupledElement, StepsLikeAnIndependentCode) {
 
 TEST(Limits, UndrainedWaterCarriesTheLoadAndDrainedCarriesNone) {
     const double q = 1e5;
-    // Hardly permeable, short: one step of consolidation does not reach the base.
+    // Low permeability, short: one step of consolidation does not reach the base.
     WetColumn tight{.k = 1e-12};
     Model closed = tight.model();
     closed.water = bench::water_of(closed, {tight.fluid(tight.k)}, tight.H, Vec2::Zero());

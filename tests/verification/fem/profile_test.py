@@ -34,7 +34,7 @@ def main():
     passed &= int(iterations) == result["iterations"] == plain["iterations"]
     passed &= judge("printed parts and other against the whole, over it",
                     abs(sum(spent.values()) / spent["whole"] - 2.0), 0.01)
-    # Reading the scene, meshing, prediction and the start of the programme belong to no kind.
+    # Reading, meshing, prediction and start-up belong to no kind.
     passed &= judge("other over the whole", spent["other"] / spent["whole"], 0.2)
     passed &= judge("whole against seconds per step, over the whole",
                     abs(float(each) * int(steps) / spent["whole"] - 1.0), 0.01)

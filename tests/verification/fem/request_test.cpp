@@ -1,4 +1,4 @@
-// Snapshots that somebody asks for, or that come at an interval, leave the computation as it is.
+// Snapshots on request or at an interval do not change the computation.
 #include <algorithm>
 #include <cmath>
 #include <fstream>

@@ -1,4 +1,4 @@
-// A run that is stopped and resumed gives the same bits as one that is not.
+// A stopped and resumed run gives the same bits as an uninterrupted one.
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -47,7 +47,7 @@ void expect_same_snapshot(const std::filesystem::path& a, const std::filesystem:
     EXPECT_EQ(one.epsilon_q_plastic, two.epsilon_q_plastic);
 }
 
-/// fem_solver itself, stopped by SIGTERM once it has written its first snapshot.
+/// fem_solver itself, stopped by SIGTERM after its first snapshot.
 class Resume : public testing::TestWithParam<scene::Kinematics> {};
 
 TEST_P(Resume, GivesTheSameBitsAsAnUninterruptedRun) {
@@ -58,7 +58,7 @@ TEST_P(Resume, GivesTheSameBitsAsAnUninterruptedRun) {
                                 " --progress none --output " + folder.path().string();
     ASSERT_EQ(std::system((command + "/whole 2>/dev/null").c_str()), 0);
     const std::string stopped = folder.path().string() + "/stopped";
-    // The shell waits for the first snapshot, then asks the solver it started to stop.
+    // The shell waits for the first snapshot and then sends TERM to the solver.
     const std::string interrupt =
         command + "/stopped 2>/dev/null & p=$!; while [ ! -e " + stopped +
         "/snapshot_0.100000.vtkhdf ]; do sleep 0.005; done; kill -TERM $p; "
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(Kinematics, Resume,
                                         : "MovingMesh";
                          });
 
-/// As it is written in the dynamic stage.
+/// An archive of the dynamic stage.
 exchange::Archive archive_in_failure(bench::Run& run) {
     Kept kept = run.course();
     kept.position.stage = 1;

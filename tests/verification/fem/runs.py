@@ -1,4 +1,4 @@
-"""One run of fem_solver from Python: the scene's folder, overrides, what came out, and where two runs differ."""
+"""Runs fem_solver from Python: the scene's folder, overrides, outputs, and differences between two runs."""
 import json
 import subprocess
 

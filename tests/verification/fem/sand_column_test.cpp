@@ -1,6 +1,6 @@
 // 20 m of PM4Sand under water over rock (tcl/column_pm4.tcl of the OpenSees reference), shaken
-// until it liquefies: the r_u that every code must give, the effect of the time step and the law's
-// scheme, and OpenSees' own history beside it.
+// until it liquefies: r_u as in any code, the effect of time step and scheme, and OpenSees'
+// history.
 #include <cctype>
 #include <cmath>
 #include <fstream>
@@ -39,7 +39,7 @@ json layer(const char* name, double from, double to) {
             {"mesh", {{"type", "block"}, {"divisions", {1, std::lround(to - from)}}}}};
 }
 
-/// 0.3 g at 2 Hz as outcrop velocity, growing and fading over 2 s.
+/// 0.3 g at 2 Hz as outcrop velocity, with rise and decay over 2 s.
 void write_motion(const std::filesystem::path& file) {
     std::ofstream out(file);
     out << "time_s,velocity_m_s\n" << std::setprecision(12);
@@ -82,7 +82,7 @@ json scene_of(const std::filesystem::path& motion, double dt, const char* compat
                  {"time_step", dt}}}}}}};
 }
 
-/// Left and right side move and drain alike.
+/// Left and right side have the same motion and pressure.
 Model tied(Model model) {
     const auto& nodes = model.mesh.nodes;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -99,7 +99,7 @@ constexpr double levels[] = {17.5, 12.5, 6.5,
                              2.5};  // 2.5, 7.5, 13.5 m deep in tailings; foundation
 using Row = std::array<double, 4>;
 
-/// At the middle of elements: mean excess pressure of the corners over their mean sigma'_v0.
+/// At the centres of elements: mean excess pressure of the corners over their mean sigma'_v0.
 Row r_u(const exchange::MeshSnapshot& s) {
     Row row{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -114,12 +114,12 @@ Row r_u(const exchange::MeshSnapshot& s) {
     return row;
 }
 
-/// By how much the r_u of a node of the tailings stands above those of both its neighbours, one
-/// element up and down, or below both. The topmost node has no weight above it.
+/// How much the r_u of a node in the tailings exceeds, or falls below, those of both vertical
+/// neighbours. The topmost node has no weight above it.
 struct Alternation {
     double r_u = 0.0;      ///< the largest so far [-]
     double depth = 0.0;    ///< where [m]
-    double excess = 0.0;   ///< what it is in pressure [Pa]
+    double excess = 0.0;   ///< as pressure [Pa]
     double largest = 0.0;  ///< r_u of any node [-]
 
     void note(const exchange::MeshSnapshot& s, const std::vector<double>& excess_at) {
@@ -147,8 +147,8 @@ struct Alternation {
 
 struct Shaken {
     std::vector<Row> rows;
-    Alternation of_nodes;  ///< the unknowns themselves, of all times
-    Alternation as_read;   ///< what criteria, zones and monitors read: means of elements' means
+    Alternation of_nodes;  ///< nodal unknowns, at all times
+    Alternation as_read;  ///< as read by criteria, zones and monitors: averages of element averages
 };
 
 Shaken shaken_column(double dt, const char* compat, const char* integration = "full") {
@@ -196,14 +196,16 @@ TEST(SandColumn, LiquefiesAndKeepsItsPressureRatioWhenStepsAreHalved) {
     }
     double largest = 0.0;
     for (const Row& row : usual) largest = std::max(largest, row[0]);
-    // Mean stress stalls at about 1 kPa (docs/reference/methods/pm4sand.md, 7.2): 20 kPa vertically at 2.5 m.
+    // Mean stress stays at about 1 kPa (docs/reference/methods/pm4sand.md, 7.2): 20 kPa vertically
+    // at 2.5 m.
     expect_error("2.5 m deep: 1 less the largest r_u", std::abs(1.0 - largest), 0.15);
     expect_error("r_u with half the time step", apart(usual, shaken(1e-3, "corrected")), 0.03);
 }
 
 TEST(SandColumn, HasNodesWhoseRatioAlternatesAndMeansThatDoNot) {
-    // Rows of nodes in turn high and low are a gradient within each element: one point sees it as
-    // full integrals do, and only a softer alpha would hold it (docs/reference/methods/pore_pressure.md).
+    // Rows of nodes alternately high and low are a gradient within each element: one-point and full
+    // integrals see the same, and only a softer alpha would control it
+    // (docs/reference/methods/pore_pressure.md).
     for (const std::string integration : {"one_point", "full"}) {
         const Shaken column = shaken_column(2e-3, "corrected", integration.c_str());
         std::printf("    %s: at most %.1f kPa beyond both neighbours, %g m deep; means %.1f kPa\n",
@@ -238,8 +240,8 @@ std::vector<Row> of_opensees() {
 TEST(SandColumn, GainsPressureAsOpenSeesColumnDoes) {
     const auto theirs = of_opensees();
     ASSERT_EQ(theirs.size(), 4u * seconds);
-    // What is left between the two is alpha (theirs 2e-6 for every element) and that theirs knows a
-    // pressure by one point only.
+    // The remaining difference is due to alpha (theirs 2e-6 for every element) and their one-point
+    // pressure.
     expect_error("r_u, corrected against OpenSees' history",
                  apart(shaken(2e-3, "corrected"), theirs), 0.05);
 }

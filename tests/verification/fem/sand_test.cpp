@@ -1,5 +1,5 @@
-// PM4Sand in the mesh: an element gives what the point gives, the switch from the elastic stages
-// happens once, an impossible strain is refused, and a resumed run repeats every bit.
+// PM4Sand in the mesh: an element equals the point, the switch from elastic stages happens once, an
+// impossible strain is refused, and a resumed run repeats every bit.
 #include <cmath>
 #include <numbers>
 
@@ -82,8 +82,8 @@ TEST(SandInTheMesh, CountsTheStressThatDoesNotFit) {
     motion.points[0].sigma = Voigt(-20e3, -100e3, -36e3, 0.0);  // K_0 = 0.2 lies outside
     const StressBias bias = begin_memory(model, motion);
     EXPECT_EQ(bias.points, 1u);
-    // OpenSees moves this stress to 14.29 kPa less horizontally
-    // (docs/reference/methods/pm4sand_integration.md, 17); the nodes must not notice.
+    // OpenSees moves this stress by 14.29 kPa horizontally
+    // (docs/reference/methods/pm4sand_integration.md, 17); nodal forces must not change.
     EXPECT_GT(bias.largest, 1e3);
     expect_error("stress returned at the switch",
                  std::abs(motion.points[0].sigma[0] + 20e3) / 100e3, 1e-12);

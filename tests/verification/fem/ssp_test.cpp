@@ -155,8 +155,8 @@ TEST(SspQuad, CarriesGravityLikeTheFullQuad) {
     expect_error("vertical stress at the centres, exact for a column", error, 1e-6);
 }
 
-/// One element, base fixed, top nodes moved in opposite directions: pure hourglassing in x beside a
-/// shear that makes the soil yield.
+/// One element, base fixed, top nodes moved in opposite directions: pure hourglass mode in x, with
+/// a shear that makes the soil yield.
 TEST(SspQuad, SoftensWithTheSoilAndItsForceStaysContinuous) {
     const json soil = {
         {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 10}, {"phi_deg", 0}};

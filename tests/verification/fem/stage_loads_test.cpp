@@ -1,4 +1,5 @@
-// What a stage does to parts of the body alone: softening by region, forces on nodes, creep; against closed forms.
+// Stage actions on parts of the body: softening by region, nodal forces, creep; against closed
+// forms.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,7 +20,7 @@ constexpr double E = 20e6, nu = 0.3, q = 50e3;
 constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));  // one-dimensional [Pa]
 constexpr double G = E / (2.0 * (1.0 + nu));
 
-/// A block on a smooth base and, at its left, a smooth wall: free to widen.
+/// A block on a smooth base and with a smooth wall at its left, free to widen.
 json free_block(bench::Block block, const std::string& element) {
     json scene = bench::scene_of(block);
     json& supports = scene["fem"]["supports"];
@@ -97,7 +98,7 @@ TEST(Loads, OfAPondEndAtItsShore) {
         scene["fem"]["water"] = {{"line", {{0, level}}}, {"density", 1000}};
         return sum_of_loads(scene).force;
     };
-    // The shore lies at x = 3, the pond is 2.5 m deep at x = 8.
+    // The shore is at x = 3, the pond 2.5 m deep at x = 8.
     const Vec2 pond = under(4.5) - under(0.0);
     EXPECT_NEAR(pond.y(), -10e3 * 0.5 * 5.0 * 2.5, 1e-3);
     EXPECT_NEAR(pond.x(), -10e3 * 0.5 * 2.5 * 2.5, 1e-3);
@@ -154,7 +155,7 @@ TEST(NodeForces, WhatCannotActIsRefusedWithItsPlace) {
 }
 
 TEST(DisplacedEdges, ThrustHasAllThatTheSupportBeforeGave) {
-    // 50 kPa on top between smooth walls; then the left one is driven in twice, 1 mm each time.
+    // 50 kPa on top between smooth walls; then the left one is moved in twice by 1 mm.
     constexpr double at_rest = nu / (1.0 - nu) * q, per_metre = E / (1.0 - nu * nu);
     const json drive = {{{"name", "wall"}, {"from", {0, 0}}, {"to", {0, 1}}, {"x", 1e-3}}};
     json scene = bench::scene_of(
@@ -239,8 +240,8 @@ TEST(Creep, AHeldBlockTakesStressInstead) {
     }
 }
 
-/// A pillar of clay (c = 16 kPa) and a column of undrained CJ1 side by side under a stiff cap, 100 kPa from
-/// above and 70 from the side; then the pillar creeps, and its load goes to the column.
+/// A pillar of clay (c = 16 kPa) and a column of undrained CJ1 side by side under a stiff cap, 100
+/// kPa from above and 70 from the side; the pillar creeps, and its load moves to the column.
 json pillar_and_column(double psi_0, const json& creep) {
     constexpr double G_soil = 30e6, nu_soil = 0.7 / 1.7;
     json scene = free_block({.width = 1.0, .height = 6.0, .rows = 6, .gravity = 0.0}, "ssp");
@@ -313,7 +314,7 @@ TEST(Creep, OfARegionThatIsNotThereIsRefused) {
     EXPECT_EQ(refused("clay"), "/fem/stages/0/creep/clay");
 }
 
-/// A saturated column of CJ1, two regions of 2 m, each of its own material; pressed in motion.
+/// A saturated column of CJ1, two regions of 2 m, each of its own material, compressed dynamically.
 json two_soils(double S_low, double S_top, const json& S_of_stage) {
     json scene = bench::scene_of({.height = 2.0, .rows = 2, .law = cj1(0.03)});
     json& region = scene["section"]["regions"][0];

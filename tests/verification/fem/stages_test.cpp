@@ -1,5 +1,5 @@
-// Stages that change the body, against closed forms of an elastic column: a lift, an excavation, a
-// surcharge, the removal of a support; and stages that are refused.
+// Stages that change the body, against closed forms of an elastic column: lift, excavation,
+// surcharge, removal of a support; and refused stages.
 #include <cmath>
 
 #include "core/exchange/excess_pressure.hpp"
@@ -47,7 +47,8 @@ TEST(Stages, ALiftOnAnElasticColumnSettlesItAsTheClosedFormSays) {
         const double own = rho * g * 16.0 / (2.0 * M), lift = rho * g * 2.0 * 4.0 / M;
         expect_error(kind + ": settlement of the ground under a lift",
                      std::abs(-u_at(done, {1, 4}).y() / (own + lift) - 1.0), 1e-8);
-        // The lift came without stress: its top settles with the ground and under its own weight.
+        // The lift is placed without stress: its top settles with the ground and under its own
+        // weight.
         const double of_lift = rho * g * 4.0 / (2.0 * M);
         expect_error(kind + ": settlement of the lift's top",
                      std::abs(-u_at(done, {1, 6}).y() / (lift + of_lift) - 1.0), 1e-8);
@@ -72,7 +73,7 @@ TEST(Stages, ALiftThatClosesAGapRestsOnBothSidesAndTheBase) {
     const auto force_of = [&](std::size_t node) {
         return done.motion.force.segment<2>(static_cast<Eigen::Index>(2 * node));
     };
-    // The base's own nodes bear their share of the weight as well, which is no force of the soil.
+    // The base's nodes carry their share of the weight, which is no force of the soil.
     Vec2 borne = Vec2::Zero();
     for (std::size_t i = 0; i < done.model.mesh.nodes.size(); ++i) {
         if (done.model.mesh.nodes[i].y() == 0.0) continue;
@@ -83,7 +84,8 @@ TEST(Stages, ALiftThatClosesAGapRestsOnBothSidesAndTheBase) {
                  (borne - Vec2(0.0, -above)).norm() / above, 1e-8);
     expect_error("left and right settle alike",
                  std::abs(u_at(done, {0.5, 4}).y() / u_at(done, {2.5, 4}).y() - 1.0), 1e-8);
-    // Before, both leaned into the gap; what fills it settles less than a column of its own.
+    // Before, both columns leaned into the gap; the soil filling it settles less than a separate
+    // column.
     const double alone = rho * g * 16.0 / (2.0 * M);
     EXPECT_GT(-u_at(done, {1.5, 4}).y(), 0.2 * alone);
     EXPECT_LT(-u_at(done, {1.5, 4}).y(), 1.5 * alone);
@@ -121,7 +123,7 @@ TEST(Stages, ASurchargeCompressesTheColumnAndGoesAgain) {
 }
 
 TEST(Stages, ARemovedSupportGivesItsReactionBack) {
-    // Without gravity: a load on the top, smooth walls; then the right wall goes.
+    // Without gravity: a load on top, smooth walls; then the right wall is removed.
     json scene = column(
         {static_stage("load", {{"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", 50}}}}}),
          static_stage("release", {{"release", {"right"}}, {"load_steps", 2}})});
@@ -164,7 +166,8 @@ TEST(Stages, ARisingPhreaticLineHeavesTheGroundAsTheClosedFormSays) {
         expect_error(kind + ": settlement after it fell",
                      std::abs(-u_at(fallen.go(), {1, 6}).y() / (own - heave(2)) - 1.0), 1e-8);
     }
-    // A pond of 3 m loads what its water lifts: the soil is as under water up to the ground.
+    // A pond of 3 m loads the soil with its weight: the effective stress is that with water at the
+    // ground.
     bench::Run pond(
         column_with_water({static_stage("gravity"), static_stage("pond", line_at(9))}, 1.0));
     const Course& under = pond.go();
@@ -174,8 +177,8 @@ TEST(Stages, ARisingPhreaticLineHeavesTheGroundAsTheClosedFormSays) {
                  std::abs(under.motion.p[0] / (of_water * 9.0) - 1.0), 1e-12);
 }
 
-// Pore pressure is hydrostatic all along: what is placed or dug below water weighs what it is
-// heavier than water.
+// Pore pressure stays hydrostatic: soil placed or excavated below water counts with its buoyant
+// weight.
 TEST(Stages, SoilPlacedOrDugBelowWaterCountsByItsBuoyantWeight) {
     constexpr double rho_w = 1000.0, of_soil = (rho - rho_w) * g;
     const double own = of_soil * 16.0 / (2.0 * M);  // of the lower 4 m
@@ -205,7 +208,7 @@ TEST(Stages, SoilPlacedOrDugBelowWaterCountsByItsBuoyantWeight) {
             expect_error(where + ": pore pressure at the base",
                          std::abs(done.motion.p[0] / (rho_w * g * level) - 1.0), 1e-12);
         }
-        // What the water was under its own weight it stays: below 4 m it fills the pit.
+        // The water stays as it is: below 4 m it fills the pit.
         for (const double level : {5.0, 7.0}) {
             bench::Run dug(column_of(dig, level));
             const Course& done = dug.go();
@@ -245,8 +248,8 @@ TEST(Stages, SoilThatIsGoneCountsInNoShareOfSoftenedSoil) {
     EXPECT_NEAR(reading.softened_share, 1.0, 1e-12);
 }
 
-/// A bank 4 m wide and high whose pit beside has been dug; elements of 1 m: the base's 16, the bank's
-/// 16, the pit's 16. All below water.
+/// A bank 4 m wide and high beside an excavated pit; elements of 1 m: 16 of the base, 16 of the
+/// bank, 16 of the pit. All below water.
 class BesideAPit : public testing::Test {
   protected:
     static json scene() {
@@ -362,7 +365,8 @@ TEST(Stages, NorSandAnswersAPhreaticRiseDrained) {
     ASSERT_EQ(done.motion.memory.size(), 2u);
 }
 
-/// A free-standing column of clay (c = 20 kPa, phi = 0) that carries 2 c = 40 kPa, under `pressure`.
+/// A free-standing column of clay (c = 20 kPa, phi = 0) with the strength 2 c = 40 kPa, under
+/// `pressure`.
 json clay_column(double pressure_kPa, double ramp) {
     json scene = column(
         {static_stage("load",
@@ -392,7 +396,7 @@ TEST(Stages, AStaticLimitPointIsAnEventAndTheFailureRunsInMotion) {
     ASSERT_TRUE(limit.is_number());
     expect_error("load at the limit point, over 2 c / q", std::abs(limit.get<double>() / 0.5 - 1.0),
                  2e-3);
-    // Failure is growing kinetic energy: 40 kPa push what nothing carries.
+    // Failure is growing kinetic energy: 40 kPa are unbalanced.
     const auto& rows = failed.history;
     ASSERT_GT(rows.size(), 4u);
     EXPECT_GT(rows.back().kinetic_energy, 4.0 * rows.at(rows.size() / 2).kinetic_energy);
@@ -404,7 +408,7 @@ TEST(Stages, AStaticLimitPointIsAnEventAndTheFailureRunsInMotion) {
     EXPECT_LT(stood.history.back().kinetic_energy, 1e-6 * rows.back().kinetic_energy);
 }
 
-/// A column of clay, elastic, that a load sets in motion; `later` follows after 0.1 s.
+/// An elastic clay column set in motion by a load; `later` follows after 0.1 s.
 json falling_column(double duration, const json& later = nullptr) {
     json scene = column({static_stage("gravity"),
                          {{"type", "dynamic"},
@@ -459,7 +463,7 @@ TEST(Stages, ARampOfALoadInAMotionIsTheSumOfBoth) {
         return json{{"ramp", 0.1},
                     {"surcharge", {{{"from", -1}, {"to", 2}, {"pressure_kPa", pressure_kPa}}}}};
     };
-    // Linear: what a further load adds does not ask what moves already.
+    // Linear: the effect of a further load does not depend on the present motion.
     json at_rest = falling_column(0.1, later_stage(0.2, load(20)));
     at_rest["fem"]["stages"][1].erase("surcharge");
     const Eigen::VectorXd added = end_of(at_rest);

@@ -55,7 +55,7 @@ def main():
     print(f"    powers of the dial: {', '.join(f'{power:.2f}' for power in powers)}")
     passed = judge("power of the dial over three decades against 2/3",
                    abs(math.log10(errors[0] / errors[-1]) / 3 - 2 / 3), 0.15)
-    # Steps are halved and doubled, so one decade alone may fall anywhere near.
+    # Steps are halved and doubled, so a single decade may deviate.
     passed &= judge("2/3 less the least power of a decade", 2 / 3 - powers.min(), 0.35)
     return 0 if passed & judge("error with the finest dial, over the crest's travel", errors[-1] / 0.016, 2e-3) else 1
 

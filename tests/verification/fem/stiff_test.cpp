@@ -1,4 +1,4 @@
-// Stiff and extreme cases: the right answer or a clear stop.
+// Stiff and extreme cases: the right result or a clear stop.
 #include <cmath>
 
 #include "tests/verification/fem/bench.hpp"
@@ -49,15 +49,15 @@ TEST(Extreme, StiffnessContrastOfAMillionGivesTheExactColumn) {
     scene["fem"]["supports"][2]["from"][1] = scene["fem"]["supports"][2]["to"][1] = -5;
     bench::Run run(scene);
     const double M = mechanics::Elasticity{1e6, 0.3}.constrained_modulus();
-    // The rock's own 5 m shorten by 3e-6 of the soil's settlement.
+    // The rock's 5 m shorten by 3e-6 of the soil's settlement.
     expect_error("settlement on rock a million times stiffer", settlement_error(run.go(), 5.0, M),
                  5e-6);
 }
 
 TEST(Extreme, ATimeStepAHundredTimesTooLargeStaysBounded) {
-    // Elastic column pushed off its rest by switching gravity on at once: dt = 100 times a wave's
-    // way through an element. Newmark with gamma 0.6 damps what it cannot resolve, so the end is
-    // the static settlement.
+    // Elastic column under sudden gravity: dt = 100 times the wave's travel time through an
+    // element. Newmark with gamma 0.6 damps what it cannot resolve, so that the column ends in
+    // static settlement.
     const double h = 0.5, c = mechanics::Elasticity{20e6, 0.3}.wave_speed(2000.0);
     bench::Block block{.width = 1.0, .height = 10.0, .columns = 1, .rows = 20};
     block.stages = json::array({dynamic_stage(400.0 * 100.0 * h / c, 100.0 * h / c)});
@@ -98,8 +98,7 @@ TEST(Extreme, NothingDriftsInALongRest) {
     block.gravity = 9.81;
     block.law["phi_deg"] = 35;
     bench::Run heavy(bench::scene_of(block));
-    // Newton may leave 1e-6 of the weight out of balance, which is worth 1e-6 of the settlement of
-    // 4 cm.
+    // Newton may leave 1e-6 of the weight unbalanced, which is 1e-6 of the settlement of 4 cm.
     expect_error("displacement after 100 s in equilibrium [m]",
                  heavy.go().motion.u.lpNorm<Eigen::Infinity>(), 4e-8);
 }

@@ -45,7 +45,7 @@ def command(scene_file, output, *more):
 
 
 def signalled(stage, number, scene_file, output, *more):
-    """Sends the signal after the stage's tenth step of load."""
+    """Sends the signal after the stage's tenth load step."""
     process = subprocess.Popen(command(scene_file, output, *more), stderr=subprocess.PIPE, text=True)
     within, steps = False, 0
     for line in process.stderr:
@@ -59,7 +59,7 @@ def signalled(stage, number, scene_file, output, *more):
 
 
 def stop_in(stage, number, scene_file, output, *more):
-    """The same; once more from where it was, if it was over before the signal came (on a busy machine it can be)."""
+    """The same; repeats from its beginning if the stage ended before the signal (on a busy machine)."""
     before = output.with_name("before")
     if output.exists():
         shutil.copytree(output, before)

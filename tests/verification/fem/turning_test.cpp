@@ -1,4 +1,4 @@
-// Updated Lagrangian kinematics: stresses turn with the body, exactly and without growing.
+// Updated Lagrangian kinematics: stresses rotate with the body, exactly and without growing.
 #include <Eigen/Geometry>
 #include <cmath>
 #include <functional>
@@ -27,7 +27,7 @@ TEST(MovingMesh, TurnsStressExactlyWithARigidRotation) {
     const Voigt sigma(-100e3, -300e3, -120e3, 40e3);
     Motion motion = at_rest(model), trial = motion;
     for (State& point : motion.points) point.sigma = sigma;
-    constexpr int steps = 8;  // 11.25 degrees each: a large angle is no approximation
+    constexpr int steps = 8;  // 11.25 degrees each: also exact for large angles
     const double angle = 0.5 * pi / steps;
     for (int n = 1; n <= steps; ++n) {
         const mechanics::Matrix2 R = Eigen::Rotation2Dd(n * angle).toRotationMatrix();
@@ -73,7 +73,7 @@ TEST(MovingMesh, AddsLogarithmicStrainsInExtension) {
 const nlohmann::json laws_with_memory = nlohmann::json::array(
     {{{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}}, bench::cj1(0.05)});
 
-/// An element under the stress of level ground on a moving mesh, sheared to and fro while it turns.
+/// An element under level-ground stress on a moving mesh, sheared cyclically while it rotates.
 struct TurningElement : bench::BegunElement {
     explicit TurningElement(const nlohmann::json& law)
         : BegunElement(moving(law), Voigt(-70e3, -100e3, -70e3, 0.0)) {}
@@ -88,7 +88,7 @@ struct TurningElement : bench::BegunElement {
             move([&](const Vec2& x) -> Vec2 { return R * (x + Vec2(gamma * x.y(), 0.0)) - x; }),
             Geometry::sound);
     }
-    /// Stress in the axes of the body, after a path of so many steps.
+    /// Stress in the axes of the body after a path of `steps` steps.
     Voigt stress_after(int steps, const std::function<double(double)>& angle_at) {
         for (int n = 1; n <= steps; ++n) {
             const double part = static_cast<double>(n) / steps;
@@ -103,7 +103,7 @@ TEST(MovingMesh, TurnsWhatLawsRememberExactlyWithARigidRotation) {
     for (const nlohmann::json& law : laws_with_memory) {
         const std::string name = law.at("type");
         const Voigt expected = TurningElement(law).stress_after(300, upright);
-        // Halfway, between two strains, by a quarter turn.
+        // A quarter turn between two strains.
         TurningElement turned(law);
         const Voigt reached = [&] {
             for (int n = 1; n <= 150; ++n) turned.go(4e-3 * std::sin(3.0 * pi * n / 300), 0.0);
@@ -114,7 +114,7 @@ TEST(MovingMesh, TurnsWhatLawsRememberExactlyWithARigidRotation) {
         }();
         expect_error(name + " sheared, turned a quarter, sheared on: stress",
                      (reached - expected).norm() / expected.norm(), 1e-8);
-        // All the while: strain and rotation of a step are those of its middle, of second order.
+        // Simultaneous: strain and rotation of a step are those at its middle, second order.
         const auto turning = [](double part) { return 0.5 * pi * part; };
         const auto error = [&](int steps) {
             return (TurningElement(law).stress_after(steps, turning) -

@@ -1,5 +1,5 @@
-// Static stages in which no water flows, against closed forms and the law's own point; NorSand's
-// collapse in a shear column and in biaxial compression.
+// Static stages without flow, against closed forms and the law's point; NorSand's collapse in a
+// shear column and in biaxial compression.
 #include <algorithm>
 #include <cmath>
 
@@ -64,7 +64,7 @@ TEST(Undrained, AnElasticColumnIsHeldByItsWaterAndSettlesWhenItDrains) {
     }
 }
 
-/// A model with sides that move alike: ground of unlimited extent.
+/// A model with tied sides: ground of unlimited extent.
 Model endless(const scene::Scene& scene) {
     Model model = bench::model_of(scene);
     const Mesh& mesh = model.mesh;
@@ -79,7 +79,7 @@ Model endless(const scene::Scene& scene) {
     return model;
 }
 
-/// Runs a scene whose sides move alike.
+/// Runs a scene with tied sides.
 struct EndlessRun {
     bench::Folder folder;
     process::Session session;
@@ -159,7 +159,7 @@ json shear_column(double k_h, int rows, double stabilisation, double duration) {
     return scene;
 }
 
-// tau = k_h rho g z, sigma'_v0 = (rho - rho_w) g z: at every depth the same ratio.
+// tau = k_h rho g z, sigma'_v0 = (rho - rho_w) g z: the ratio is constant with depth.
 constexpr double peak_ratio = 0.253556;  // docs/reference/methods/norsand.md, section 15, S = 1
 constexpr double k_peak = peak_ratio * (rho - rho_w) / rho;
 
@@ -273,7 +273,7 @@ TEST(StageLoads, ALocalOverpressureComesAndGoes) {
         "ssp");
     const auto settled = [H](const Course& done) { return -u_at(done, {1, H}).y(); };
     const double own = (rho - rho_w) * g * H * H / (2.0 * M);
-    bench::Run run(scene);  // the excess falls along a straight line from the base to the ground
+    bench::Run run(scene);  // the excess falls linearly from the base to the ground
     expect_error("settlement under an overpressure of 4 m of water at the base",
                  std::abs(settled(run.go()) / (own - rho_w * g * head * H / (2.0 * M)) - 1.0),
                  1e-8);
@@ -304,7 +304,7 @@ TEST(StageLoads, PsiOverDepthBeginsEachPointWithItsOwn) {
         scene["fem"]["force_tolerance"] = 1e-9;
         bench::Run run(scene);
         const Course& done = run.go();
-        // Rows at 0.5, 1.5, 2.5, 3.5 m from the base; held beyond the table, straight within.
+        // Rows at 0.5, 1.5, 2.5, 3.5 m from the base; constant beyond the table, linear within.
         const std::vector<double> from_first{0.05, 0.03, -0.01, -0.03};
         for (std::size_t e = 0; e < 4; ++e)
             expect_error(by + ": psi in row " + std::to_string(e),

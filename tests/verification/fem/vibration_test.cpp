@@ -81,8 +81,8 @@ TEST(ElasticWave, ConvergesWithOrderTwoInTheMesh) {
 }
 
 TEST(ElasticWave, HasTheFrequencyOfTheColumn) {
-    // A quarter period after a whole number of periods the top is at its largest; a period later
-    // the phase error has grown to 2 pi n (error of the frequency), seen where the displacement
+    // A quarter period after a whole number of periods the top is at its maximum; a period later
+    // the phase error has grown to 2 pi n (error of the frequency), visible where the displacement
     // crosses zero.
     const int periods = 10;
     const double end = periods * 2.0 * pi / omega();

@@ -1,5 +1,5 @@
-// Viscosity beside the laws: a column that settles as the damped modes of a bar say, Bingham flow
-// between rough walls, and a ledger that closes.
+// Additional viscosity: a column settles like the damped modes of a bar, Bingham flow between rough
+// walls, and the energy balance.
 #include "fem_solver/solve/viscosity.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -22,7 +22,7 @@ json dynamic_stage(double duration, double time_step) {
         {"type", "dynamic"}, {"name", "flow"}, {"duration", duration}, {"time_step", time_step}};
 }
 
-// ---- a column between smooth walls on which gravity is put at once
+// ---- a column between smooth walls under sudden gravity
 
 constexpr double H = 10.0, rho = 2000.0, E = 20e6, nu = 0.3;
 
@@ -42,7 +42,7 @@ json column(const char* element, double eta, double duration, double dt) {
 }
 
 /// Settlement of its top: modes of the bar rho u'' = M u_yy + (4/3) eta u'_yy - rho g, each with
-/// the roots of s^2 + (4 eta / 3 M) w^2 s + w^2 = 0, real ones where the viscosity rules.
+/// the roots of s^2 + (4 eta / 3 M) w^2 s + w^2 = 0, real if the viscosity dominates.
 double settlement(double t, double eta) {
     const double M = mechanics::Elasticity{E, nu}.constrained_modulus();
     double left = 0.0;
@@ -58,7 +58,7 @@ double settlement(double t, double eta) {
     return rho * g * H * H / (2.0 * M) - left;
 }
 
-/// Largest difference of the top's course from it, over the static settlement or what it came to.
+/// Largest error of the top's displacement, over the static or the largest settlement.
 double course_error(const char* element, double eta, double duration, double dt) {
     bench::Run run(column(element, eta, duration, dt));
     double worst = 0.0, largest = 0.0;
@@ -98,12 +98,12 @@ TEST(Viscosity, StepsAThousandTimesTooLargeEndAtTheStaticSettlement) {
                  1e-3);
 }
 
-// ---- soil with the strength c that falls between two rough walls
+// ---- soil with the strength c that flows down between two rough walls
 
 constexpr double half_width = 1.0, c = 300.0, eta_of_flow = 2000.0, gravity = 1.0, density = 1000.0;
 
 json channel(const char* element) {
-    // One row whose nodes cannot move across: every height falls alike.
+    // One row whose nodes cannot move sideways: all heights move equally.
     bench::Block block{
         .width = 2.0 * half_width, .height = 0.1, .columns = 20, .rows = 1, .gravity = gravity};
     block.density = density;
@@ -134,7 +134,7 @@ double steady(double x) {
            c / eta_of_flow * (half_width - sheared);
 }
 
-/// Largest difference of a node's velocity from it, over the fastest.
+/// Largest error of a node's velocity, over the fastest.
 double velocity_error(const Course& a) {
     const Mesh& mesh = a.model.mesh;
     double worst = 0.0;
@@ -150,7 +150,7 @@ TEST(Viscosity, FlowsOnTheMovingMeshAsOnTheOtherOne) {
         json scene = channel(element);
         scene["fem"]["kinematics"] = "updated_lagrangian";
         bench::Run run(scene);
-        // The turning stress leaves the wall's direction by c / G = 0.4 %.
+        // The rotating stress deviates from the wall's direction by c / G = 0.4 %.
         expect_error(std::string(element) + ", moving mesh, velocities over the fastest",
                      velocity_error(run.go()), 5e-3);
     }
@@ -160,7 +160,7 @@ TEST(Viscosity, SoilOfYieldStrengthFallsAsBinghamSays) {
     for (const char* element : {"bbar", "ssp"}) {
         bench::Run run(channel(element));
         const Course& a = run.go();
-        // Nodes of the exact parabola are exact, and the plug's edge is a node.
+        // Nodal values of the exact parabola are exact, and the plug's edge is a node.
         expect_error(std::string(element) + ", velocities over the fastest", velocity_error(a),
                      1e-6);
         double open = 0.0;

@@ -1,5 +1,5 @@
-// Waves from below: a Ricker pulse through a layer over a half-space, and the factor between
-// outcrop and up-going motion.
+// Incident waves: a Ricker pulse through a layer over a half-space, and the factor between outcrop
+// and upgoing motion.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -23,7 +23,7 @@ double ricker(double t) {
     return amplitude * (1.0 - 2.0 * a) * std::exp(-a);
 }
 
-/// A shear column over rock, as a scene: every u_y held, so left and right move alike without
+/// A shear column over rock, as a scene: all u_y fixed, so both sides have the same motion without
 /// ties.
 json column(const std::filesystem::path& motion, const char* at, double V_base, double rho_base) {
     const double G = rho * V_s * V_s, nu = 0.3;
@@ -66,8 +66,8 @@ std::filesystem::path pulse_in(const bench::Folder& folder) {
     return file;
 }
 
-/// The phase itself runs the scene; the base's velocity follows from what it radiates: a second run
-/// monitors it.
+/// The phase runs the scene; a second run monitors the base, whose velocity follows from the
+/// radiation.
 Histories shake(const char* at, double V_base, double rho_base) {
     const bench::Folder folder;
     const auto file = pulse_in(folder);
@@ -94,8 +94,8 @@ Histories shake(const char* at, double V_base, double rho_base) {
 /// sum R^n ... of both travel directions.
 double exact_surface(double t, double a) {
     const double travel = H / V_s, T = 1.0 / (1.0 + a), R = (1.0 - a) / (1.0 + a);
-    // The up-going wave v/2 is transmitted with 2/(1 + a), doubled at the surface, and comes back
-    // from the base with -R (softer over stiffer).
+    // The upgoing wave v/2 is transmitted with 2/(1 + a), doubled at the surface, and reflected at
+    // the base with -R (softer over stiffer).
     double v = 0.0, strength = 2.0 * T;
     for (int n = 0; n < 60; ++n, strength *= -R) v += strength * ricker(t - (2 * n + 1) * travel);
     return v;

@@ -1,5 +1,4 @@
-// Wet columns and steps on them for the tests of pore water: as scenes, and as models beyond what
-// scenes can describe.
+// Wet columns for tests of pore water: as scenes, and as models that scenes cannot describe.
 #pragma once
 
 #include <cmath>
@@ -21,9 +20,9 @@ struct WetColumn {
 
     double modulus() const { return E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)); }
     double porosity() const { return void_ratio / (1 + void_ratio); }
-    /// 1/M + n/K_f: what one pascal of pressure lets in [1/Pa].
+    /// 1/M + n/K_f: volume of water per volume of soil and pressure [1/Pa].
     double storage() const { return 1.0 / modulus() + porosity() / K_f; }
-    /// Pressure that a load of 1 Pa brings at once [-].
+    /// Initial pressure due to a load of 1 Pa [-].
     double share() const { return 1.0 / (modulus() * storage()); }
     static constexpr double unit_weight = 1000.0 * 9.80665;
     double time_of(double T_v) const { return T_v * H * H * storage() * unit_weight / k; }
@@ -64,7 +63,7 @@ inline PoreWater water_of(const Model& model, std::vector<std::optional<Fluid>> 
     return build_pore_water(model, std::move(wetness));
 }
 
-/// Steps of one model outside an analysis.
+/// Steps of a model without analysis.
 struct Steps {
     Model model;
     Seconds seconds;

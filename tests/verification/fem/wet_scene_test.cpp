@@ -1,5 +1,5 @@
 // Pore water through scenes: Terzaghi, hydrostatics under gravity, ponded ground, free-field
-// columns, rest, and what is refused.
+// columns, rest, refusals.
 #include <fstream>
 #include <functional>
 
@@ -84,7 +84,7 @@ TEST(Terzaghi, HoldsWithWaterAThousandTimesSofterThanTheSkeleton) {
             expect_error(std::string(element) + ", K_f/n 1e-3 M: |p - Terzaghi| / p_0 at T_v " +
                              std::to_string(T_v),
                          soft.error, 0.01);
-            // Water that takes a thousandth of the load leaves the skeleton its settlement.
+            // Water that takes a thousandth of the load does not change the skeleton's settlement.
             expect_error("... settlement against the drained one", std::abs(soft.settlement - 1.0),
                          1e-3);
         }
@@ -95,8 +95,8 @@ struct Newmarks {
     double beta, gamma;
 };
 
-/// A load put on in 10 s with short steps, then steps 1.6e5 times as long: the velocity at the ramp's
-/// end is none that lasts.
+/// A load applied over 10 s with short steps, then steps 1.6e5 times as long: the velocity at the
+/// end of the ramp must not be extrapolated.
 Consolidated behind_a_ramp(WetColumn column, const Newmarks& newmark) {
     const double end = column.time_of(0.1), q = 1e5;
     json load = dynamic_stage("load", 10.0, 0.5);
@@ -114,7 +114,7 @@ Consolidated behind_a_ramp(WetColumn column, const Newmarks& newmark) {
     std::printf("    %lld steps\n", static_cast<long long>(a.position.step));
     const auto base = static_cast<Eigen::Index>(nearest_node(a.model.mesh, {0.0, 0.0}));
     const double p = (a.motion.p[base] - a.beginning.p[base]) / (q * column.share());
-    // Settlement: 1 - mean p / p_0 of the drained one, sqrt(4 T_v / pi) while T_v < 0.2.
+    // Settlement relative to the drained one: 1 - mean p / p_0, sqrt(4 T_v / pi) for T_v < 0.2.
     const double settled = bench::u_at(a, {0.0, column.H}).y() / (-q * column.H / column.modulus());
     return {std::abs(p - terzaghi(0.0, column.H, 0.1)),
             settled - (1.0 - column.share() * (1.0 - std::sqrt(0.4 / std::numbers::pi)))};
@@ -136,7 +136,7 @@ TEST(Terzaghi, IsMetByLongStepsBehindAShortRamp) {
     }
 }
 
-/// Loaded at once; a snapshot is asked for a little after the `at`th step.
+/// Loaded at once; a snapshot is requested shortly after step `at`.
 Consolidated with_snapshot(WetColumn column, const Newmarks& newmark, std::optional<double> at) {
     const double end = column.time_of(0.2), step = end / 100, q = 1e5;
     column.stages = json::array({dynamic_stage("consolidation", end, step)});
@@ -159,7 +159,7 @@ TEST(Snapshots, OffTheGridOfStepsLeaveTheResultsAsTheyAre) {
             const WetColumn column{.element = element};
             const Consolidated without = with_snapshot(column, newmark, std::nullopt);
             for (const double at : {0.005, 0.02, 0.06, 1.06}) {
-                // Without damping the pressure keeps on ringing from a first step that is short.
+                // Without damping, the pressure oscillates permanently after a short first step.
                 if (newmark.gamma == 0.5 && at < 1.0) continue;
                 const Consolidated now = with_snapshot(column, newmark, at);
                 const std::string what = std::string(element) + ", gamma " +
@@ -232,8 +232,8 @@ json drawn_line(const char* element, const char* above, const json& line) {
     return scene;
 }
 
-/// Largest |p - rho_f g depth| of the nodes and largest difference of an element's mean sigma'_v from
-/// its closed form, away from the sides by `margin`, over 98.1 kPa.
+/// Largest |p - rho_f g depth| of the nodes and largest difference of an element's mean sigma'_v
+/// from its closed form, away from the sides by `margin`, over 98.1 kPa.
 struct Drawn {
     double p, sigma;
 };
@@ -287,7 +287,8 @@ TEST(PhreaticLine, ThatSlopesIsTakenAsDrawn) {
                 drawn_line(element, above, {{0, 8.5}, {20, 6.5}}),
                 [](double x) { return 8.5 - 0.1 * x; }, 6.0);
             expect_error(std::string(element) + ", " + above + ", 1 in 10: p", now.p, 1e-8);
-            // The sides take the difference of the water's thrust: they shift the weight beside them.
+            // The sides carry the difference of the water's thrust, which shifts the weight beside
+            // them.
             expect_error("... mean sigma'_v", now.sigma, 0.01);
         }
     }
@@ -356,8 +357,8 @@ std::filesystem::path pulse(const bench::Folder& folder) {
     return file;
 }
 
-// Level ground has no dam: the columns alone are the whole of it, and their base is the mesh's. What is left is
-// Newton's tolerance.
+// Level ground has no dam: its columns are the whole model, and their base is the mesh's. Only
+// Newton's tolerance remains.
 TEST(FreeField, TheColumnsAloneMoveTheBaseOfLevelGroundAsTheMeshDoes) {
     const bench::Folder folder;
     json scene = level_ground(1e4, pulse(folder));
@@ -396,8 +397,8 @@ TEST(FreeField, WithoutColumnsNothingIsKnownOfTheFreeGround) {
 }
 
 // The stress on the body's vertical side pulls the column; the column's inner side, counted once
-// for the body, takes it up. Without that the middle differs by 1e-6 at 1e2, 1e-8 at 1e4
-// (measured). What is left is Newton's tolerance.
+// for the body, carries it. Without that the middle differs by 1e-6 at 1e2, 1e-8 at 1e4 (measured).
+// Only Newton's tolerance remains.
 TEST(FreeField, LevelGroundMovesAlikeAtTheColumnAndInTheMiddle) {
     const bench::Folder folder;
     const auto file = pulse(folder);
@@ -445,7 +446,7 @@ TEST(FreeField, ASurchargeToTheSidesLiesOnTheColumnsToo) {
     EXPECT_EQ(loaded(0.0, 8.0), everywhere);
     const Eigen::VectorXd right = loaded(4.0, 8.0);
     EXPECT_NE(right, everywhere);
-    // Now the left column carries nothing.
+    // Here the left column carries nothing.
     const Model model = bench::model_of(bench::parse(level_ground(1e4, {})));
     const auto y_of = [&](const Vec2& x) {
         return right[2 * static_cast<Eigen::Index>(nearest_node(model.mesh, x)) + 1];

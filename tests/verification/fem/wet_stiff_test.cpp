@@ -1,4 +1,4 @@
-// Stiff and extreme wet cases: the right answer or a clear stop.
+// Stiff and extreme wet cases: the right result or a clear stop.
 #include <fstream>
 
 #include "tests/verification/fem/wet.hpp"
@@ -65,8 +65,8 @@ TEST(WetExtreme, WaterAThousandTimesStifferIsUndrainedExactly) {
 }
 
 TEST(WetExtreme, OneElementThickLayersAndAspect100AreUndrained) {
-    // One element between base and drain: its whole pressure is a gradient, of which the
-    // stabilisation stores a little (with finer meshes only the drained row has one).
+    // One element between base and drain: its pressure is all gradient, of which the stabilisation
+    // stores a little (in finer meshes only the drained row has one).
     expect_error("a single element: base pressure",
                  std::abs(undrained_base({.k = 1e-12, .rows = 1}) - 1.0), 2e-3);
     expect_error("aspect 1:100: base pressure",

@@ -11,7 +11,7 @@ using bench::WetColumn;
 using std::numbers::pi;
 
 constexpr double v_top = 1e-3, H = 10.0;
-/// Water about as stiff as the skeleton: both decide.
+/// Water about as stiff as the skeleton: both matter.
 const WetColumn column{.H = H, .K_f = 1e7};
 
 double omega() {
@@ -19,8 +19,8 @@ double omega() {
            std::sqrt((column.modulus() + column.K_f / column.porosity()) / column.density);
 }
 
-/// dp/dt that goes with the velocities in the mesh's own terms, S p' = -Q^T v: for v = v_top sin(pi
-/// y / 2H) it is a multiple of cos(pi y / 2H), and any row tells which.
+/// dp/dt for these velocities in the mesh, S p' = -Q^T v: for v = v_top sin(pi y / 2H) it is a
+/// multiple of cos(pi y / 2H), given by any row.
 Eigen::VectorXd pressure_rate(const Model& model, const Eigen::VectorXd& v) {
     Eigen::VectorXd shape(static_cast<Eigen::Index>(model.mesh.nodes.size()));
     for (Eigen::Index i = 0; i < shape.size(); ++i) {
@@ -47,7 +47,7 @@ struct Wave {
     double pressure;  ///< at the base [Pa]
 };
 
-/// From rest in place with the velocity of the first mode, to time `end`.
+/// Starts undeformed with the velocity of the first mode; to time `end`.
 Wave vibrate(const char* element, double k, int rows, int steps, double end) {
     WetColumn wet = column;
     wet.rows = rows;

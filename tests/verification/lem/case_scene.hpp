@@ -1,4 +1,4 @@
-// Scenes of the catalogue that breach verify runs, to be changed by tests.
+// Scenes of the catalogue of `breach verify`, for modified tests.
 #pragma once
 
 #include <fstream>

@@ -25,16 +25,15 @@ double factor_of(const json& scene_json, int slices) {
 
 TEST(FrictionlessCircle, HasFelleniusFactorWithFewSlices) {
     // Vertical cut of height H = 8 in clay, circle through its toe and centred above it: the mass
-    // is a circular sector less the triangle between. F = c R^2 theta / (W x_W), all in closed
-    // form.
+    // is a circular sector minus a triangle. F = c R^2 theta / (W x_W), in closed form.
     const double R = 20.0;
     const double H = 8.0;
     const double theta =
         std::asin((R - H) / R);             // angle of the centre's horizontal ray above the crest
     const double swept = M_PI / 2 - theta;  // from straight down to the crest's end of the arc
     const double reach = R * std::cos(theta);
-    // moment about the centre of the area between arc and crest level, x from 0 to reach:
-    // integral of x (sqrt(R^2 - x^2) - (R - H)) dx
+    // Moment about the centre of the area between arc and crest level, x from 0 to reach: integral
+    // of x (sqrt(R^2 - x^2) - (R - H)) dx.
     const double moment = (std::pow(R, 3) - std::pow(R * R - reach * reach, 1.5)) / 3.0 -
                           (R - H) * reach * reach / 2.0;
     const double c = 30.0;
@@ -59,8 +58,8 @@ TEST(FrictionlessCircle, HasFelleniusFactorWithFewSlices) {
              {"material", "clay"},
              {"polygon", {{-30, -5}, {40, -5}, {40, 8}, {0, 8}, {0, 0}, {-30, 0}, {-30, -5}}}}}}}},
         {"lem", {{"circle", {{"center", {0, R}}, {"radius", R}}}}}};
-    // length and weight are of fourth order in a slice's angle: 1/81 of the error with 3 times the
-    // slices
+    // Length and weight are of fourth order in a slice's angle: 1/81 of the error with 3 times the
+    // slices.
     for (const auto& [slices, allowed] : {std::pair{3, 5e-4}, {10, 5e-6}, {30, 5e-8}}) {
         const double F = factor_of(scene, slices);
         std::printf("%d slices: F %.10f, closed form %.10f, error %.1e, allowed %.1e\n", slices, F,

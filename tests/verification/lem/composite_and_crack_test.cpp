@@ -1,5 +1,4 @@
-// Floors, cracks and water against vertical faces: phi = 0 masses whose moments are integrals that
-// can be written down.
+// Floors, cracks and water on vertical faces: phi = 0 masses with moments in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -52,7 +51,7 @@ void compare(const char* what, double F, double expected, double allowed) {
 }
 
 TEST(CompositeSurface, AlongALevelFloorHasTheFactorOfItsIntegral) {
-    // centre 2 m lower than the toe circle's: the arc dips to -2, the floor y = 0 cuts it off
+    // Centre 2 m lower than the toe circle's: the arc reaches -2, and the floor y = 0 cuts it.
     const double level = R - 2.0;
     const double from = std::sqrt(R * R - level * level);
     const double to = std::sqrt(R * R - (level - H) * (level - H));
@@ -106,15 +105,15 @@ TEST(FreeWater, AgainstTheFaceAtTheToeHoldsIt) {
     const double h = 5.0;
     const double to = std::sqrt(R * R - (R - H) * (R - H));
     const json text = cut_scene(R, {{"water", {{"line", {{0, h}}}}}});
-    // water inside the soil has no moment about the centre but for its pressure on the arc, which
-    // phi = 0 does not see; its weight is in gamma
+    // Water in the soil has no moment about the centre except its pressure on the arc, which does
+    // not matter with phi = 0; its weight is in gamma.
     const double thrust = 0.5 * gamma_w * h * h * (R - h / 3.0);
     compare("face at the toe", F_of(text),
             c * R * R * angle(to) / (moment_between(R, 0.0, to) - thrust), 1e-6);
 }
 
 TEST(FreeWater, AgainstAFaceInsideTheMassHoldsItToo) {
-    // centre lower: the arc passes under the foot and comes up before the face
+    // Lower centre: the arc passes below the foot and exits in front of the face.
     const double level = R - 2.0;
     const double h = 5.0;
     const double front = std::sqrt(R * R - level * level);
@@ -123,7 +122,7 @@ TEST(FreeWater, AgainstAFaceInsideTheMassHoldsItToo) {
     const double back = std::sqrt(R * R - (level - H) * (level - H));
     const double resisting = c * R * R * (angle(back) + angle(front));
     const auto third = [](double x) { return std::pow(R * R - x * x, 1.5) / 3.0; };
-    // soil before the face, ground at 0: integral of x (arc depth below 0) is negative
+    // Soil in front of the face, ground at 0: the integral of x (arc depth below 0) is negative.
     const double before = -gamma * (-level * front * front / 2.0 + third(0.0) - third(front));
     const double driving = moment_between(level, 0.0, back) + before;
     compare("dry", F_of(dry), resisting / driving, 1e-6);
@@ -143,7 +142,7 @@ TEST(LineLoad, TurnsWithItsArms) {
 }
 
 TEST(Methods, AgreeWithoutFrictionOnACircle) {
-    // one answer for the resultant's moment: every method that balances it gives the same F
+    // The resultant's moment is unique: every method in moment equilibrium gives the same F.
     json text = small::two_layers(small::some_circle());
     text["materials"]["fill"] = small::soil(20, 25, 0);
     text["materials"]["base"] = small::soil(18, 40, 0);
@@ -165,9 +164,9 @@ json bank(double run, double x, double y, double radius, json lem) {
 }
 
 TEST(Methods, SpencerSaysWhyItHasNoAnswer) {
-    // The forces alone balance at F = sum(c l / cos(a - t)) / sum(W sin a / cos(a - t)), which for this
-    // circle is nowhere below 1.6857 (t = 0.2 rad), while the moments ask for 1.6700: worked out
-    // apart from this program.
+    // Force equilibrium alone gives F = sum(c l / cos(a - t)) / sum(W sin a / cos(a - t)), which
+    // for this circle is at least 1.6857 (t = 0.2 rad), while moment equilibrium gives 1.6700;
+    // computed independently.
     const json all = facts(bank(5, 59.425, 34.712, 33.9175, json::object()));
     EXPECT_NEAR(all.at("factor_of_safety").get<double>(), 1.6700, 1e-3);
     EXPECT_TRUE(all.at("spencer").is_null());
@@ -200,7 +199,7 @@ TEST(Methods, SpencerHasTheMomentsFactorOrAReasonWithoutFriction) {
 }
 
 TEST(Methods, AgreeOnALongSlope) {
-    // shallow arc, c = 0: the infinite slope, tan(phi) / tan(beta) for all of them
+    // Shallow arc, c = 0: the infinite slope, tan(phi) / tan(beta) for all methods.
     const double slope = 0.5;
     const json text = small::scene(
         {{"sand", small::soil(20, 0, 35)}},
@@ -211,7 +210,7 @@ TEST(Methods, AgreeOnALongSlope) {
     for (const double F : {all.at("factor_of_safety").get<double>(),
                            all.at("ordinary").at("factor_of_safety").get<double>(),
                            all.at("spencer").at("factor_of_safety").get<double>()}) {
-        compare("long slope", F, expected, 2e-3);  // the arc still bends by 3 degrees
+        compare("long slope", F, expected, 2e-3);  // the arc still turns by 3 degrees
     }
 }
 
@@ -223,8 +222,8 @@ TEST(CosSquared, IsSeepageParallelToALongSlope) {
         json::array({small::region("sand", "sand", {{0, -30}, {200, -30}, {200, 100}, {0, 0}})}),
         {{"circle", {{"center", {100 - 2000 * 0.5, 50 + 2000}}, {"radius", 2237.07}}},
          {"water", {{"line", {{0, -1e-6}, {200, 100 - 1e-6}}}, {"correction", "cos2"}}}});
-    // Bishop's level interslice forces cannot carry the water pressure along the slope; Spencer's,
-    // parallel to it, can
+    // Bishop's horizontal interslice forces cannot carry the water pressure along the slope;
+    // Spencer's, parallel to it, can.
     compare("cos2, Spencer", facts(text).at("spencer").at("factor_of_safety"), expected, 5e-3);
     const double corrected = F_of(text);
     text["lem"]["water"]["correction"] = "none";

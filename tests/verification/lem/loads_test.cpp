@@ -1,4 +1,4 @@
-// Water, shaking and surcharge against problems that have another way to the same number.
+// Water, shaking and surcharge against problems with a known equivalent.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,16 +31,16 @@ TEST(Submergence, DeepWaterIsBuoyantWeightAtAnyDepth) {
     const double buoyant = factor_of(cases::load("buoyant"));
     std::printf("75 ft %.5f, 400 ft %.5f, buoyant weight without water %.5f\n", shallow,
                 factor_of(deeper), buoyant);
-    // Bishop's vertical equilibrium sees the water's thrust by slices only: the same to the slices'
-    // 1e-4 ...
+    // In Bishop's vertical equilibrium the water's thrust acts slice by slice: equal up to the
+    // slices' 1e-4 ...
     EXPECT_NEAR(shallow / buoyant, 1.0, 5e-4);
-    // ... which the pressure of five times the water magnifies
+    // ... multiplied by the pressure of five times the water.
     EXPECT_NEAR(factor_of(deeper) / buoyant, 1.0, 5e-3);
 }
 
 TEST(PorePressureRatio, OfTheWholeMassIsAWeakerFriction) {
     // c = 0: (W - u l cos a) tan phi = W (1 - r_u) tan phi in the numerator; m_alpha keeps tan phi,
-    // so F of the wet slope lies between the two plain scalings; r_u = 1 leaves no strength at all
+    // so F of the wet slope is between the two simple scalings; r_u = 1 leaves no strength.
     json wet = fredlund_krahn();
     wet["materials"]["soil"]["law"]["c_kPa"] = 0.0;
     const double dry = factor_of(wet);
@@ -50,7 +50,7 @@ TEST(PorePressureRatio, OfTheWholeMassIsAWeakerFriction) {
     EXPECT_LT(F, 0.75 * dry * 1.05);
     EXPECT_GT(F, 0.75 * dry * 0.9);
     wet["lem"]["pore_pressure_ratios"][0]["r_u"] = 1.0;
-    // only the arc's segments below the chords keep a little: fourth order in the slice's angle
+    // Only the segments between arc and chords keep a little: fourth order in the slice's angle.
     EXPECT_NEAR(factor_of(wet), 0.0, 1e-3);
 }
 
@@ -79,7 +79,7 @@ TEST(Shaking, LowersTheFactorByItsMoment) {
 }
 
 TEST(Surcharge, DrivesBehindTheCentreAndHoldsBeforeIt) {
-    // a surcharge behind the centre's vertical drives, before it it holds: the moments are exact
+    // A surcharge behind the centre's vertical drives, one in front resists: the moments are exact.
     json clay = fredlund_krahn();
     clay["materials"]["soil"]["law"]["phi_deg"] = 0.0;
     const double plain = 1.0 / factor_of(clay);
@@ -88,8 +88,8 @@ TEST(Surcharge, DrivesBehindTheCentreAndHoldsBeforeIt) {
             json::array({{{"from", from}, {"to", to}, {"pressure_kPa", 50.0}}});
         return 1.0 / factor_of(clay);
     };
-    // the slope faces right: loads left of the centre (x = 120) drive; two strips with equal and
-    // opposite moments
+    // The slope faces right: loads left of the centre (x = 120) drive; two strips with equal and
+    // opposite moments.
     const double both = inverse(110, 130);
     EXPECT_NEAR(both, plain, 1e-7);  // the load's ends cut other slices: fourth order
     EXPECT_GT(inverse(60, 80), plain);

@@ -1,7 +1,7 @@
-// The dam that the project is about: layers liquefy from the top down. The section was calibrated
-// to the published factors of safety (Sordo, Rathje & Kumar, arXiv 2412.08040: 1.91 sound, below 1
-// at 12 m, 0.54 at 24 and 30 m); it is not a survey. The reference values are an independent code's
-// on this very section.
+// The Mochikoshi dam: layers liquefy from the top down. The section was calibrated to the published
+// factors of safety (Sordo, Rathje & Kumar, arXiv 2412.08040: 1.91 sound, below 1 at 12 m, 0.54 at
+// 24 and 30 m); it is not a survey. The reference values are an independent code's for this
+// section.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -36,7 +36,7 @@ TEST(Mochikoshi, FactorOfSafetyFallsWithEveryLiquefiedLayerAsPublished) {
 }
 
 TEST(Mochikoshi, SpencersFactorOfEveryStageIsThatOfThreeIndependentSolvers) {
-    // three codes of their own, on the critical circles of Bishop's method; they agree to 0.3 %
+    // Three independent codes, on the critical circles of Bishop's method; they agree to 0.3 %.
     constexpr std::array reference{1.912, 1.891, 1.049, 0.605, 0.591, 0.591};
     const scene::Scene scene = mochikoshi();
     const Model sound = make_model(scene);
@@ -68,7 +68,8 @@ TEST(Mochikoshi, DoesNotDependOnTheCoarseGrid) {
     }
 }
 
-/// What the scene's notes and docs/verification/mochikoshi.md say of the warning bound_raises_factor.
+/// Statements of the scene's notes and docs/verification/mochikoshi.md about the warning
+/// bound_raises_factor.
 TEST(Mochikoshi, SurfacesThroughTheFoundationAreLowerOnlyWhileLittleHasLiquefied) {
     constexpr std::array through_the_foundation{1.539, 1.528};
     scene::Scene scene = mochikoshi();

@@ -30,7 +30,7 @@ double given(const json& text) {
     return given_polyline(scene, make_model(scene)).at("factor_of_safety");
 }
 
-/// Facts of the optimised surface, Bishop's factor of the circle it starts from beside them.
+/// Facts of the optimised surface, with Bishop's factor of the initial circle.
 json optimised(json text, int vertices = 13) {
     text["lem"]["non_circular"] = {{"vertices", vertices}};
     const scene::Scene scene = small::parsed(text);
@@ -41,8 +41,8 @@ json optimised(json text, int vertices = 13) {
     return facts;
 }
 
-/// EX3: a seam of half a metre without cohesion in a slope of 1 : 2; the phreatic line is the
-/// seam's foot, and negative pressures do not count: dry.
+/// EX3: a seam of half a metre without cohesion in a slope of 1 : 2; the phreatic line is at the
+/// seam's foot and negative pressures do not count: dry.
 json acads_3() {
     return small::scene(
         {{"soil", small::soil(18.84, 28.5, 20)}, {"seam", small::soil(18.84, 0, 10)}},
@@ -177,13 +177,13 @@ TEST(Optimised, IsConvexLowerThanItsCircleAndTheSameAgain) {
         before = slope;
     }
     EXPECT_EQ(optimised(text), facts);
-    // it is the surface that the result says
+    // The surface is the one in the result.
     text["lem"]["non_circular"] = {{"given", points}};
     EXPECT_NEAR(given(text), facts.at("factor_of_safety").get<double>(), 1e-9);
 }
 
 TEST(Optimised, IsAsDeepAsItsCircleHasToBe) {
-    // the critical circle lies on the edge of the least depth, its chords a little above it
+    // The critical circle has the least allowed depth; its chords are slightly above it.
     json text = small::two_layers(small::some_search());
     text["lem"]["search"]["minimum_depth"] = 9.0;
     const json facts = optimised(text);
@@ -195,7 +195,7 @@ TEST(Optimised, IsAsDeepAsItsCircleHasToBe) {
 TEST(Optimised, DoesNotNeedTheSameVerticesForTheSameFactor) {
     const json text = small::two_layers(small::some_search());
     const double F = optimised(text, 13).at("factor_of_safety");
-    // the chords of fewer pieces cut off soil: 0.2 % between 9 and 13 of them
+    // The chords of fewer pieces cut off soil: 0.2 % between 9 and 13.
     EXPECT_NEAR(optimised(text, 9).at("factor_of_safety").get<double>() / F, 1.0, 4e-3);
     EXPECT_NEAR(optimised(text, 20).at("factor_of_safety").get<double>() / F, 1.0, 4e-3);
 }

@@ -1,5 +1,5 @@
-// One answer: the least valid factor of all surfaces, thin weak layers found without being asked,
-// and bounds that cannot make a slope safer in silence.
+// The result is the least valid factor of all surfaces; thin weak layers are found without request,
+// and bounds that raise the factor are flagged.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -60,7 +60,7 @@ TEST(OneAnswer, OfAcads4IsTheLeastOfItsSurfaces) {
     }
 }
 
-/// 15 m of fill, 1 : 2, on a seam whose top passes the fill's toe and falls downstream.
+/// 15 m of fill, 1 : 2, on a seam whose top passes through the fill's toe and dips downstream.
 struct FillOnSeam {
     double thickness;
     json seam;
@@ -89,8 +89,8 @@ json fill_on_seam(double thickness, const json& seam, const json& lem = json::ob
     return FillOnSeam{thickness, seam}.scene(lem);
 }
 
-/// Least factor of Spencer's method of surfaces drawn by hand: down through the fill, along the seam's
-/// bottom, and up through seam and fill.
+/// Least factor of Spencer's method for surfaces drawn by hand: down through the fill, along the
+/// seam's bottom, and up through seam and fill.
 double least_by_hand(const FillOnSeam& dam) {
     const scene::Scene scene = small::parsed(dam.scene());
     const Model model = make_model(scene);
@@ -126,8 +126,8 @@ double least_by_hand(const FillOnSeam& dam) {
 
 constexpr std::array thicknesses{0.1, 0.3, 0.5, 1.0};
 
-/// The search's answer for seams of these thicknesses: at most what is drawn by hand, and falling as the
-/// seam gets thicker.
+/// Factors of the search for these seam thicknesses: at most those drawn by hand, and decreasing
+/// with the thickness.
 std::array<double, 4> factors_by_thickness(FillOnSeam dam) {
     std::array<double, 4> factors{};
     double thinner = 10.0;
@@ -159,8 +159,8 @@ TEST(ThinWeakLayer, IsFollowedAsIfItsBottomWereGivenAsAFloor) {
     }
 }
 
-// The section is rebuilt from its numbers: a seam with 8 degrees of friction below 15 m of fill had
-// 1.11, 1.095, 1.082 and 1.041 on composite surfaces, and circles 1.773, 1.608, 1.494 and 1.292.
+// Reconstructed from numbers: a seam with 8 degrees of friction below 15 m of fill had 1.11, 1.095,
+// 1.082 and 1.041 on composite surfaces, and circles 1.773, 1.608, 1.494 and 1.292.
 TEST(ThinWeakLayer, OfEightDegreesHasTheFactorOfCompositeSurfacesAndLess) {
     FillOnSeam dam{0.1, small::soil(20, 0, 8), small::soil(20, 10, 35)};
     constexpr std::array composite{1.11, 1.095, 1.082, 1.041};
@@ -213,7 +213,7 @@ TEST(ThinWeakLayer, ThatLiquefiesDecidesTheCriticalDepth) {
     EXPECT_FALSE(result.at("depth_at_fs_1").is_null());
 }
 
-/// What is searched for without being asked costs scenes without thin weak layers nothing.
+/// The unrequested search costs scenes without thin weak layers nothing.
 TEST(ThinWeakLayer, IsInNoneOfTheShippedScenes) {
     for (const char* name : {"slope", "flow_slope", "mochikoshi", "merriespruit"}) {
         const scene::Scene scene = limit_scene(
@@ -227,7 +227,7 @@ TEST(ThinWeakLayer, IsInNoneOfTheShippedScenes) {
     }
 }
 
-/// A bank of 15 m, 1 : 2, on a layer of 2 m that is weaker than what lies above and below it.
+/// A bank of 15 m, 1 : 2, on a layer of 2 m that is weaker than the soil above and below it.
 TEST(WeakLayer, TooThickForACompositeSurfaceIsQuestionedByAPolyline) {
     json scene = small::scene(
         {{"fill", small::soil(19, 5, 35)}, {"seam", small::soil(18, 0, 10)}},

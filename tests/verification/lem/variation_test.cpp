@@ -1,5 +1,5 @@
-// Without friction F is proportional to c: what one parameter does, and how likely failure is, can
-// be written down.
+// Without friction F is proportional to c: effects of single parameters and the probability of
+// failure in closed form.
 #include "lem_tool/variation.hpp"
 
 #include <gtest/gtest.h>

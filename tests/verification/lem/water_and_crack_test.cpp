@@ -1,5 +1,4 @@
-// Where water acts and how deep a crack reaches: against hand calculation and against the same
-// slope said otherwise.
+// Position of water and depth of a crack, against hand calculation and an equivalent slope.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +26,7 @@ double F_of(const json& text, const char* method = nullptr) {
 }
 
 TEST(CosSquared, DoesNotAskARoundingWhetherALineOnTheGroundIsBelowIt) {
-    // the seepage face of 29c follows a slope of 45 degrees, where cos^2 is a half
+    // The seepage face of 29c follows a slope of 45 degrees: cos^2 = 0.5.
     const json text = cases::load("pyslope_c_r3");
     const double F = F_of(text);
     for (const double shift : {1e-12, -1e-12, 1e-9, -1e-9, 1e-6, -1e-6}) {
@@ -52,8 +51,8 @@ TEST(Ordinary, OfASlopeUnderWaterIsThatOfItsBuoyantWeight) {
         const double F = all.at("factor_of_safety");
         std::printf("water at %.0f ft: %.4f, conventional %.4f, buoyant weight %.4f\n", level, F,
                     all.at("conventional").get<double>(), buoyant);
-        // u is that of the slice's middle: as with Bishop, the pressure of deep water magnifies
-        // what the slices leave
+        // u is that of the slice's middle: as with Bishop, the pressure of deep water magnifies the
+        // slices' error.
         EXPECT_NEAR(F / buoyant, 1.0, level > 200.0 ? 5e-3 : 1e-3);
     }
 }
@@ -136,7 +135,7 @@ TEST(PorePressure, OfADryRegionIsItsRatio) {
 }
 
 TEST(PorePressure, OfOneRegionLeavesFreeWaterOnTheOther) {
-    // a lake over a blanket that its water does not enter: weight, but no pore pressure
+    // A lake over a blanket that its water does not enter: weight, but no pore pressure.
     const json lake = {{0, 12}, {60, 12}};
     Slices s;
     (void)facts(wet({{"water", {{"line", lake}, {"regions", {"base"}}}}}), s);
@@ -159,7 +158,7 @@ TEST(PhreaticLines, AreOnePerRegion) {
 }
 
 // A vertical cut of height 8 in clay of 20 kN/m3, circle of 20 m centred above its foot, as in
-// composite_and_crack_test.cpp; here the crack's foot is given by its level.
+// composite_and_crack_test.cpp; here with the crack's tip given by its level.
 constexpr double H = 8.0, R = 20.0, c = 30e3, gamma = 20e3, gamma_w = 10e3;
 
 json cut_scene(const json& crack) {

@@ -1,7 +1,7 @@
-// A block of soil of yield strength c and viscosity eta that slumps over a rough floor, slowly and far:
-// its front and its middle against lubrication theory (flow of a Bingham fluid in a thin layer). The
-// first seconds, while the block's face falls, are no thin layer: what is compared is the way from
-// 30 s on, on a flow of four to five cells.
+// A block of soil with yield strength c and viscosity eta that slumps over a rough floor, slowly
+// and far: its front and middle against lubrication theory (Bingham fluid in a thin layer). The
+// layer is not thin in the first seconds, so displacements from 30 s on are compared, with four to
+// five cells over the depth.
 #include <algorithm>
 #include <cmath>
 
@@ -22,14 +22,14 @@ constexpr double width = 88.0;
 constexpr double from = 30.0;
 constexpr double to = 100.0;
 
-/// Within these x lie 50 and 99 % of the soil [m].
+/// x of 50 and 99 % of the soil [m].
 struct Reach {
     double half;
     double front;
 };
 
-/// dh/dt + dq/dx = 0 with q = G Y^2 (3 h - Y) / (6 eta), G = rho g |dh/dx|, of which the layer below
-/// Y = h - c / G is sheared; explicit, on cells of a tenth of a metre.
+/// dh/dt + dq/dx = 0 with q = G Y^2 (3 h - Y) / (6 eta), G = rho g |dh/dx|; the layer below Y = h -
+/// c / G is sheared. Explicit, on cells of 0.1 m.
 class ThinLayer {
   public:
     ThinLayer() : h_(static_cast<std::size_t>(width / dx), 0.0), q_(h_.size() + 1, 0.0) {

@@ -1,5 +1,4 @@
-// Runout of a released column of sand, against the published scaling and against
-// another code.
+// Runout of a released column of sand, against the published scaling and another code.
 #include <fstream>
 #include <sstream>
 
@@ -74,8 +73,8 @@ scene::Scene reference_column() {
 }
 
 // CB-Geo MPM: the same section, pure FLIP without affine part, no objective rate, no anti-locking,
-// no gap closure, USF, larger GIMP domains. 10 %: more than its own differences in method explain
-// is a fault of ours.
+// no gap closure, USF, larger GIMP domains. 10 %: more than these differences explain would be a
+// defect.
 TEST(ReferenceColumn, WithItsSettingsIsNearAnotherCode) {
     scene::Scene scene = reference_column();
     scene.mpm->blending_rate = 0.0;

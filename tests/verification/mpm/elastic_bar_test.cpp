@@ -1,5 +1,5 @@
-// A bar, one end at a wall, swings in its first axial mode: v = v0 sin(pi x / 2 L) at t = 0, period
-// 4 L / c. Without friction or plasticity nothing may take its energy.
+// A bar with one end at a wall vibrates in its first axial mode: v = v0 sin(pi x / 2 L) at t = 0,
+// period 4 L / c. Without friction and plasticity its energy is conserved.
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
@@ -18,7 +18,7 @@ scene::Scene bar(scene::Kernel kernel, scene::UpdateOrder order, double cfl) {
     scene.mpm->order = order;
     scene.mpm->cfl = cfl;
     scene.mpm->blending_rate =
-        0.0;  // the rate is dissipation by design; the scheme itself is tested here
+        0.0;  // the rate is intended dissipation; this tests the scheme itself
     return scene;
 }
 
@@ -54,8 +54,8 @@ void expect_swing(const std::string& what, const scene::Scene& scene, double vel
                         velocity_allowed);
 }
 
-// Velocity: the period of a bar of 25 cells with a free end that lies on a node is off by a part of
-// h / L = 4 %, which adds up over 10 periods; 5 % rms is a quarter of a per cent of the period.
+// Velocity: the period of a bar of 25 cells with a free end on a node is off by a part of h / L = 4
+// %, which adds up over 10 periods; 5 % rms is a quarter of a per cent of the period.
 TEST(ElasticBar, KeepsItsEnergyWithGimpUsl) {
     expect_swing("gimp usl", bar(scene::Kernel::gimp, scene::UpdateOrder::usl, 0.1), 0.05);
 }

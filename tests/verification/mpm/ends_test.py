@@ -21,7 +21,7 @@ def column(**mpm):
 
 
 def bank(c, face, nu=0.45, E=10.0, width=10.0, height=5.0, **law):
-    """Of undrained strength c [kPa] and no tension, its face `face` metres long in plan."""
+    """Bank with undrained strength c [kPa], without tension; its face is `face` metres long in plan."""
     foot = width + face
     return {"format": "breachline-scene/1", "name": "bank",
             "materials": {"s": soil(c, 0, nu, E, **{"tension_cutoff_kPa": 0, **law})},
@@ -122,7 +122,7 @@ def test_banks(scratch):
 
 
 def test_advice(scratch):
-    """Tried on the scenes that raise the flags."""
+    """Applies the advice to the scenes that raise the flags."""
     torn = Run(scratch, bank(300, 0), "--set", "/mpm/tension_share=0", "--set", "/mpm/damping_ratio=0")
     assert torn.flag("volume_ratio") and torn.result["runout"] > 3, torn.result["flags"]
     for code in ("volume_ratio", "numerical_share"):

@@ -1,4 +1,4 @@
-// The right answer, or at least a bounded one, where codes tend to fail.
+// The right result, or at least a bounded one, in cases where codes tend to fail.
 #include "mpm_solver/measure/guard.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
@@ -18,7 +18,7 @@ void require_whole(const Body& body, const Limits& limits) {
     if (const auto complaint = step_complaint(body, limits)) throw std::runtime_error(*complaint);
 }
 
-/// Runs with the guard looking on at every step.
+/// Runs with the guard after every step.
 void advance_whole(Body& body, const scene::Scene& scene, double end) {
     const Limits limits = limits_of(body, *scene.mpm, energy_of(body));
     double fastest = 0.0;
@@ -29,7 +29,7 @@ void advance_whole(Body& body, const scene::Scene& scene, double end) {
     expect_error_within("fastest point / the guard's limit", fastest / limits.speed, 1.0);
 }
 
-/// Runs, and holds the guard's complaints against it.
+/// Runs and fails on a message of the guard.
 Body whole_after(const scene::Scene& scene, double end) {
     Body body = filled_body(scene);
     const Energy start = energy_of(body);
@@ -92,7 +92,7 @@ TEST(Extremes, StressFarOutsideYieldIsReturned) {
 }
 
 TEST(Extremes, ParticlesExactlyOnNodesAndWallsStayWhole) {
-    // GIMP only: with linear kernels a point on a node loads a neighbour to which it gives no mass.
+    // GIMP only: with linear kernels a point on a node exerts a force on a neighbour without mass.
     for (const auto order : {scene::UpdateOrder::usl, scene::UpdateOrder::musl}) {
         scene::Scene scene = heap(sand(5e6, 0.3, 1e3, 30.0));
         scene.mpm->order = order;
@@ -113,8 +113,8 @@ TEST(Extremes, ASinglePointFallsLandsAndStays) {
     ASSERT_EQ(body.points.size(), 1U);
     const Limits limits = limits_of(body, *scene.mpm, energy_of(body));
     advance(body, scene, 0.4, [&](double) { require_whole(body, limits); });
-    // 2 %: the step is 1.6 % of the fall, and positions take the velocity at its end.
-    // The floor is felt from the cell above it on: y = 1.5 is reached after 0.45 s.
+    // 2 %: the step is 1.6 % of the fall, and positions use the velocity at its end. The floor acts
+    // from the cell above it: y = 1.5 is reached after 0.45 s.
     expect_error_within("fall in 0.4 s / (g t^2 / 2)",
                         (2.5 - body.points.y[0]) / (0.5 * 9.81 * 0.16) - 1.0, 0.02);
     advance(body, scene, 5.0, [&](double) { require_whole(body, limits); });
@@ -150,9 +150,9 @@ TEST(Extremes, HeapOnAValleyOfSixtyDegreesStaysWhole) {
     }
 }
 
-/// In free flight nothing contradicts a lone point's gradient: unchecked, it would grow 3,000-fold
-/// in two seconds, count as so much soil, and carry nothing when it lands until all of that had
-/// closed.
+/// In free flight nothing limits a single point's velocity gradient: unlimited, its volume would
+/// grow 3,000-fold in two seconds, count as soil, and carry nothing after landing until all of it
+/// had closed.
 TEST(Extremes, ATornOffPointOpensNoFurtherThanTheCellsAboutIt) {
     scene::Scene scene =
         one_soil(sand(5e6, 0.3, 1.0, 0.0), 1800.0, rectangle(4.0, 4.0, 4.25, 4.25), 0.5, 8.0, 8.0);
@@ -169,7 +169,7 @@ TEST(Extremes, ATornOffPointOpensNoFurtherThanTheCellsAboutIt) {
     EXPECT_GT(body.points.volume[0], 0.9 * cells);
     expect_error_within("gap against the volume's own strain",
                         body.points.gap[0] / std::log(body.points.volume[0] / V) - 1.0, 0.01);
-    // Pressed together again it closes as far as it opened, then carries load, and rebounds.
+    // Compressed again, it closes as far as it opened, then carries load and rebounds.
     body.points.Lxx[0] = body.points.Lyy[0] = -1.5;
     double volume_when_closed = 0.0;
     double lowest_stress = 0.0;

@@ -1,4 +1,4 @@
-// Soil that touches nothing falls as Galilei says, and soil on which nothing acts stays.
+// Soil without contact falls freely, and soil without forces stays at rest.
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 

@@ -1,5 +1,5 @@
-// Soil whose points lie closer than their volumes allow, at rest in a box: nothing in stresses or
-// tracked volumes knows. The correction pushes it apart to the tolerance, and says what that cost.
+// Soil whose points are closer than their volumes allow, at rest in a box: stresses and volumes do
+// not show it. The correction separates it to the tolerance and reports the energy.
 #include "mpm_solver/measure/overlap.hpp"
 
 #include "tests/unit/mpm/bodies.hpp"
@@ -28,7 +28,7 @@ struct Box {
     double overlap;
     double rise;       ///< of the centre of mass, relative to the height that the tolerance leaves
     double lifted;     ///< potential energy gained [J]
-    double pushed_in;  ///< energy that the correction says it put in [J]
+    double pushed_in;  ///< energy reported by the correction [J]
 };
 
 Box rest(double rate) {
@@ -64,8 +64,8 @@ TEST(Overlap, IsLeftAloneWithoutTheCorrection) {
 }
 
 // The approach is exponential at 5/s: 3 s leave exp(-15). 15 % of the rise: the soil starts to
-// swell at 0.4/s from one step to the next, and the splash loosens its top cell. The energy put in
-// must cover the lift; the splash and its rest cost about as much again.
+// swell at 0.4/s suddenly, and the splash loosens its top cell. The energy put in must exceed the
+// lift; splash and rest cost as much again.
 TEST(Overlap, IsPushedApartToTheToleranceAndItsEnergyShown) {
     const Box box = rest(5.0);
     std::printf("    overlap %.3f, after 3 s %.3f\n", box.overlap_before, box.overlap);

@@ -49,7 +49,7 @@ def series(folder):
 
 
 def drawn(path):
-    """What the page draws of a file: single precision."""
+    """As in a frame: single precision."""
     data = arrays(path)
     velocity = data["VTKHDF/PointData/velocity"].astype(np.float64)
     return (data["VTKHDF/Points"].astype(np.float32), data["VTKHDF/PointData/epsilon_q"].astype(np.float32),
@@ -57,7 +57,7 @@ def drawn(path):
 
 
 def check_frames(folder):
-    """The last frame and the final state are of one time: a picture of either is the same."""
+    """The last frame and the final state have the same time and the same data."""
     frame, final = os.path.join(folder, "particles_2.000000.vtkhdf"), os.path.join(folder, "final.vtkhdf")
     (one, speed), (other, speed_there) = drawn(frame), drawn(final)
     assert all(np.array_equal(a, b) for a, b in zip(one, other)), "what is drawn of single and of double precision"
@@ -84,7 +84,7 @@ def test_fields_that_are_asked_for(scratch):
     assert refused.returncode == 65 and "/mpm/output/fields/0" in refused.stderr and "epsilon_q" in refused.stderr, refused.stderr
     looked_at = run(os.path.join(scratch, "again"), *few, "--input", frame)
     assert looked_at.returncode == 65 and "final.vtkhdf" in looked_at.stderr, looked_at.stderr
-    # Another run into the same folder: what lies there from before is none of its frames.
+    # Another run into the same folder: older frames are not included.
     assert run(folder, *few, "--set", "/mpm/snapshot_interval=0.01").returncode == 0 and len(series(folder)) == 3
     assert run(folder, *few).returncode == 0
     assert series(folder) == [(0.0, "particles_0.000000.vtkhdf")]
@@ -121,7 +121,7 @@ def test_outputs_and_resume(scratch):
     assert np.allclose(table["ground_m"], 0) and np.all(table["surface_m"] >= 0)
     deep = table["depth_m"] > 3
     assert np.all(abs(table["surface_m"] / table["depth_m"] - 1)[deep] < 0.25), table["surface_m"] / table["depth_m"]
-    # 2 s are too short, and it says so
+    # 2 s are too short, which is reported
     assert result["at_rest"] is False and result["ended"] == "duration" and result["end_time"] == 2.0, result
     assert 0.05 < result["kinetic_share"] < 0.5 and result["rest"]["moving"], result
     assert result["questionable"] is True and [each["code"] for each in result["flags"]] == ["still_moving", "overlap", "upstream_wall"], result["flags"]
@@ -228,7 +228,7 @@ def test_terrain(scratch):
 
 
 def test_firm_ground(scratch):
-    """Soil slides on firm ground as on a floor that holds: the ground's domains end at its top, on every lattice."""
+    """Soil slides on firm ground as on a rough floor: the ground's domains end at its top, for every lattice."""
     on_ground = os.path.join(ROOT, "workflows/scenes/flow_slope.json")
     without = json.load(open(on_ground))
     without["section"]["regions"] = [each for each in without["section"]["regions"] if each["name"] == "slope"]

@@ -17,8 +17,8 @@ double ritter(double h_0, double x, double t) {
     return u * u / (9.0 * g);
 }
 
-// Ritter's equations are those of long waves: near the gate the water also falls, so 5 % there and
-// 10 % of the profile are what a section with depth can be asked for.
+// Ritter's equations are for long waves: near the gate the water also falls, so the limits are 5 %
+// there and 10 % for the profile.
 TEST(DamBreak, DepthsAreRitters) {
     const double h_0 = 4.0;
     const double gate = 20.0;

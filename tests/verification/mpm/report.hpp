@@ -1,4 +1,4 @@
-// Every verification prints what it reached and what it may.
+// Prints the result and the limit of a verification.
 #pragma once
 
 #include <gtest/gtest.h>

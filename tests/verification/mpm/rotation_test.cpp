@@ -1,5 +1,5 @@
-// A stress that turns with the material: by 90 degrees sigma_xx and sigma_yy change places. (After
-// 360 degrees no rotation at all would pass.)
+// Stress rotates with the material: after 90 degrees sigma_xx and sigma_yy are exchanged. (360
+// degrees would not detect a missing rotation.)
 #include "mpm_solver/loops/turn.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"

@@ -1,6 +1,6 @@
-// A column under its own weight, gravity switched on and the swing damped by blending: sigma_yy = M
-// ln J with equilibrium rho_0 g (H - Y) over the undeformed height Y (uniaxial strain, logarithmic
-// because the law is integrated in rate form).
+// A column under sudden self-weight, with the vibration damped by blending: sigma_yy = M ln J in
+// equilibrium with rho_0 g (H - Y), Y undeformed height (uniaxial strain, logarithmic because the
+// law is integrated in rate form).
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
@@ -16,7 +16,7 @@ scene::Scene column(double E) {
     scene.gravity = g;
     scene.mpm->left = scene::Wall::roller;
     scene.mpm->right = scene::Wall::roller;
-    scene.mpm->blending_rate = 100.0;  // a quasi-static answer is wanted
+    scene.mpm->blending_rate = 100.0;  // for a quasi-static result
     return scene;
 }
 
@@ -26,7 +26,7 @@ double stress_error(const scene::Scene& scene) {
     const std::vector<double> Y = body.points.y;
     const double c = body.zones[0].elasticity.wave_speed(rho);
     advance(body, scene, 40.0 * 4.0 * H / c, [&](double) {
-        // Draws the swing's energy out of the mean motion, which affine PIC leaves alone.
+        // Damps the mean motion, which affine PIC does not.
         for (std::size_t p = 0; p < body.points.size(); ++p) {
             body.points.vx[p] *= 0.995;
             body.points.vy[p] *= 0.995;

@@ -1,5 +1,5 @@
-// A grid that moves with the ground: Newmark's sliding block on a plane and on a slope, a column on a
-// fixed base under a Ricker pulse, gravity as the shaking of a falling frame, and the ledger.
+// A grid that moves with the ground: Newmark's sliding block on a plane and a slope, a column on a
+// fixed base under a Ricker pulse, gravity as an accelerated frame, and the energy balance.
 #include "mpm_solver/body/ground_motion.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
@@ -37,7 +37,7 @@ void shake(Body& body, const scene::Scene& scene, const GroundMotion& ground, do
 
 constexpr double length = 8.0, height = 1.0;  ///< flat: a tall block rocks, and rides on its edges
 
-/// 100 MPa: rho g H / M is 1.5e-4, so elastic rattling plays no part.
+/// 100 MPa: rho g H / M is 1.5e-4, so elastic vibration does not matter.
 scene::Scene block_on_plane(double mu, UpdateOrder order) {
     scene::Scene scene =
         one_soil(elastic(100e6, 0.3), rho, rectangle(10, 0, 10 + length, height), 0.5, 30.0, 5.0);
@@ -54,8 +54,8 @@ void settle(Body& body) {
     }
 }
 
-// Newmark (1965): ground that gains V within V / A slips V^2 / (2 mu g) (1 - mu g / A) ahead of the block.
-// 1 %: half a per cent of the floor's friction, which slip feels twice over.
+// Ground that gains V within V / A slips V^2 / (2 mu g) (1 - mu g / A) relative to the block
+// (Newmark 1965). 1 %: half a per cent of the floor's friction, which counts twice in the slip.
 TEST(ShakenBlock, SlipsWhatNewmarkSaysUnderARectangularPulse) {
     const double mu = 0.3, A = 6.0, V = 3.0;
     const double exact = -V * V / (2.0 * mu * g) * (1.0 - mu * g / A);
@@ -74,7 +74,8 @@ TEST(ShakenBlock, SlipsWhatNewmarkSaysUnderARectangularPulse) {
     }
 }
 
-/// A rigid block on a plane that falls by theta to the right, shaken horizontally: slip down the slope [m].
+/// A rigid block on a plane that dips by theta to the right, shaken horizontally: slip down the
+/// slope [m].
 double newmark_slip(double theta, double mu, double end,
                     const std::function<double(double)>& acceleration) {
     const int steps = 200000;
@@ -92,9 +93,10 @@ double newmark_slip(double theta, double mu, double end,
     return s;
 }
 
-// Six cycles of 0.25 g at 1 Hz on 10 degrees: down the slope it yields at mu 0.3, up it never does. The slip of
-// every cycle adds up. So near the yield acceleration slip feels friction nearly five times over, and the floor's is Coulomb's within
-// 1 % (TerrainSlope): allowed is what 1.2 % less friction would slip.
+// Six cycles of 0.25 g at 1 Hz on 10 degrees: with mu 0.3 it yields downwards only. The slip of the
+// cycles adds up. So near the yield acceleration, slip is nearly five times as sensitive to
+// friction, and the floor's friction is accurate to 1 % (TerrainSlope): the limit is the slip with
+// 1.2 % less friction.
 TEST(ShakenBlock, WalksDownASlopeAsNewmarkSays) {
     const double theta = 10.0 * pi / 180.0, mu = 0.3, omega = 2.0 * pi, A = 0.25 * g, end = 6.0;
     const Vec2 foot{2.0, 0.0}, along{std::cos(theta), -std::sin(theta)},
@@ -134,9 +136,9 @@ TEST(ShakenBlock, WalksDownASlopeAsNewmarkSays) {
     }
 }
 
-// A column on a fixed base whose surface sees the base's pulse twice, after H / c, and then its images:
-// v(t) = 2 sum (-1)^n v_b(t - (2n + 1) H / c). Rollers beside a standing column would hold it, so it lies down, its
-// foot at the wall: the equation is the same.
+// A column on a fixed base whose surface gets twice the base's pulse after H / c, and then its
+// images: v(t) = 2 sum (-1)^n v_b(t - (2n + 1) H / c). Rollers beside a vertical column would hold
+// it, so it is horizontal with its foot at the wall: the equation is the same.
 TEST(ShakenColumn, AnswersARickerPulseAsAFixedBaseSays) {
     const double H = 20.0, c = 200.0, f = 1.5, amplitude = 0.1, end = 2.5;
     const auto pulse = [&](double t) {
@@ -168,8 +170,7 @@ TEST(ShakenColumn, AnswersARickerPulseAsAFixedBaseSays) {
                         std::sqrt(difference / norm), 2e-3);
 }
 
-// A frame that gains a steady acceleration is a turned gravity: the same motion, and the same energy by
-// another name.
+// A steadily accelerated frame is an inclined gravity: the same motion and energy.
 TEST(ShakenBlock, ASteadyAccelerationIsATurnedGravity) {
     const double a = 5.0, end = 0.5;
     scene::Scene scene = block_on_plane(0.3, UpdateOrder::usl);
@@ -181,15 +182,16 @@ TEST(ShakenBlock, ASteadyAccelerationIsATurnedGravity) {
     const Vec2 apart = centre_of_mass(turned.points) - centre_of_mass(shaken.points);
     expect_error_within("centre of mass [m]", apart.norm(), 1e-10);
     expect_error_within("kinetic energy", shaken.tally.kinetic / turned.tally.kinetic - 1.0, 1e-9);
-    // Gravity's work goes by the end's velocity of each step, the frame's by the mean: half a step apart.
+    // Gravity's work uses the velocity at the end of each step, the frame's the mean: half a step
+    // apart.
     const double potential =
         a * rho * length * height * (10.0 + 0.5 * length - centre_of_mass(shaken.points).x());
     expect_error_within("work over the fall in the turned gravity",
                         shaken.tally.shaking / potential - 1.0, 0.01);
 }
 
-// Without anything that dissipates, what the frame's force did is in the block's motion to round-off; with friction,
-// what friction took is the rest of it.
+// Without dissipation the work of the frame's force equals the block's kinetic energy to round-off;
+// with friction, the rest is the work of friction.
 TEST(ShakenBlock, KeepsTheLedger) {
     const double omega = 2.0 * pi, A = 4.0;
     const GroundMotion ground =

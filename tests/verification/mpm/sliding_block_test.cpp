@@ -16,7 +16,7 @@ scene::Scene block(double E, double mu, scene::UpdateOrder order) {
     return scene;
 }
 
-/// The block's own weight, put in before it starts, so that it does not bounce.
+/// The block's own weight as initial stress, so that it does not bounce.
 void settle(Body& body, double rho, double H, double nu) {
     for (std::size_t p = 0; p < body.points.size(); ++p) {
         const double syy = -rho * g * (H - body.points.y[p]);
@@ -33,8 +33,8 @@ double slide(const scene::Scene& scene, double v0, double end) {
     return centre_of_mass(body.points).x() - from;
 }
 
-// 1 %: rho g H / M is 3e-4 at 100 MPa, so elastic rattling plays no part; what remains is the
-// block's rocking.
+// 1 %: rho g H / M is 3e-4 at 100 MPa, so elastic vibration does not matter; the block's rocking
+// remains.
 TEST(SlidingBlock, StopsWhereCoulombSaysItStops) {
     const double v0 = 5.0;
     const double mu = 0.3;
@@ -63,7 +63,7 @@ TEST(SlidingBlock, AcceleratesDownAnInclineAsCoulombSays) {
                         (centre_of_mass(body.points).x() - from) / exact - 1.0, 0.01);
 }
 
-/// Friction that would have let the block go as far in t as it went [-].
+/// Friction for which the block would have gone as far in t [-].
 double effective_friction(double theta, double mu, double t, double damping_ratio) {
     scene::Scene scene = block(100e6, mu, scene::UpdateOrder::usl);
     scene.mpm->damping_ratio = damping_ratio;
@@ -77,8 +77,8 @@ double effective_friction(double theta, double mu, double t, double damping_rati
     return std::tan(theta) - 2.0 * slid / (t * t * g * std::cos(theta));
 }
 
-// tan 20 degrees = 0.364. Undamped, the block rattles: contact that opens and closes carries less
-// friction, and with 0.38 it slides half a metre.
+// tan 20 degrees = 0.364. Undamped, the block vibrates: intermittent contact has less friction, and
+// with 0.38 it slides half a metre.
 TEST(SlidingBlock, RestsWhereFrictionJustHoldsItWhenItsWavesAreDamped) {
     const double theta = 20.0 * std::numbers::pi / 180.0;
     const double critical = std::tan(theta);
@@ -99,8 +99,8 @@ TEST(SlidingBlock, EnergyGoesIntoFriction) {
     const Energy start = energy_of(body);
     advance(body, scene, 2.2);
     const Energy end = energy_of(body);
-    // What friction did not take lifted the rocking block a little (contact is felt within the
-    // first cell).
+    // The rest of the energy lifted the rocking block slightly (contact acts within the first
+    // cell).
     expect_error_within("energy unaccounted for / kinetic energy",
                         numerical_loss(start, end) / start.kinetic, 0.01);
     expect_error_within("friction work / kinetic energy - 1", end.friction / start.kinetic - 1.0,

@@ -6,8 +6,7 @@
 namespace breach::mpm::test::spinning_square_test {
 namespace {
 
-/// About the centre of mass, with the affine part m (h/2)^2/3-like moments left out: points are
-/// small [kg m2/s].
+/// About the centre of mass, without affine parts like m (h/2)^2/3: points are small [kg m2/s].
 double angular_momentum(const Points& points) {
     const mechanics::Vec2 c = centre_of_mass(points);
     double sum = 0.0;

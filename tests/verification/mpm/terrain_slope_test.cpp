@@ -1,5 +1,5 @@
-// Terrain that cuts square cells: blocks on slopes of every angle move as Coulomb says, blocks on
-// arcs of many short edges swing and slip as rigid bodies do, a heap runs as on an aligned grid.
+// Terrain through square cells: blocks on slopes of every angle follow Coulomb friction, blocks on
+// arcs of many short segments move like rigid bodies, a heap runs as on an aligned grid.
 #include "mpm_solver/measure/runout.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
@@ -14,7 +14,7 @@ constexpr double rho = 2000.0;
 constexpr double nu = 0.3;
 constexpr double pi = std::numbers::pi;
 
-/// Axes of a plane that falls to the right by theta.
+/// Axes of a plane that dips to the right by theta.
 struct Slope {
     double theta;
     Vec2 foot;
@@ -26,8 +26,8 @@ struct Slope {
 constexpr double length = 4.0;
 constexpr double height = 2.0;
 
-/// A block on a plane through cells at any angle. 100 MPa: rho g H / M is 3e-4, so elastic rattling
-/// plays no part.
+/// A block on a plane through cells at any angle. 100 MPa: rho g H / M is 3e-4, so elastic
+/// vibration does not matter.
 scene::Scene block_on(const Slope& slope, double mu, double way) {
     const double h = 0.5;
     const double width = std::ceil((2.0 + (length + way) * std::cos(slope.theta) + height) / h) * h;
@@ -42,7 +42,7 @@ scene::Scene block_on(const Slope& slope, double mu, double way) {
     return scene;
 }
 
-/// Its own weight, so that it does not bounce.
+/// Its own weight as initial stress, so that it does not bounce.
 void settle(Body& body, const Slope& slope) {
     const Vec2 n = slope.normal();
     for (std::size_t p = 0; p < body.points.size(); ++p) {
@@ -80,8 +80,8 @@ struct Case {
     double t;
 };
 
-// Slide 1 %. Ground is felt by nodes half a cell above it, so the block rides a few per cent of a
-// cell higher than it lay.
+// Slide 1 %. Contact acts at nodes half a cell above the ground, so the block moves a few per cent
+// of a cell higher than it was.
 TEST(TerrainBlock, SlidesAsCoulombSaysOnEverySlope) {
     for (const Case& each :
          {Case{10, 0.1, 2.0}, Case{20, 0.2, 2.0}, Case{35, 0.4, 2.0}, Case{60, 0.5, 1.5}}) {
@@ -100,7 +100,7 @@ TEST(TerrainBlock, SlidesAsCoulombSaysOnEverySlope) {
     }
 }
 
-// 20 mm: the shear of the block itself and some millimetres of creep (a prototype: 9 mm).
+// 20 mm: the shear of the block itself and some millimetres of creep.
 TEST(TerrainBlock, SticksWhereFrictionHoldsIt) {
     const Slope slope{20.0 * pi / 180.0, {2.3, 0.13}};
     const Slide reached = slide(slope, 0.5, 3.0, 2.0, scene::UpdateOrder::usl);
@@ -195,7 +195,7 @@ TEST(TerrainArc, BlockSwingsThroughAValleyAsAPendulum) {
     expect_rigid_turn("from -20 degrees, 3.5 s", {24.0, 30.3}, -20.0 * pi / 180.0, -1.0, 3.5);
 }
 
-// An unstable start: what the first touch adds grows, so it begins well off the top.
+// Unstable: the effect of the first contact grows, so it starts well away from the top.
 TEST(TerrainArc, BlockSlipsOffAHilltopAsARigidBody) {
     expect_rigid_turn("from 10 degrees, 1.6 s", {24.0, -24.0}, 10.0 * pi / 180.0, 1.0, 2.5);
 }

@@ -1,5 +1,5 @@
-// Two elastic discs meet and part (Sulsky, Chen & Schreyer 1994): momentum stays zero, energy
-// nearly stays.
+// Two elastic discs collide and separate (Sulsky, Chen & Schreyer 1994): momentum stays zero,
+// energy is nearly conserved.
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
@@ -45,8 +45,8 @@ void expect_rebound(const std::string& what, scene::UpdateOrder order, double h,
     EXPECT_GT(end.kinetic / start, 0.8);
 }
 
-// The discs rub along free surfaces that share nodes: the published runs, on cells of a quarter of
-// the radius, lose a few per cent there; the loss falls with the cells.
+// Free surfaces that share nodes exchange forces: the published runs, with cells of a quarter of
+// the radius, lose a few per cent there; the loss decreases with the cells.
 TEST(TwoDiscs, KeepTheirEnergyUsl) { expect_rebound("usl", scene::UpdateOrder::usl, 0.05, 0.05); }
 TEST(TwoDiscs, KeepTheirEnergyMusl) {
     expect_rebound("musl", scene::UpdateOrder::musl, 0.05, 0.05);

@@ -1,7 +1,6 @@
-// Soil falls between two rough walls under its own weight. Once steady, shear stress is rho g x and
-// the rest follows: a Newtonian fluid has Poiseuille's parabola, a Bingham fluid (yield strength c
-// beside the viscosity) a plug of half width c / (rho g), and nothing but viscosity and plastic
-// work takes the energy.
+// Soil flows down between two rough walls under its own weight. In steady flow the shear stress is
+// rho g x: a Newtonian fluid has Poiseuille's parabola, a Bingham fluid (yield strength c) a plug
+// of half width c / (rho g), and only viscosity and plastic work dissipate energy.
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
 
@@ -67,7 +66,7 @@ Flow fall(const scene::Scene& scene, double c) {
             now.viscous / (now.viscous + now.plastic)};
 }
 
-// 2 %: exp(-5) of the slowest mode is 0.7 %, ten cells over the width do the rest.
+// 2 %: exp(-5) of the slowest mode is 0.7 %, the rest is due to ten cells over the width.
 TEST(Viscosity, NewtonianSoilFallsAsPoiseuilleSays) {
     const Flow flow = fall(channel(0.0), 0.0);
     expect_error_within("parabola, L2 / fastest", flow.profile_error, 0.02);
@@ -75,8 +74,7 @@ TEST(Viscosity, NewtonianSoilFallsAsPoiseuilleSays) {
     expect_error_within("plastic share of a soil without strength", 1.0 - flow.viscous_share, 1e-9);
 }
 
-// In the sheared soil, tau = c + eta d gamma / dt at every x: the powers are known from the
-// profile.
+// In the sheared soil, tau = c + eta d gamma / dt at every x: the powers follow from the profile.
 TEST(Viscosity, SoilOfYieldStrengthFallsAsBinghamSays) {
     const double c = 300.0;
     const Flow flow = fall(channel(c), c);
@@ -85,7 +83,7 @@ TEST(Viscosity, SoilOfYieldStrengthFallsAsBinghamSays) {
 }
 
 TEST(Viscosity, TheStepFollowsAViscosityThatRulesIt) {
-    // eta / (rho h) is 50 times the wave speed: at the wave's own step this would blow up.
+    // eta / (rho h) is 50 times the wave speed: unstable with the wave's time step.
     scene::Scene scene = channel(0.0);
     scene.materials[0].viscosity = 1e5;
     Body body = filled_body(scene);

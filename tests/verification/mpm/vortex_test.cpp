@@ -1,6 +1,5 @@
-// A manufactured solution, the generalised vortex: a ring shears between its two still edges, and
-// the body force that this needs is given to the points. What comes out must be the motion that
-// went in, the more so the smaller the cells.
+// A manufactured solution, the generalised vortex: a ring shears between its two fixed edges under
+// the necessary body force. The computed motion must converge to the prescribed one with the cells.
 #include "core/grid/kernel.hpp"
 #include "tests/unit/mpm/bodies.hpp"
 #include "tests/verification/mpm/report.hpp"
@@ -17,13 +16,12 @@ constexpr double inner = 0.75;  // edges of the ring [m]
 constexpr double outer = 1.25;
 const mechanics::Vec2 centre{1.5, 1.5};
 
-/// Every point keeps its radius R and turns by the angle g(t) h(R), g = A sin(pi t), h = (1 - 4
+/// Every point keeps its radius R and rotates by the angle g(t) h(R), g = A sin(pi t), h = (1 - 4
 /// s^2)^2, s = (R - R_m) / (R_o - R_i): h and h' vanish at both edges (de Vaucorbeil et al. 2020,
-/// with a rotation that the law withstands).
-/// The published solution is that of a neo-Hookean solid. Ours is rate-type: the stress turns with
-/// the spin and grows by 2 G dev D. A point's shear strain is gamma = R g h', its gradient of
-/// velocity in the frame (e_r, e_theta) that goes round with it is pure shear of rate d gamma / dt
-/// in e_theta, and there the law gives (tr D = 0)
+/// with a smaller rotation). The published solution is for a neo-Hookean solid. Ours is rate-type:
+/// the stress rotates with the spin and grows by 2 G dev D. A point's shear strain is gamma = R g
+/// h'; its velocity gradient in the rotating frame (e_r, e_theta) is pure shear of rate d gamma /
+/// dt in e_theta, for which the law gives (tr D = 0)
 ///     s_r_theta = G sin gamma,  s_theta_theta = -s_rr = G (1 - cos gamma).
 /// It softens beyond gamma = pi / 2, where no solution is stable; A = 0.1 stays at 0.63.
 struct Vortex {
@@ -117,7 +115,7 @@ void keep(std::vector<Value>& values, const std::vector<std::size_t>& kept) {
     values.swap(left);
 }
 
-/// The ring's points; the nodes outside it are held still, as the solution's are.
+/// The ring's points; the nodes outside are fixed, as in the solution.
 Body ring_body(const scene::Scene& scene, const Vortex& vortex) {
     exchange::ParticleState state = fill_section(scene).state;
     std::vector<std::size_t> kept;
@@ -146,7 +144,7 @@ Body ring_body(const scene::Scene& scene, const Vortex& vortex) {
     return body;
 }
 
-/// m b of every point to its nodes, by the weights of its momentum.
+/// Maps m b of every point to its nodes, with the weights of its momentum.
 template <class Kernel>
 void add_body_force(Body& body, const Kernel& kernel, const Vortex& vortex, double t) {
     Grid& grid = body.grid;
@@ -167,7 +165,7 @@ void add_body_force(Body& body, const Kernel& kernel, const Vortex& vortex, doub
     }
 }
 
-/// A step as step() does it, with the body force between the mapping and Newton's law.
+/// A step like step(), with the body force between the mapping and Newton's law.
 void step(Body& body, const Vortex& vortex, double t, double dt) {
     keep_sorted(body);
     clear(body.grid);
@@ -207,7 +205,7 @@ Errors errors_of(const Body& body, const std::vector<mechanics::Vec2>& X, const 
             std::sqrt(stress / n) / largest_stress};
 }
 
-/// Up to the largest turn.
+/// Up to the largest rotation.
 Errors run(double h, scene::UpdateOrder order, scene::Kernel kernel, const Vortex& vortex) {
     constexpr double end = 0.5;
     const scene::Scene scene = ring(h, order, kernel);
@@ -222,7 +220,7 @@ Errors run(double h, scene::UpdateOrder order, scene::Kernel kernel, const Vorte
     return errors_of(body, X, vortex, end);
 }
 
-/// Errors on cells of 1/16 m and 1/32 m, and the order in which they fall.
+/// Errors with cells of 1/16 m and 1/32 m, and the observed order.
 void expect_convergence(const std::string& what, scene::UpdateOrder order, scene::Kernel kernel,
                         const Vortex& vortex, double least_order, const Errors& allowed) {
     const Errors coarse = run(1.0 / 16.0, order, kernel, vortex);

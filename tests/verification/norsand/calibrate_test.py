@@ -10,7 +10,7 @@ import tempfile
 root, bin_folder = pathlib.Path(os.environ["BREACH_ROOT"]), pathlib.Path(os.environ["BREACH_BIN"])
 documents = root / "workflows" / "element_tests"
 truth = {"Gamma": 1.2, "lambda": 0.06, "M_tc": 1.47, "N": 0.5, "chi_tc": 3.2, "H_0": 75}
-band = {"Gamma": 0.02, "lambda": 0.009, "M_tc": 0.01, "N": 0.08, "chi_tc": 0.26, "H_0": 19}  # of calibration_test.cpp
+band = {"Gamma": 0.02, "lambda": 0.009, "M_tc": 0.01, "N": 0.08, "chi_tc": 0.26, "H_0": 19}  # as in calibration_test.cpp
 
 
 def fem_solver(*arguments):
@@ -33,7 +33,7 @@ def main():
         assert short == ["cd1", "cd4"] and not set(short) & set(found["parameters"]["Gamma"]["tests"]), short
         assert all(test["misfit"]["q_over_peak"] < 0.08 for test in found["tests"].values())
 
-        # What it found is a law that element-test takes.
+        # The result is a law that element-test accepts.
         document = out / "found.json"
         document.write_text(json.dumps({
             "format": "breachline-element-test/1", "name": "found", "law": {**found["law"], "psi_0": 0.04},
@@ -49,7 +49,7 @@ def main():
         table = (out / "figures" / "drained_volume.csv").read_text()
         assert "cd1, measured" in table and "cd1, computed" in table and "cu7" not in table
 
-        # Every way to spoil a file: where, which words.
+        # Every invalid file: place and words of the fault.
         good = (documents / "synthetic_silt" / "cd1.csv").read_text().splitlines()
         first = next(i for i, line in enumerate(good) if line.startswith("epsilon_1"))
         rows = good[first + 1:]

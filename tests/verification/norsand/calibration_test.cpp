@@ -1,5 +1,5 @@
-// Parameters of NorSand come back from triaxial tests that the law itself has made, without and with
-// the noise of a laboratory.
+// Recovers the parameters of NorSand from triaxial tests computed with the law, without and with
+// laboratory noise.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,10 +30,10 @@ struct Noise {
     double stress = 0.0;  ///< of a reading [Pa]
     double volume = 0.0;  ///< of a reading [-]
 };
-/// Of a good laboratory: void ratios by freezing, digital controllers.
+/// For a good laboratory: void ratios by freezing, digital controllers.
 constexpr Noise laboratory{.e_0 = 0.003, .eta = 0.01, .stress = 300.0, .volume = 1e-4};
 
-/// What a laboratory would hand in: 200 rows, the law's own curve with noise on it.
+/// A laboratory's data: 200 rows, the law's curve with noise.
 TriaxialTest specimen_of(const norsand::Parameters& parameters, const Programme& planned,
                          const Noise& noise, std::mt19937_64& chance) {
     std::normal_distribution<double> normal;
@@ -72,7 +72,7 @@ NorSandProblem problem_of(const norsand::Parameters& law, const std::vector<Prog
     std::mt19937_64 chance(seed);
     NorSandProblem problem{.law = law, .options = {.tolerance = 1e-4}, .tests = {}};
     problem.law.S = 1.0;
-    // What is sought is not whispered.
+    // Removes the parameters to be found.
     problem.law.semi_log.reset();
     problem.law.M_tc = problem.law.N = problem.law.chi_tc = problem.law.H_0 = problem.law.H_psi = 0;
     for (const Programme& each : plan)
@@ -126,7 +126,7 @@ TEST_P(OwnTests, GiveTheParametersBack) {
     const norsand::Parameters law = soil(GetParam());
     const NorSandFit fit = calibrate(problem_of(law, nine_tests, {}, 1));
     print(GetParam(), fit, truth(law));
-    // What is left is the driver's step of 1e-3 in the calibration, of 2e-4 in the data.
+    // The remaining error is due to the driver's step: 1e-3 in the calibration, 2e-4 in the data.
     expect_within(
         {.Gamma = 2e-4, .lambda = 1e-3, .M_tc = 1e-4, .N = 1e-3, .chi_tc = 2e-3, .H = 2e-2}, fit,
         law);
@@ -151,7 +151,7 @@ TEST_P(OwnTests, GiveThemBackThroughNoise) {
 
 INSTANTIATE_TEST_SUITE_P(NorSandCalibration, OwnTests, ::testing::Values("CJ1", "CJ2"));
 
-/// A test from a reference table, thinned out.
+/// A test from a reference table, with fewer rows.
 TriaxialTest test_of_table(const std::string& name, Boundary boundary) {
     const auto file = std::filesystem::path(BREACH_SHARED) / "reference/norsand" / (name + ".csv");
     const Table table = read_table(file);
@@ -208,7 +208,7 @@ TEST(NorSandCalibration, SeeksTheFallOfHardeningWithItsLevelGiven) {
     EXPECT_TRUE(fall.error.has_value());
     EXPECT_EQ(fall.tests.size(), 6U);
 
-    // Tests that begin near psi = 0 do not know it.
+    // Tests that begin near psi = 0 do not determine it.
     NorSandProblem near =
         problem_of(law, {{drained, 100, -0.02}, {drained, 200, 0.0}, {drained, 400, 0.02}}, {}, 1);
     near.given = {
@@ -218,7 +218,7 @@ TEST(NorSandCalibration, SeeksTheFallOfHardeningWithItsLevelGiven) {
     EXPECT_EQ(unknown.law.H_psi, 0.0);
 }
 
-/// What the tests do not hold is said, and what is given is left alone.
+/// Warns of parameters that the tests do not determine, and keeps given values.
 TEST(NorSandCalibration, SaysWhatTheTestsDoNotHold) {
     const auto codes = [](const NorSandFit& fit) {
         std::set<std::string> out;
@@ -236,7 +236,7 @@ TEST(NorSandCalibration, SaysWhatTheTestsDoNotHold) {
     EXPECT_NEAR(loose.law.semi_log->lambda, 0.06, 1e-3);
     EXPECT_NEAR(loose.law.M_tc, 1.47, 5e-3);
 
-    // Drained tests that stop at 12 % strain: the law carries them on to its line.
+    // Drained tests that stop at 12 % strain: the law extrapolates them to its line.
     NorSandProblem short_tests = problem_of(
         law,
         {{drained, 100, -0.08}, {drained, 200, -0.05}, {drained, 400, -0.08}, {drained, 100, 0.02}},

@@ -1,6 +1,6 @@
-// NorSand against what must come out: the critical state line, the peaks of the open table, and the
-// published runs of Cheng & Jefferies (2020, Geo-Congress GSP 318) and of the authors' workbook as
-// docs/verification/static_liquefaction.md lists them.
+// NorSand against known results: the critical state line, the peaks of the open table, and the
+// published runs of Cheng & Jefferies (2020, Geo-Congress GSP 318) and of the authors' workbook
+// (docs/verification/static_liquefaction.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using element_bench::Boundary;
 using element_bench::Ending;
 using element_bench::Record;
 
-/// Shears to `strain`; the peak of steps of 2e-5 is good to 1e-5 of itself.
+/// Shears to `strain`; with steps of 2e-5 the peak is accurate to 1e-5.
 Record sheared(const element_bench::Specimen& start, Boundary boundary, double strain,
                double step = 1e-4) {
     Record record = element_bench::monotonic(start, boundary, strain, {.step = step, .every = 1});

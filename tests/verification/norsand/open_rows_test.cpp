@@ -1,5 +1,5 @@
 // Every row of the reference tables in ../shared/reference/norsand (Runge-Kutta runs of the same
-// equations at 8000 steps and more), at two tolerances. Skipped where the tables are not.
+// equations with 8000 steps and more), at two tolerances. Skipped without the tables.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using element_bench::Specimen;
 
 const std::filesystem::path folder = std::filesystem::path(BREACH_SHARED) / "reference/norsand";
 
-/// What a file's name says.
+/// Parameters in a file's name.
 struct Run {
     Specimen start;
     Boundary boundary;

@@ -1,5 +1,5 @@
-// Soils, specimens and reference runs that the tests of NorSand share. The parameter sets are those
-// of docs/reference/methods/norsand.md, section 14.
+// Soils, specimens and reference runs of the NorSand tests. Parameter sets:
+// docs/reference/methods/norsand.md, section 14.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Tables of numbers under a line of names.
+// Reads tables of numbers with a header line.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The element bench with laws whose answers are known in closed form.
+// The element bench with laws in closed form.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,7 +46,7 @@ TEST(ElementBench, ElasticShearHasTheShearModulus) {
 }
 
 TEST(ElementBench, ElasticBiaxialHasThePlaneStrainModulus) {
-    // sigma_xx held, epsilon_zz = 0: d sigma_yy = E / (1 - nu^2) d epsilon_yy, compression
+    // sigma_xx constant, epsilon_zz = 0: d sigma_yy = E / (1 - nu^2) d epsilon_yy, compression
     // positive.
     const Record record =
         monotonic(elastic(), Boundary::drained_biaxial, 1e-3, {.step = 1e-4, .every = 1});
@@ -86,7 +86,7 @@ TEST(ElementBench, PerfectlyPlasticLoopLosesWhatTheRectangleHolds) {
     expect_near("G secant", loop.G_secant.value(), c / amplitude, 1e-6);
 }
 
-/// Loose sand cannot hold sigma_xx at large strain: such a loop was read past its record.
+/// Loose sand cannot keep sigma_xx at large strain: the loop ends early.
 TEST(ElementBench, ALoopThatTheSpecimenDoesNotFinishHasNoNumbers) {
     const pm4sand::Ready law = pm4sand::ready(pm4sand::defaults(0.35, 476.0, 2.70));
     const Specimen sand{SandPoint{law, {}, consolidated(law, 100.0, 0.5)}};
@@ -104,7 +104,7 @@ TEST(ElementBench, ALoopThatTheSpecimenDoesNotFinishHasNoNumbers) {
     }
 }
 
-/// The peak lies within the first call of 1e-2.
+/// The peak is within the first call of 1e-2.
 TEST(ElementBench, ThePeakIsSoughtBetweenTheCalls) {
     const pm4sand::Ready law = pm4sand::ready(soil("tailings_cal"));
     const Specimen sand{SandPoint{law, {}, consolidated(law, 100.0, 0.5)}};
@@ -135,8 +135,7 @@ TEST(ElementBench, StressReversalsLieOnTheirTargets) {
     EXPECT_NEAR(low, -2e3, 1e-5);
 }
 
-/// Half the stress difference that K0 leaves stays on; it was taken off in one leap, counted as the
-/// first quarter of a cycle.
+/// Half the stress difference of K0 stays; the cycles go about it.
 TEST(ElementBench, CyclesOfABiaxialTestGoAboutTheStressItBeginsWith) {
     for (const Boundary boundary : {Boundary::undrained_biaxial, Boundary::drained_biaxial}) {
         const CyclicResult result = cyclic_stress(elastic(), boundary, {.amplitude = 10e3},

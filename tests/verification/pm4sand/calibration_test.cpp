@@ -1,6 +1,6 @@
-// The paper's calibration made automatic: from the default parameters to undrained strengths
-// of 4.3, 6.5 and 11.1 kPa at 50, 100 and 250 kPa (Sordo et al., Table 3) with the cyclic strength
-// of the default soil.
+// The paper's calibration, automated: from the default parameters to undrained strengths of 4.3,
+// 6.5 and 11.1 kPa at 50, 100 and 250 kPa (Sordo et al., Table 3) with the cyclic strength of the
+// default soil.
 #include "element_bench/calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ TEST(CalibrationOfThePaper, EndsBetterThanThePaperFromTheDefaults) {
 }
 
 TEST(CalibrationOfThePaper, FindsThePapersParametersAgainFromTheirOwnStrengths) {
-    // Targets that the paper's parameters meet exactly leave a misfit of nothing to reach.
+    // Targets that the paper's parameters meet exactly allow a misfit of zero.
     CalibrationProblem problem = paper_case({});
     problem.reference = soil("tailings_cal");
     for (StrengthTarget& target : problem.strength) {
@@ -98,7 +98,7 @@ TEST(CalibrationOfThePaper, SchemesDifferInTheStrengthOfThePapersParameters) {
     }
 }
 
-/// Cycles of a soil at two stresses, as if a laboratory had counted them.
+/// Cycles of a soil at two stresses, as laboratory data.
 CalibrationProblem measured_on(const SandParameters& truth) {
     CalibrationProblem problem{.start = soil("tailings_def"),
                                .reference = truth,
@@ -148,7 +148,7 @@ TEST(CalibrationToTheLaboratory, WeighsItsTargetsAndNeedsWhatItCountsAgainst) {
     EXPECT_THROW(Calibration{problem}, std::invalid_argument);
 }
 
-/// By the slope of 0 between repeats, any count was right.
+/// With a slope of 0 between repeats, any count would fit.
 TEST(CalibrationToTheLaboratory, RepeatsAtOneStressRatioCountAsItsMeanDoes) {
     const auto problem = [](std::vector<CyclicTarget> targets) {
         return CalibrationProblem{.start = soil("embankment"),

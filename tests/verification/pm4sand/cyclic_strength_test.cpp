@@ -1,5 +1,5 @@
-// Cyclic strength of the tailings against OpenSees, and what the default scheme makes of it. N
-// counts as in the reference (element_bench/programme.hpp).
+// Cyclic strength of the tailings against OpenSees, and with the default scheme. N counts as in the
+// reference (element_bench/programme.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>

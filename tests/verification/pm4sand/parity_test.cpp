@@ -1,7 +1,6 @@
-// The reference scheme against OpenSees, step by step: its strain history is replayed and the
-// stress compared. Tolerances are those of the issue; the remaining difference comes from drift
-// passes and from the number of parts, which round-off decides
-// (docs/reference/methods/pm4sand_integration.md, 13.2, 17).
+// The reference scheme against OpenSees, step by step: replays its strain history and compares the
+// stress. The remaining difference comes from drift passes and from the number of parts, which
+// round-off decides (docs/reference/methods/pm4sand_integration.md, 13.2, 17).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-// What separates the two schemes, as a table: the corrected one against the reference, which is
-// biased in flow (docs/reference/methods/pm4sand_integration.md, 17) and moves alpha along b where
-// it drifts (docs/reference/methods/pm4sand.md, section 8).
+// Differences of the two schemes: the corrected one against the reference, which is biased in flow
+// (docs/reference/methods/pm4sand_integration.md, 17) and moves alpha along b where it drifts
+// (docs/reference/methods/pm4sand.md, section 8).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,8 +61,9 @@ pm4sand::Parameters very_loose() {
     return law;
 }
 
-/// Loose of critical a stress may begin between the bound and M_d. Loading that goes on from there is
-/// no reversal: the start is as strong as one just inside. It was seven times stronger at 10 %.
+/// Looser than critical, a stress may start between the bound and M_d. Further loading is no
+/// reversal: the strength equals that of a start just inside. As a reversal it would be seven times
+/// higher at 10 %.
 TEST(Schemes, UndrainedShearFromOutsideTheBoundIsNoReversal) {
     const struct {
         pm4sand::Parameters soil;
@@ -88,7 +89,8 @@ TEST(Schemes, UndrainedShearFromOutsideTheBoundIsNoReversal) {
     }
 }
 
-/// The tailings' bound lies at K0 = 0.303. A point that begins on it, or a little outside, strains no differently from its neighbours.
+/// The tailings' bound is at K0 = 0.303. A point that starts on it, or slightly outside, behaves
+/// like its neighbours.
 TEST(Schemes, UndrainedShearDoesNotDependOnTheSideOfTheBoundWhereItBegins) {
     const auto tau = [](double K0, double strain, double step) {
         return monotonic(specimen("tailings_cal", 100.0, {}, K0), Boundary::undrained_shear, strain,
@@ -114,7 +116,7 @@ struct Drained {
     double allowed;  ///< kPa: what docs/reference/methods/pm4sand.md, section 8, says, with room
 };
 
-/// Volume that the shear opened after it had closed most.
+/// Volumetric dilation after the largest contraction.
 double dilation_of(const Record& record) {
     double most = -1.0;
     for (const Reading& each : record.readings) most = std::max(most, each.epsilon_v);

@@ -1,5 +1,4 @@
-// The soils of the reference runs and small readers that the PM4Sand tests share. kPa here, Pa in
-// the model.
+// Soils of the reference runs and readers for the PM4Sand tests. kPa here, Pa in the model.
 #pragma once
 
 #include <cstdlib>

@@ -21,7 +21,7 @@ def main():
         assert done.returncode == 0, done.stderr
         result = json.loads((out / "tests" / "result.json").read_text())
         strengths = [test["response_kPa"] for test in result["tests"]["undrained"]]
-        limits = [4.196, 5.827, 9.929]  # of vanishing steps
+        limits = [4.196, 5.827, 9.929]  # for vanishing steps
         print("s_u computed", strengths, "limits", limits)
         assert all(abs(s / limit - 1) < 1e-3 for s, limit in zip(strengths, limits))
         completed = json.loads((out / "tests" / "scene.completed.json").read_text())

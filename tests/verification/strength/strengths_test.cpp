@@ -1,4 +1,4 @@
-// One strength profile, asked by LEM, transfer and MPM: at one place they have one number.
+// One strength profile in LEM, transfer and MPM: equal at one place.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ json soil(const json& strength) {
             {"law", {{"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}}}};
 }
 
-/// A slope 12 m wide and 10 m high, water inclined in it, standing free at its foot.
+/// A slope 12 m wide and 10 m high, with inclined water and free water at its foot.
 json slope(const json& material) {
     return {{"format", "breachline-scene/1"},
             {"name", "slope"},
@@ -63,7 +63,7 @@ json profile() {
 
 scene::Scene parsed(const json& text) { return scene::parse_scene(text.dump(), "slope"); }
 
-/// The undeformed mesh over the section: what of it lies above the slope is not asked for.
+/// The undeformed mesh over the section; elements above the slope are not used.
 exchange::MeshSnapshot mesh(const std::function<double(const Vec2&)>& r_u) {
     auto snapshot = transfer::meshes::grid({.nx = 12, .ny = 10});
     snapshot.regions = {"slope"};
@@ -71,7 +71,7 @@ exchange::MeshSnapshot mesh(const std::function<double(const Vec2&)>& r_u) {
     return snapshot;
 }
 
-/// What the transfer gives a point there.
+/// Strength of a point there in the transfer.
 materials::PointStrength in_transfer(const transfer::SoilMap& map, const Vec2& place) {
     const Vec2 corner{std::floor(place.x()), std::floor(place.y())};
     const auto element = static_cast<std::size_t>(12 * corner.y() + corner.x());
@@ -173,7 +173,7 @@ TEST(OneProfile, LiquefiedPointsComeWithTheirResidualStrengthAndKeepItInTheMPM) 
     EXPECT_THROW(mpm::zoned_points(scene, without, "old"), fault::BadInput);
 }
 
-/// Where the profile is the same everywhere, the law that each point has for itself is the old one.
+/// With a uniform profile, the law of each point equals the material's.
 TEST(OneProfile, ThatIsUniformMovesTheSoilAsTheLawsOwnEntriesDo) {
     json old = soil(json::object());
     old.erase("strength");
@@ -266,7 +266,7 @@ TEST(TwoStrengths, OfOneSoilAreFlaggedWithBothPlacesAndValues) {
     EXPECT_NE(told[0].find("/materials/soil/limit_strength"), std::string::npos);
 }
 
-/// No profile at all: like is compared with like, and peak with residual never.
+/// Without a profile: compares equal kinds, never peak with residual.
 TEST(TwoStrengths, AreFoundWithoutAProfileToo) {
     json law = soil(json::object());
     law.erase("strength");

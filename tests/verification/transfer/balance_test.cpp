@@ -1,4 +1,4 @@
-// The out-of-balance force of the new points on the MPM's grid.
+// The unbalanced force of the new points on the MPM's grid.
 #include <gtest/gtest.h>
 
 #include "tests/verification/transfer/meshes.hpp"
@@ -32,7 +32,7 @@ exchange::LedgerRow balance(const meshes::MeshSnapshot& mesh, scene::Kernel kern
     return meshes::row_of(meshes::transferred(mesh, scene).ledger, "total", "out-of-balance force");
 }
 
-// Hat functions, elements that are the cells, stress linear in depth: Gauss points integrate the
+// Hat functions, elements equal to the cells, stress linear in depth: Gauss points integrate the
 // nodal equations exactly, so level ground stays at rest to round-off of its weight.
 TEST(Balance, LevelGroundWithWaterIsInEquilibriumOnTheGrid) {
     const auto mesh = level_ground(10.0);
@@ -44,8 +44,8 @@ TEST(Balance, LevelGroundWithWaterIsInEquilibriumOnTheGrid) {
     }
 }
 
-// GIMP sees the same stresses through averaged weights: what is out of balance is the error of its
-// quadrature with 2 x 2 points per cell, and must stay small beside what is lost with the water.
+// GIMP averages the same stresses: the unbalanced force is the quadrature error of 2 x 2 points per
+// cell, and must be small compared with the effect of losing the water.
 TEST(Balance, TheKernelIsTheScenesAndLosingTheWaterWouldShow) {
     const auto mesh = level_ground(10.0);
     auto dry = mesh;
@@ -63,8 +63,7 @@ TEST(Balance, TheKernelIsTheScenesAndLosingTheWaterWouldShow) {
     }
 }
 
-// A body in free fall: no stress, so the force is the weight, and it is what the acceleration
-// needs.
+// A body in free fall: without stress, the force is the weight, which the acceleration needs.
 TEST(Balance, TheInertiaOfTheFemIsTheReference) {
     auto mesh = meshes::grid({.nx = 8, .ny = 10, .width = 8.0, .height = 10.0});
     for (auto& x : mesh.position_0) x.y() += 5.0;  // above the floor

@@ -1,7 +1,7 @@
-// The synthetic stress field on a graded mesh that docs/reference/methods/transfer.md measures interpolations on:
-// 5,130 elements of 1 m height whose widths grow from 1 m to 10 m, one Gauss point each, stress
-// that grows with depth and drops across a shear band. The document gives no formula: this one was
-// chosen so that the paper's interpolation is as wrong here as it is there.
+// The synthetic stress field on a graded mesh for which docs/reference/methods/transfer.md measures
+// interpolations: 5,130 elements of 1 m height with widths from 1 m to 10 m, one Gauss point each,
+// stress that increases with depth and drops across a shear band. The document gives no formula:
+// this field was chosen to give the same error with the paper's interpolation.
 #pragma once
 
 #include <cstdio>
@@ -68,7 +68,6 @@ inline HullError error_of(const meshes::MeshSnapshot& s, const scene::Transfer& 
     return error;
 }
 
-/// Measured and printed.
 inline HullError measured(const scene::Transfer& how) {
     const HullError error = error_of(mesh(), how);
     std::printf("  rms inside the hull %.3f kPa, outside %.3f kPa, largest %.2f kPa\n",

@@ -5,7 +5,7 @@
 namespace breach::transfer::case_field_test {
 namespace {
 
-// The limits: 0.15 and 0.6 kPa rms, 3 kPa at most.
+// Limits: 0.15 and 0.6 kPa rms, 3 kPa at most.
 TEST(CaseField, TheDefaultModeIsWithinTheLimitsOnGradedElements) {
     ASSERT_EQ(case_field::mesh().quads.size(), 5130u);
     const auto error = case_field::measured(meshes::settings(2));

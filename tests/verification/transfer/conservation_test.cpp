@@ -1,5 +1,4 @@
-// Mass, volume, momentum and energies between exact integrals over the mesh and plain sums over the
-// points.
+// Mass, volume, momentum and energies: exact integrals over the mesh against sums over the points.
 #include <gtest/gtest.h>
 
 #include "tests/verification/transfer/meshes.hpp"
@@ -24,9 +23,9 @@ double before(const Ledger& ledger, const std::string& quantity) {
 
 class DistortedMesh : public testing::TestWithParam<int> {};
 
-// With n >= 2 points per direction every integrand (degree 3 in xi and in eta at most) is
-// integrated exactly: what is left is the round-off of some hundred additions. Allowed: the issue's
-// 1e-12 and 1e-10.
+// With n >= 2 points per direction every integrand (degree at most 3 in xi and in eta) is
+// integrated exactly: what remains is the round-off of some hundred additions. Limits: 1e-12 and
+// 1e-10.
 TEST_P(DistortedMesh, KeepsMassVolumeMomentumAndEnergiesInEveryRegion) {
     auto mesh = meshes::grid({.nx = 9, .ny = 7, .skew = 0.2, .regions = 3});
     meshes::set_in_motion(mesh);
@@ -48,8 +47,8 @@ TEST_P(DistortedMesh, KeepsMassVolumeMomentumAndEnergiesInEveryRegion) {
     std::cout << "  largest relative difference " << worst << ", allowed 1e-12 (momentum 1e-10)\n";
 }
 
-// National grids: a Gauss-Krueger northing has 5,500 km. Nodes on 1/1024 m are exact there, so what
-// differs is the transfer's own round-off.
+// National grids: a Gauss-Krueger northing is 5,500 km. Nodes on 1/1024 m are exact there: only the
+// transfer's own round-off remains.
 TEST(Conservation, IsTheSameFarFromTheOrigin) {
     auto near = meshes::grid({.nx = 9, .ny = 7, .skew = 0.2, .regions = 3});
     meshes::set_in_motion(near);
@@ -106,7 +105,7 @@ TEST(Conservation, ARectangleInTranslationHasTheTextbookAmounts) {
     EXPECT_LT(difference(t.ledger, "total", "elastic energy"), 1e-12);
 }
 
-// The sums themselves must not eat the digits that the ledger promises: 360,000 equal points.
+// 360,000 equal points: the sums keep the ledger's digits.
 TEST(Conservation, ManyPointsDoNotDegradeTheSums) {
     auto mesh = meshes::grid({.nx = 300, .ny = 300});
     for (auto& v : mesh.velocity) v = {0.1, -0.7};
@@ -118,7 +117,7 @@ TEST(Conservation, ManyPointsDoNotDegradeTheSums) {
         EXPECT_LT(difference(ledger, "total", quantity), 1e-14) << quantity;
 }
 
-// One point per element cannot carry the momentum of a trapezoid, and the ledger says so.
+// One point per element cannot represent the momentum of a trapezoid; the ledger shows it.
 TEST(Conservation, OnePointPerElementIsCaughtByTheLedger) {
     auto mesh = meshes::grid({.skew = 0.2});
     meshes::set_in_motion(mesh);

@@ -33,8 +33,8 @@ TEST(LocalMode, ConstantAndLinearFieldsAreExactOnADistortedDeformedMesh) {
 
 TEST(LocalMode, AJumpBetweenRegionsLeavesNoTrace) {
     const auto mesh = meshes::grid({.nx = 12, .ny = 10, .skew = 0.1, .regions = 2});
-    // The larger side is 2e9 Pa: 1e-2 Pa is 5e-12 of it; and the weaker side alone must be as exact
-    // as without a jump.
+    // The larger side is 2e9 Pa: 1e-2 Pa is 5e-12 of it; the weaker side must be as exact as
+    // without a jump.
     expect_exact(mesh, jump, meshes::settings(3), 1e-2);
     const auto weak_only = [](const Vec2& x, int region) {
         return region == 0 ? jump(x, 0) : 1e4 * jump(x, 1);

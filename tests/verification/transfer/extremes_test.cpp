@@ -1,4 +1,4 @@
-// Meshes and fields at the edge of what can be transferred.
+// Meshes and fields in extreme cases.
 #include <gtest/gtest.h>
 
 #include "tests/verification/transfer/meshes.hpp"
@@ -48,7 +48,8 @@ TEST(Rebuild, LeavesSoundElementsAlone) {
         EXPECT_EQ(refused.corners[e], rebuilt.corners[e]);
 }
 
-// A quad folded over one corner while the whole mesh turns by 40 degrees: its shape turns with it.
+// A quad folded over one corner while the whole mesh rotates by 40 degrees: its shape rotates with
+// it.
 TEST(Rebuild, TurnsTheShapeWithTheElement) {
     auto mesh = meshes::grid({.nx = 1, .ny = 1, .width = 2.0, .height = 1.0});
     const double a = 40.0 * 3.14159265358979 / 180.0;
@@ -102,8 +103,8 @@ TEST(Extreme, ElementsThatLieOnEachOtherShareTheirGaussPoints) {
     }
 }
 
-// Ten thousand times the stress in the next element, same region: interpolants swing, nothing
-// breaks, and where the fields are known they are kept.
+// Ten thousand times the stress in the next element of the same region: interpolants oscillate but
+// stay finite, and known values are kept.
 TEST(Extreme, AJumpOfTenThousandTimesBetweenNeighboursStaysFinite) {
     auto mesh = meshes::grid({.nx = 12, .ny = 10});
     const auto places = meshes::gauss_places(mesh);
@@ -140,7 +141,7 @@ TEST(Stop, BothModesStopOnRequestAndReportTheirProgress) {
     }
 }
 
-// Points at the Gauss points come back exactly; others with the error of two interpolations.
+// Points at the Gauss points are recovered exactly; others with the error of two interpolations.
 TEST(RoundTrip, IsExactAtGaussPointsAndForLinearFields) {
     auto mesh = meshes::grid({.nx = 12, .ny = 10, .skew = 0.2, .regions = 2});
     meshes::set_in_motion(mesh);

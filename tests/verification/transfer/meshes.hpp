@@ -1,4 +1,4 @@
-// Meshes with known fields: distorted, deformed, of several regions.
+// Meshes with known fields: distorted, deformed, with several regions.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Grid {
     int gauss = 2;         ///< Gauss points per direction
 };
 
-/// Undeformed nodes are moved smoothly by `skew` cells; no displacement, no velocity, no stress;
+/// Undeformed nodes are moved smoothly by `skew` cells; zero displacement, velocity and stress;
 /// density differs by region.
 inline MeshSnapshot grid(const Grid& g) {
     MeshSnapshot s;
@@ -70,7 +70,7 @@ inline MeshSnapshot grid(const Grid& g) {
     return s;
 }
 
-/// Groundwater up to `level`, hydrostatic, and as much excess pore pressure as r_u(place) asks for.
+/// Hydrostatic groundwater up to `level`, and the excess pore pressure for r_u(place).
 inline void soak(MeshSnapshot& s, double level,
                  const std::function<double(const mechanics::Vec2&)>& r_u) {
     for (const auto& x : s.position_0) {
@@ -121,13 +121,13 @@ inline scene::Transfer settings(int n = 3,
             .largest_momentum_loss = 1e-10};
 }
 
-/// n x n points in every element, fields not yet carried.
+/// n x n points in every element, without fields.
 inline Points points_on(const MeshSnapshot& s, int n) {
     return place_points(s, shapes_of_elements(s, scene::Entangled::refuse, "mesh").corners,
                         one_panel_each(s.quads.size()).panels, n);
 }
 
-/// A transfer that nobody stops.
+/// A transfer that is not stopped.
 inline Transferred transferred(const MeshSnapshot& s, const scene::Scene& scene, int threads = 1) {
     return *transfer(s, scene, {.threads = threads}, "mesh");
 }
@@ -153,8 +153,7 @@ inline FieldError field_error(const MeshSnapshot& s, const Field& field,
     return error;
 }
 
-/// A scene whose regions and materials are those of the mesh; the polygons do not matter to the
-/// transfer.
+/// A scene with the regions and materials of the mesh; the transfer ignores the polygons.
 inline scene::Scene scene_for(const MeshSnapshot& s, const materials::Law& law,
                               const scene::Transfer& how) {
     scene::Scene scene{};
@@ -181,7 +180,7 @@ inline scene::Mpm cells(double size, double width, double height,
     return mpm;
 }
 
-/// The row of a ledger; a failure when there is none.
+/// The row of a ledger; fails if there is none.
 inline exchange::LedgerRow row_of(const exchange::Ledger& ledger, const std::string& region,
                                   const std::string& quantity) {
     for (const auto& row : ledger)

@@ -1,8 +1,7 @@
-// A snapshot in the shape of the Mochikoshi dam, for transfers before a FEM run is at hand: the
-// mesh of the OpenSees runs (mesh24.json: 919 quads of about 2.4 m, wide ones far from the dam;
-// made for this project, see its note) with invented fields. No result of an analysis: stress from
-// depth, hydrostatic water, liquefied down to 18.5 m beneath the pond near the dam, and a slide
-// that turns about a point above the dam.
+// A snapshot in the shape of the Mochikoshi dam, for transfers without FEM run: the mesh of the
+// OpenSees runs (mesh24.json: 919 quads of about 2.4 m, wider far from the dam; made for this
+// project, see its note) with invented fields. Stress from depth, hydrostatic water, liquefied down
+// to 18.5 m below the pond near the dam, and a slide that rotates about a point above the dam.
 #pragma once
 
 #include <fstream>
@@ -19,7 +18,7 @@ using mechanics::Vec2;
 inline const std::vector<Vec2> ground{{-60, 29.4},   {109, 29.4},   {110, 30}, {115, 30},
                                       {168.9, 12.4}, {175.9, 12.4}, {220, 0},  {300, 0}};
 
-/// Share of the slide's motion at a place: 1 within, fading over 15 m.
+/// Share of the slide's motion at a place: 1 inside, decreasing to 0 over 15 m.
 inline double sliding(const Vec2& x) {
     const double r = (x - Vec2(135.0, 62.0)).norm();
     const double beyond = std::max({0.0, 90.0 - x.x(), x.x() - 175.0, r < 53.0 ? 0.0 : r - 53.0});

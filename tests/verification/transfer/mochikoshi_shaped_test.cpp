@@ -1,5 +1,4 @@
-// The shipped Mochikoshi scene's transfer on a snapshot of its shape. What the numbers are is
-// invented; that nothing is lost is not.
+// The shipped Mochikoshi scene's transfer of an invented snapshot of its shape: tests conservation.
 #include "tests/verification/transfer/mochikoshi_shaped.hpp"
 
 #include <gtest/gtest.h>
@@ -29,7 +28,7 @@ class MochikoshiShaped : public testing::Test {
     static inline Transferred* transferred_ = nullptr;
 };
 
-// The limits: 1e-12, 1e-10, and 0.5 % of the kinetic energy.
+// Limits: 1e-12, 1e-10, and 0.5 % of the kinetic energy.
 TEST_F(MochikoshiShaped, KeepsMassVolumeMomentumAndEnergy) {
     std::cout << as_text(transferred_->ledger);
     EXPECT_LT(difference("mass"), 1e-12);

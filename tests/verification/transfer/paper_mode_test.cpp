@@ -5,8 +5,8 @@
 namespace breach::transfer::paper_mode_test {
 namespace {
 
-// The document measured 0.40, 1.94 and 17 kPa on its own field; ours has no formula in common with
-// it, so only the order is compared: within a factor of two.
+// The document measured 0.40, 1.94 and 17 kPa on its own field; this field has another formula, so
+// only the order of magnitude is compared: within a factor of two.
 TEST(CaseField, ThePapersModeIsAsWrongAsTheDocumentSays) {
     const auto error = case_field::measured(meshes::settings(2, scene::Interpolation::paper));
     const auto within_twice = [](double reached, double published) {

@@ -1,4 +1,4 @@
-// What a transfer refuses, and what it says.
+// Refusals of a transfer, and their messages.
 #include <gtest/gtest.h>
 
 #include "tests/verification/transfer/meshes.hpp"
@@ -30,8 +30,8 @@ TEST(EntangledMesh, IsRefusedByElementTimeAndJacobian) {
     EXPECT_NE(text.find("|J_t|/|J_0|"), std::string::npos) << text;
 }
 
-// Area at the centre still positive, one corner pulled inside the diagonal: only the corner sees
-// it.
+// The area at the centre is still positive, one corner is inside the diagonal: only the corner
+// shows it.
 TEST(EntangledMesh, ACornerInsideTheDiagonalIsRefused) {
     auto mesh = meshes::grid({});
     mesh.displacement[16] = {-1.2, -1.2};

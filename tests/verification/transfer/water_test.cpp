@@ -65,7 +65,7 @@ TEST(PorePressure, LosesWhatAlternatesFromCornerToCorner) {
     }
 }
 
-// sigma_total = sigma' - u I, and nothing else changes.
+// sigma_total = sigma' - u I; all else is unchanged.
 TEST(Stress, TotalIsEffectiveLessThePorePressure) {
     Ground g = ground([](const Vec2&) { return 0.3; });
     const auto total = meshes::transferred(g.mesh, g.scene);
@@ -94,7 +94,7 @@ TEST(Stress, WithoutFrictionItIsAlwaysTotal) {
 }
 
 TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
-    // r_u = 1 at y = 4 and 5 m for x < 4 m: what lies above liquefies with it. At x = 3, where half of
+    // r_u = 1 at y = 4 and 5 m for x < 4 m: the soil above liquefies too. At x = 3, where half of
     // the elements have it, the mean is 0.6.
     Ground g = ground([](const Vec2& x) { return x.x() < 3.5 && std::abs(x.y() - 4.5) < 0.6; });
     g.scene.transfer->liquefied = scene::LiquefiedZone{.regions = {0},
@@ -107,8 +107,8 @@ TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
     EXPECT_EQ(t.liquefaction->deepest_level, 4.0);
     for (std::size_t p = 0; p < t.state.size(); ++p) {
         const Vec2& x = t.state.position[p];
-        // Nodes at x = 0, 1, 2 stand for columns to 2.5 m; 36 kPa lies 4 m deep, and the second
-        // layer also holds what is beyond its 40 kPa.
+        // Nodes at x = 0, 1, 2 represent columns to 2.5 m; 36 kPa are at 4 m depth, and the second
+        // layer includes stresses above its 40 kPa.
         const bool liquefied = x.x() < 2.5 && x.y() >= 4.0;
         const std::int32_t expected = !liquefied ? (x.x() < 6.0 ? 0 : 1) : x.y() > 6.0 ? 2 : 3;
         ASSERT_EQ(t.state.region[p], expected) << x.transpose();
@@ -145,7 +145,7 @@ TEST(PhreaticLine, PartsSaturatedFromUnsaturatedSoil) {
     EXPECT_NEAR(static_cast<double>(wet) / 4.0, 30.0, 1.5) << "elements of 1 m2 below the line";
 }
 
-// What the file says is what the MPM runs: layers of one region have laws of their own.
+// The file agrees with the MPM: layers of one region have their own laws.
 TEST(LiquefiedLayers, HaveTheirOwnLawsInTheMpm) {
     Ground g = ground([](const Vec2& x) { return x.y() > 4.9; });
     g.scene.transfer->liquefied = scene::LiquefiedZone{.regions = {0},
