@@ -126,7 +126,7 @@ RunDecisions decide_run(const scene::Scene& scene) {
         .snapshot_times = {fem.snapshot_times,
                            line_of("snapshots on the way", use_if(!fem.snapshot_times.empty()),
                                    {std::to_string(fem.snapshot_times.size()) + " times",
-                                    "only the end is kept, and what is asked for on the way"},
+                                    "stored only at the end and when requested"},
                                    "/fem/snapshot_times")},
         .snapshot_interval = {fem.snapshot_interval,
                               line_of("regular snapshots", use_if(fem.snapshot_interval > 0.0),

@@ -80,8 +80,8 @@ std::optional<fault::Flag> still_liquefying(const std::vector<Reading>& history)
 fault::Flag viscous_band(double share) {
     return {"viscous_band", fault::Severity::warning,
             "in soil that fails, damping carries " + shown(100.0 * share) +
-                " % of what the soil itself carries in shear (at most 33 % can be trusted): the "
-                "slide is slowed by it; halve /fem/damping/ratio and compare",
+                " % of what the soil itself carries in shear (at most 33 % can be trusted): it "
+                "slows the slide; halve /fem/damping/ratio and compare",
             "/fem/damping"};
 }
 

@@ -178,8 +178,8 @@ std::vector<fault::Flag> flags_of_upstream_end(const Strata& strata, const State
     return {
         {"upstream_wall", fault::Severity::warning,
          text("the critical surface%s begins %.3g m from the section's upstream end, x = %.4g m, "
-              "less than the slope's height, %.3g m: surfaces that begin farther back are left "
-              "out. Extend the section to x = %.4g m at least",
+              "less than the slope's height, %.3g m: surfaces that begin farther upstream are not "
+              "searched. Extend the section to x = %.4g m at least",
               state.name.c_str(), distance, end, height,
               end + (falls_right ? -1.0 : 1.0) * (2.0 * height - distance)),
          "/section/regions"}};

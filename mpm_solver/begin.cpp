@@ -32,8 +32,8 @@ GroundMotion ground_beneath(const exchange::ParticleState& state, const std::str
     if (!state.base_motion.any()) {
         throw fault::BadInput(
             source, {{"/breachline/base_motion",
-                      "is missing, and /mpm/shaking is on: nothing says how the ground moves after "
-                      "the transfer",
+                      "is missing, and /mpm/shaking is on: the motion of the ground after the "
+                      "transfer is unknown",
                       "give the points of a transfer from a FEM with /fem/base, /fem/motion and "
                       "/fem/free_field (run again where an earlier version did), or set "
                       "/mpm/shaking to off"}});

@@ -307,8 +307,8 @@ void say(const Session& session, const Ending& ending, const Row& row) {
         flags += (flags.empty() ? "" : ", ") + each.code + " (" + name_of(each.severity) + ")";
     char text[512];
     std::snprintf(text, sizeof text,
-                  "runout %.2f m: 99 %% of the mobile soil lies at most so far beyond the toe; of "
-                  "what lies beyond it %.2f m; farthest grain %.2f m",
+                  "runout %.2f m: 99 %% of the mobile soil lies within this distance of the toe; "
+                  "of the soil beyond the toe %.2f m; farthest point %.2f m",
                   row.runout, row.runout_beyond_toe, row.runout_largest);
     spdlog::info("{}", text);
     if (ending.moving) {

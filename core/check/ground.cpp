@@ -136,8 +136,8 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
     warn(findings, "free_upstream_end", "/mpm/domain_x",
          "begins " + metres(gap) + " before the section, whose soil ends at x = " + metres(end) +
              " in a free face of " + metres(face) +
-             ": the FEM holds it there, in the runout it falls upstream, and runs less far; begin "
-             "the grid at x = " +
+             ": the FEM supports it there, but in the runout it falls upstream, which shortens the "
+             "runout; begin the grid at x = " +
              metres(end));
 }
 

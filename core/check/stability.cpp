@@ -81,7 +81,7 @@ void check_search(const scene::Scene& scene, const scene::SlipSearch& search, Fi
     const geometry::Levels ground = ground_over(scene.section, box.low.x(), box.high.x());
     if (search.lowest_level && *search.lowest_level >= ground.highest)
         refuse(findings, "/lem/search/lowest_level",
-               "lies above all ground, whose highest level is " + metres(ground.highest),
+               "is not below the ground's highest level, " + metres(ground.highest),
                "give a level below the ground, or leave it out");
     if (search.minimum_depth >= ground.highest - box.low.y())
         refuse(findings, "/lem/search/minimum_depth",

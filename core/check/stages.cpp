@@ -40,7 +40,7 @@ void warn_about_blows(const scene::Fem& fem, Findings& findings) {
             !stage.activates.empty() || !stage.removes.empty() || !stage.releases.empty();
         if (stage.kind != scene::StageKind::dynamic || !changes || stage.ramp > 0.0) continue;
         warn(findings, "sudden_change", "/fem/stages/" + std::to_string(i),
-             "places or takes away soil or supports at once, which shakes the body as a blow does; "
+             "places or removes soil or supports at once, which shakes the body like an impact; "
              "give the stage a ramp");
     }
 }

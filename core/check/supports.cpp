@@ -135,7 +135,7 @@ void warn_of_unheld_base(const scene::Scene& scene, double tolerance, Findings& 
     warn(findings, "hardly_held", "/fem/supports",
          "only " + metres(held) + " of the section's lowest side, " + metres(length) +
              " at y = " + metres(level) +
-             ", are held: nothing holds the soil over the rest; let the support reach from end to "
+             ", are held: the soil over the rest is not supported; extend the support from end to "
              "end");
 }
 
@@ -155,7 +155,7 @@ void check_crest(const scene::Scene& scene, Findings& findings) {
         warn(findings, "far_crest", "/fem/crest",
              "the crest " + text(crest) + " lies " + metres(away) +
                  " away from the soil, whose elements are " + metres(size) +
-                 ": what is recorded is another place's motion; give a point of the ground");
+                 ": the recorded motion is not that of the crest; give a point on the ground");
     }
 }
 
@@ -170,7 +170,7 @@ void warn_if_hardly_held(const scene::Scene& scene, std::size_t index, double to
         return;
     warn(findings, "hardly_held", "/fem/supports/" + std::to_string(index),
          "\"" + support.name + "\" runs from " + text(support.from) + " to " + text(support.to) +
-             " along no side of a region: it holds single nodes, if any; let it run along an edge");
+             " along no side of a region: it holds single nodes, if any; place it on an edge");
 }
 
 }  // namespace

@@ -142,11 +142,11 @@ void warn_about_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
         const double depth = end.y() - ground_over(scene.section, from, to).lowest;
         if (depth <= shallow) return;
         warn(findings, "undrawn_water", pointer,
-             "ends at " + text(end) + " and goes on level from there: water stands up to " +
+             "ends at " + text(end) + " and continues level from there: the water is up to " +
                  metres(depth) + " above the ground between x = " + text(from) + " and " +
                  metres(to) +
-                 ", and holds the slope; draw the line on to the section's edge, along the ground "
-                 "where no water stands");
+                 ", and supports the slope; extend the line to the section's edge, along the "
+                 "ground where there is no water");
     };
     look(line.front(), box.low.x(), std::min(line.front().x(), box.high.x()));
     look(line.back(), std::max(line.back().x(), box.low.x()), box.high.x());

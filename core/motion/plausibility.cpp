@@ -145,8 +145,8 @@ Remarks remarks_about(const Recording& motion, const std::string& pointer) {
             if (share <= much_left) continue;
             find.flag("drifting_motion", "the velocity at its " + std::string(end) + " is " +
                                              text(left, " m/s") + ", " + text(100.0 * share, " %") +
-                                             " of its peak, and 0 beyond: a jolt that nobody "
-                                             "recorded; let it begin and end at rest");
+                                             " of its peak, and 0 beyond: a jolt that the record "
+                                             "does not have; make it begin and end at rest");
         }
         return std::move(find.remarks);
     }

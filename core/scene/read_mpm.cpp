@@ -60,13 +60,13 @@ void check_terrain(Reader& reader, const Mpm& mpm) {
     for (const double x : mpm.domain_x) {  // beyond its ends it continues straight
         const double y = geometry::straight_level_at(mpm.terrain, x);
         if (y >= lowest - 1e-9) continue;
-        reader.add(
-            "/mpm/terrain",
-            "goes on straight beyond its ends, and at x = " + words::text_of(x) + " m lies at " +
-                words::text_of(y) +
-                " m, not a cell above /mpm/floor/level: the floor would carry the flow there",
-            "lower floor/level and domain_y[0], or draw the terrain on to the end of "
-            "domain_x");
+        reader.add("/mpm/terrain",
+                   "continues straight beyond its ends, and at x = " + words::text_of(x) +
+                       " m lies at " + words::text_of(y) +
+                       " m, less than a cell above /mpm/floor/level: the flow would run on the "
+                       "floor there",
+                   "lower floor/level and domain_y[0], or draw the terrain on to the end of "
+                   "domain_x");
     }
 }
 

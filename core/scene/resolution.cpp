@@ -151,8 +151,8 @@ void judge_weak_layers(const Scene& scene, Resolved& resolved) {
              *thickness < h ? fault::Severity::questionable : fault::Severity::warning,
              "only " + text_of(*thickness / h) + " cells of " + text_of(h) + " m across region \"" +
                  layer.name + "\", " + text_of(*thickness) +
-                 " m, which is weaker than the soil that it carries: a slide along it is not seen "
-                 "or comes short; take cells of at most " +
+                 " m, which is weaker than the soil that it carries: slides along it are missed or "
+                 "too short; take cells of at most " +
                  rounded_down(*thickness / least_cells) + " m",
              "/mpm/cell_size"});
     }
@@ -168,7 +168,7 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     }
     if (!mpm.softening_length) {
         resolved.faults.push_back(
-            {pointer, "needs to know for which band the softening strains hold",
+            {pointer, "needs the width of the shear band for which the softening strains hold",
              "give /mpm/softening_length, the cell size that they were found with"});
     }
     const double cells = *soil.nonlocal_length / mpm.cell_size;
@@ -309,8 +309,8 @@ void judge_beds(const Scene& scene, Resolved& resolved) {
         resolved.flags.push_back({"shared_cells", fault::Severity::warning,
                                   "the top of firm region \"" + below.name + "\" " + cut->how +
                                       ": in the cells that it shares with \"" + above.name +
-                                      "\" it holds what slides on it, and the runout is too short "
-                                      "(10 to 30 % were seen); " +
+                                      "\" it slows the soil that slides on it, and the runout is "
+                                      "too short (10 to 30 % in tests); " +
                                       cut->remedy,
                                   "/mpm/cell_size"});
     }

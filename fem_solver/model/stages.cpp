@@ -48,11 +48,11 @@ void refuse_wet_changes(const scene::Scene& scene, std::size_t stage, const Mode
         const bool changes = std::ranges::find(now.activates, region) != now.activates.end() ||
                              std::ranges::find(now.removes, region) != now.removes.end();
         if (!changes || !below[e]) continue;
-        throw fault::BadInput(
-            "scene", {{pointer,
-                       "places or removes region '" + scene.section.regions[region].name +
-                           "', in which water stands, without letting the water come to rest",
-                       "do it in a static stage that drains, or draw the line below it"}});
+        throw fault::BadInput("scene",
+                              {{pointer,
+                                "places or removes region '" + scene.section.regions[region].name +
+                                    "', which holds water, without draining",
+                                "do it in a static stage that drains, or draw the line below it"}});
     }
 }
 
@@ -72,9 +72,10 @@ void hold_what_is_left(const scene::Scene& scene, std::size_t stage, Model& mode
         holds_x = holds_x || (found > 0 && support.fixes_x);
         holds_y = holds_y || (found > 0 && support.fixes_y);
         if (found > 0 || fem.stages[stage].removes.empty()) continue;
-        throw fault::BadInput("scene", {{pointer + "/remove",
-                                         "takes away all that support '" + support.name + "' holds",
-                                         "release the support in this stage, or keep the region"}});
+        throw fault::BadInput(
+            "scene",
+            {{pointer + "/remove", "removes everything that support '" + support.name + "' holds",
+              "release the support in this stage, or keep the region"}});
     }
     if (!holds_x || !holds_y)
         throw fault::BadInput("scene", {{pointer,

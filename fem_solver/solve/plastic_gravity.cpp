@@ -89,18 +89,18 @@ std::string in_words(const FrictionalRest& rest) {
     std::ostringstream text;
     text << std::setprecision(3);
     if (rest.converged) {
-        text << "friction alone rests with " << rest.cohesion / 1e3 << " kPa in " << rest.iterations
-             << " iterations, out of balance " << std::scientific << std::setprecision(2)
-             << rest.residual;
+        text << "equilibrium with friction alone and " << rest.cohesion / 1e3 << " kPa in "
+             << rest.iterations << " iterations, out of balance " << std::scientific
+             << std::setprecision(2) << rest.residual;
         return text.str();
     }
-    text << "friction alone does not rest: nothing converged, not even with " << rest.cohesion / 1e3
-         << " kPa of cohesion added (" << rest.iterations << " iterations, out of balance "
-         << std::scientific << std::setprecision(2) << rest.residual
-         << " of the weight). The soil's law begins from the elastic stresses; what lies outside "
-            "its "
-            "surfaces stays as a constant stress. Does the slope stand at rest? Ask lem_tool for "
-            "its factor of safety before motion; if that is well above 1, raise "
+    text << "no equilibrium with friction alone: not converged, not even with "
+         << rest.cohesion / 1e3 << " kPa of cohesion added (" << rest.iterations
+         << " iterations, out of balance " << std::scientific << std::setprecision(2)
+         << rest.residual
+         << " of the weight). The soil's law begins from the elastic stresses; stress outside its "
+            "yield surfaces stays as a constant stress. Check the factor of safety at rest with "
+            "lem_tool; if it is well above 1, raise "
             "/fem/largest_iterations or refine the mesh at the steepest face";
     return text.str();
 }

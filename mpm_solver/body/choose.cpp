@@ -106,8 +106,8 @@ Decided<scene::Shaking> shaking_of(scene::Shaking asked) {
         return {asked,
                 {what, Use::on,
                  "the grid moves with the base of the FEM's free-field columns, exactly for any "
-                 "step; approximate: one rigid ground (the dam's pull on its base and waves back "
-                 "into the rock are left out), walls at rest on it, no further liquefaction",
+                 "step; approximate: one rigid ground (without the dam's reaction on its base and "
+                 "waves radiated into the rock), walls at rest on it, no further liquefaction",
                  pointer}};
     return {asked,
             {what, Use::left_out, "the ground is at rest: an earthquake ends with the transfer",

@@ -52,10 +52,9 @@ Flag overlap(const Ending& ending) {
     return {
         "overlap", trusted ? Severity::warning : Severity::questionable,
         three_digits(100.0 * ending.overlap) +
-            " % of the mobile soil lies on other soil (from 1 % on a runout is short, beyond 5 % "
-            "it "
-            "cannot be trusted): the deposit lacks as much, most of it in front; runouts with 1 to "
-            "7 % were 3 to 17 % short; set /mpm/overlap_correction/rate to 5 with 16 points per "
+            " % of the mobile soil overlaps (from 1 % on a runout is too short, beyond 5 % it is "
+            "unreliable): the deposit lacks this volume, mostly at its front; runouts with 1 to 7 "
+            "% were 3 to 17 % too short; set /mpm/overlap_correction/rate to 5 with 16 points per "
             "cell, or take more points",
         "/mpm/overlap_correction/rate"};
 }

@@ -133,12 +133,12 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
                              " m from the upstream end (x = " + text_of(end, 9) +
                              " m; the mobile soil is " + text_of(H) + " m high)";
     if (pond < H)
-        return Flag{"upstream_wall", Severity::warning,
-                    fact +
-                        ", behind a crest narrower than that: right where a wall or a plane of "
-                        "symmetry stands; where soil goes on upstream, draw it, or the runout is "
-                        "too short",
-                    "/section/regions"};
+        return Flag{
+            "upstream_wall", Severity::warning,
+            fact +
+                ", behind a crest narrower than that. This is right at a wall or a plane of "
+                "symmetry. If soil continues upstream, draw it; otherwise the runout is too short",
+            "/section/regions"};
     if (pond >= scene::enough_heights_upstream * H)
         return Flag{"upstream_wall", Severity::warning,
                     fact + "; the soil goes on " + text_of(pond / H, 2) +
@@ -146,8 +146,8 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
                     "/section/regions"};
     return Flag{"upstream_wall", Severity::questionable,
                 fact +
-                    ": the section is too short, soil that would have followed is missing, and "
-                    "the runout is too short (unsafe); draw the section and begin domain_x " +
+                    ": the section ends too near, so that soil is missing and the runout is too "
+                    "short (unsafe); draw the section and begin domain_x " +
                     text_of(std::ceil(scene::enough_heights_upstream * H - pond)) +
                     " m farther upstream: " + scene::why_enough_upstream(),
                 "/section/regions"};
