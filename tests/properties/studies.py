@@ -102,7 +102,8 @@ def triggered(draw):
     if trigger["kind"] == "criterion":
         trigger["when"] = draw(condition)
     else:
-        trigger |= {"lower": draw(condition), "upper": draw(condition)}
+        # A quarter of them with several spans after the lower edge.
+        trigger |= {"lower": draw(st.just("time > 0.25") | condition), "upper": draw(st.just("kinetic_energy > 1.25") | condition)}
         pick = draw(st.sampled_from([None, "first", "midpoint", "last_before"]))
         trigger |= {"pick": pick} if pick else {}
     if "transfer_times" not in study and draw(st.booleans()):
