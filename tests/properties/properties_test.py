@@ -72,7 +72,9 @@ def samples_say(bench, case):
     told(
         bench,
         case,
-        lambda study, run: samples.uncertainty_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")),
+        lambda study, run: samples.uncertainty_differences(
+            study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty"), bench.results(run["id"])
+        ),
     )
 
 
