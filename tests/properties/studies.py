@@ -82,7 +82,7 @@ def sweeps(draw):
         if has_fem and draw(st.booleans()):
             study["draws_of"] = "fem"
         if draw(st.booleans()):
-            study["first_draw"] = draw(st.integers(0, 2))
+            study["first_draw"] = draw(st.integers(1, 2))
     for key, value in (("reuse", False), ("stability", False), ("known_failure", True), ("priority", 7)):
         if draw(st.integers(0, 3)) == 0:
             study[key] = value
