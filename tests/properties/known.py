@@ -5,6 +5,7 @@ Entries that make a phase end otherwise:
 
     /lem/slices                  13: the stability analysis breaks down (70)
     /fem/least_jacobian_ratio    other than 0.01: the FEM ends entangled at 100 times that, in s
+    /fem/newmark_beta            0.45: the FEM has not enough memory (75) at every attempt until the journey's last retry
     /fem/largest_iterations      below 20: the FEM breaks down (70) after a tenth of that, in s
     /transfer/neighbours         13: the transfer breaks down (70)
     /mpm/cfl                     0.7: the MPM breaks down (70); 0.6: its first attempt ends with 75; 0.5: its soil still moves
@@ -44,7 +45,7 @@ def lem(scene):
 def fem(scene):
     """(a number for the whole analysis, how it ends, when)"""
     ratio, iterations = at(scene, "/fem/least_jacobian_ratio", 0.01), at(scene, "/fem/largest_iterations", 25)
-    stage = scene["fem"]["stages"][-1]
+    beta, stage = at(scene, "/fem/newmark_beta", 0.3025), scene["fem"]["stages"][-1]
     whole = number(
         0,
         50,
@@ -54,9 +55,11 @@ def fem(scene):
         float(at(scene, "/fem/force_tolerance", 1e-6)),
         float(stage["time_step"]),
         len(at(scene, "/fem/surcharge", [])),
-        at(scene, "/fem/newmark_beta", 0.3025),
+        beta,
         soil(scene),
     )
+    if beta == 0.45 and "has_memory" not in scene["fem"]:
+        return whole, "breakdown", 0
     if iterations < 20:
         return whole, "breakdown", round(iterations / 10, 6)
     if ratio != 0.01:

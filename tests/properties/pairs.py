@@ -25,6 +25,7 @@ def features(case):
     for name, pattern in (
         ("append", "/-="),
         ("FEM entangles", "least_jacobian"),
+        ("FEM ends well when tried again", "newmark_beta=0.45"),
         ("FEM breaks down", "largest_iterations"),
         ("MPM breaks down", "cfl=0.7"),
         ("MPM tries again", "cfl=0.6"),

@@ -47,7 +47,9 @@ def comes_to_its_answer(bench, case):
 
 def reuse_differences(study, disturbances, rows):
     """Without the cache nothing is reused; with it everything that an equal run has computed."""
-    wanted = False if study.get("reuse") is False else True if "warm" in disturbances and "remove" not in disturbances else None
+    is_new = "has_memory" in study["scene"].get("fem", {})
+    warm = "warm" in disturbances and "remove" not in disturbances
+    wanted = False if study.get("reuse") is False else True if warm and not is_new else None
     return (
         []
         if wanted is None
@@ -70,7 +72,9 @@ def samples_say(bench, case):
     told(
         bench,
         case,
-        lambda study, run: samples.uncertainty_differences(study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty")),
+        lambda study, run: samples.uncertainty_differences(
+            study, run, bench.service.call(f"/v1/runs/{run['id']}/uncertainty"), bench.results(run["id"])
+        ),
     )
 
 

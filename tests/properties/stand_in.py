@@ -40,7 +40,9 @@ def end_with(folder, code, summary):
     sys.exit(code)
 
 
-def fem(scene, folder):
+def fem(scene, folder, has_memory):
+    if has_memory:
+        scene["fem"]["has_memory"] = True
     whole, how, when = known.fem(scene)
     times, interval = scene["fem"].get("snapshot_times", []), scene["fem"].get("snapshot_interval", 0)
     regular = [round(k * interval, 6) for k in range(1, int(known.end / interval + 1.000001))] if interval else []
@@ -62,6 +64,8 @@ def fem(scene, folder):
                 )
                 + "\n"
             )
+    if when == 0:
+        end_with(folder, 75, "not enough memory")
     if how == "breakdown":
         end_with(folder, 70, f"no convergence at {when:g} s")
     flags = [known.flag("entangled", "warning")] if how == "entangled" else []
@@ -112,7 +116,7 @@ def main(words):
     publish(folder, "scene.completed.json", json.dumps(scene))
     result = {
         "lem_tool": lambda: lem(scene, folder),
-        "fem_solver": lambda: fem(scene, folder),
+        "fem_solver": lambda: fem(scene, folder, os.path.exists(f"{os.path.dirname(words[0])}/memory")),
         "transfer_tool": lambda: transfer(scene, folder, source),
         "mpm_solver": lambda: mpm(scene, folder, source, "--resume" in words),
     }[name]()
