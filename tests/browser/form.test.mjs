@@ -62,7 +62,7 @@ test("a field says its unit, its range, its default and its help", async () => {
     const narrow = (await help.boundingBox()).height;
     await row.locator("button.more").click();
     assert.ok((await help.boundingBox()).height > 1.5 * narrow, "all of the help is there when asked for");
-    assert.match(await help.textContent(), /below 2 the scene is refused/);
+    assert.match(await help.textContent(), /fewer than 2 are refused/);
     assert.match(await cell.getAttribute("aria-describedby"), new RegExp(await help.getAttribute("id")));
     const kernel = await field("/scene/mpm/kernel");
     assert.deepEqual(await kernel.locator("option").allTextContents(), ["default gimp", "gimp", "b_spline", "linear"]);

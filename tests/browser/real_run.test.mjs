@@ -301,7 +301,7 @@ test("a run gets another title, is found by it, and its removal says what it giv
     await page.click("#remove");
     const [use] = (await answer_of("/v1/storage")).runs.filter(({ id }) => id === run);
     await until("what it gives back", async () => /^This frees [\d.]+ [KM]B of disk/.test(await text_of("#remove-frees")));
-    const [, value, unit] = /back ([\d.]+) ([KM])B/.exec(await text_of("#remove-frees"));
+    const [, value, unit] = /frees ([\d.]+) ([KM])B/.exec(await text_of("#remove-frees"));
     assert.ok(Math.abs((value * (unit === "M" ? 1e6 : 1e3)) / use.freed_bytes - 1) < 0.01, `${value} ${unit}B of ${use.freed_bytes}`);
     await page.keyboard.press("Escape");
 });
