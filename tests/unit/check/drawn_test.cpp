@@ -184,7 +184,7 @@ TEST(Drawn, SlipSurfacesThatEndWhereThereIsNoGroundAreRefused) {
 
 TEST(Drawn, SlipSurfacesBelowTheModelOrThroughTheAirAreRefused) {
     expect_only(changed("mochikoshi", {"/lem/search/lowest_level=31"}), "/lem/search/lowest_level",
-                "above all ground");
+                "not below the ground");
     expect_only(changed("mochikoshi", {R"(/lem/circle={"center":[150,100],"radius":20})"}),
                 "/lem/circle", "without cutting it");
     expect_only(

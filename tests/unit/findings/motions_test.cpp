@@ -82,7 +82,7 @@ TEST(Motions, RefuseWhereAllOrNoneRun) {
     for (Shaken& each : all) each.runout = std::nullopt;
     const json unknown = findings::motions_of(all);
     EXPECT_EQ(unknown.at("sentences").at(0),
-              "0 of 0 motions send soil past the toe. 25 have no runout.");
+              "0 of 0 motions send soil past the toe. Without a runout: 25.");
 }
 
 }  // namespace

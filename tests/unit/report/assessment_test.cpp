@@ -295,7 +295,7 @@ TEST_F(Sampled, ListsTheOriginOfNumbersAndTheErrorOfOneRun) {
     const Document d = document();
     EXPECT_EQ(row(d, "assessment_origin", "mpm_solver")[1], "0.9.0");
     EXPECT_EQ(row(d, "assessment_origin", "uncertainty.json")[1].size(), 64u);
-    EXPECT_EQ(row(d, "assessment_error", "error of one run")[1], "not known");
+    EXPECT_EQ(row(d, "assessment_error", "largest known error")[1], "not known");
     EXPECT_EQ(row(d, "assessment_error", "CPU seconds of all")[1], "150");
     EXPECT_EQ(row(d, "assessment_left_out", "s0005")[2], "exit 70: a point left the grid at 3.2 s");
 }

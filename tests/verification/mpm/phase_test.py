@@ -127,7 +127,7 @@ def test_outputs_and_resume(scratch):
     assert result["questionable"] is True and [each["code"] for each in result["flags"]] == ["still_moving", "overlap", "upstream_wall"], result["flags"]
     message = result["flags"][0]["message"]
     assert f"still moving at 2 s with {100 * result['kinetic_share']:.3g} % of the released energy" in message, message
-    for words in (f"runout {result['runout']:.2f} m", f"beyond it {result['runout_beyond_toe']:.2f} m", "STILL MOVING", "volume ratio",
+    for words in (f"runout {result['runout']:.2f} m", f"beyond the toe {result['runout_beyond_toe']:.2f} m", "STILL MOVING", "volume ratio",
                   "numerical share", "overlap", "flags: still_moving (questionable)"):
         assert words in first.stderr, (words, first.stderr)
     check_frames(whole)

@@ -77,7 +77,7 @@ def main():
 
         refused("no-column", table_of(rows, "epsilon_1,q_kPa,volume"), "no column epsilon_v", 1)
         refused("no-names", table_of(rows[1:], rows[0]), "no column epsilon_1", 1)
-        refused("twice", table_of(rows, "epsilon_1,q_kPa,q_kPa"), "stands twice", 1)
+        refused("twice", table_of(rows, "epsilon_1,q_kPa,q_kPa"), "occurs twice", 1)
         refused("both-per-cent", table_of(per_cent(0, 2)), "per cent?", None)
         refused("per-cent", table_of(per_cent(0)), "per cent?", next(i + 2 for i, row in enumerate(rows) if 100 * float(row.split(",")[0]) > 0.6))
         refused("volume-per-cent", table_of(per_cent(2)), "per cent?", None)

@@ -53,7 +53,7 @@ def main():
 
         loose = {key: value for key, value in CJ1.items() if key != "psi_0"}
         refused("no-state", "/tests/a/psi_0", "is missing", loose, a=test())
-        refused("two-states", "/tests/a/e_0", "beside", CJ1, a=test(psi_0=0, e_0=0.8))
+        refused("two-states", "/tests/a/e_0", "together", CJ1, a=test(psi_0=0, e_0=0.8))
         refused("no-line", "/law/Gamma", "no critical state line", {k: v for k, v in CJ1.items() if k not in ("Gamma", "lambda")}, a=test())
         refused("two-lines", "/law/Gamma", "two critical state lines", {**CJ1, "C_a": 1, "C_b": 0.1, "C_c": 0.4}, a=test())
         refused("singular", "/law/chi_tc", "singular", {**CJ1, "lambda": 0.07, "Gamma": 1.2, "chi_tc": 16}, a=test())
