@@ -102,7 +102,7 @@ def main():
         bad = fem_solver("calibrate", spoilt, "--output", out / "bad", "--set", "/norsand_calibration/given/Gamma=1.2")
         assert bad.returncode == 65 and "/norsand_calibration/given" in bad.stderr, bad.stderr
         bad = fem_solver("calibrate", spoilt, "--output", out / "bad", "--set", '/law={"type":"linear_elastic","E_MPa":1,"nu":0.3}')
-        assert bad.returncode == 65 and "stands beside" in bad.stderr, bad.stderr
+        assert bad.returncode == 65 and "given together" in bad.stderr, bad.stderr
 
 
 sys.exit(main())

@@ -58,7 +58,7 @@ def main():
         refused("two-lines", "/law/Gamma", "two critical state lines", {**CJ1, "C_a": 1, "C_b": 0.1, "C_c": 0.4}, a=test())
         refused("singular", "/law/chi_tc", "singular", {**CJ1, "lambda": 0.07, "Gamma": 1.2, "chi_tc": 16}, a=test())
         refused("unit-of-gamma", "/law/Gamma", "1 kPa", {**CJ1, "lambda": 0.06, "Gamma": 1.614}, a=test())
-        refused("too-loose", "/tests/a/psi_0", "no stress ratio", CJ1, a=test(psi_0=0.3))
+        refused("too-loose", "/tests/a/psi_0", "no stable stress ratio", CJ1, a=test(psi_0=0.3))
         refused("too-dense", "/tests/a/psi_0", "void ratio", CJ1, a=test(psi_0=-0.9))
         refused("outside", "/tests/a/K0", "give K0 above", CJ1, a=test(K0=0.176, boundary="undrained_shear"))
         refused("tiny", "/tests/a/sigma_v_kPa/0", "p_min", CJ1, a=test(sigma_v_kPa=[0.1]))
