@@ -34,7 +34,7 @@ struct Record {
 /// Strain increment and number of readings.
 struct Pace {
     double step;    ///< strain per call
-    int every = 1;  ///< reading every so many calls; 0: first and last only
+    int every = 1;  ///< calls between readings; 0: first and last only
 };
 
 /// Drives the strain to `target` in equal steps.

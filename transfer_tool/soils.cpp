@@ -53,10 +53,10 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                               "give a snapshot of a stage with the scene's laws"});
     }
     if (judged.pressure && mesh.sigma_v0.empty())
-        faults.push_back({"/transfer/liquefied",
-                          "the snapshot has no sigma_v0 and pore_pressure_0: nobody can tell what "
-                          "has liquefied",
-                          "give a snapshot of a FEM with pore water, or remove this part"});
+        faults.push_back(
+            {"/transfer/liquefied",
+             "the snapshot has no sigma_v0 and pore_pressure_0, which show what has liquefied",
+             "give a snapshot of a FEM with pore water, or remove this part"});
 }
 
 /// [regions of the section] without elements in the snapshot.

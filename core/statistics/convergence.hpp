@@ -69,7 +69,7 @@ Convergence convergence_of(std::span<const Rung> rungs);
 std::optional<double> observed_order(double ratio_coarse, double ratio_fine, double change_coarse,
                                      double change_fine);
 
-/// Smallest significant difference of two means of so many repeats: noise alone exceeds it in 5 %
+/// Smallest significant difference of two means of this many repeats: noise alone exceeds it in 5 %
 /// of pairs (Student's distribution, because few repeats give the noise).
 double smallest_told_difference(const Noise& noise, std::size_t repeats);
 

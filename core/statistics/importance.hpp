@@ -38,8 +38,8 @@ std::vector<Importance> importance_of(std::span<const Drawn> parameters,
 Eigen::MatrixXd indicators_of(const Drawn& choice);
 
 /// First-order index: variance explained by a linear fit in each bin of the parameter's values, or
-/// by the mean of each option of a choice (Pearson's correlation ratio), minus the variance that so
-/// many fitted numbers explain by chance (epsilon squared, Kelley 1935). Linear fits, because bin
+/// by the mean of each option of a choice (Pearson's correlation ratio), minus the variance that
+/// the fitted numbers explain by chance (epsilon squared, Kelley 1935). Linear fits, because bin
 /// means count the trend within a bin as scatter: 0.75 instead of 0.8 for 64 samples of a line.
 /// Jackknife interval (Efron & Stein 1981). groups: bin or option of each sample. None: fewer than
 /// two samples per fitted number, or constant results.

@@ -23,10 +23,10 @@ constexpr const char* head =
     "*Order*, *limit* and *grid convergence index* are given only where three rungs converge "
     "monotonically and by more than the noise. `*`: on the "
     "Pareto front; `~`: within the noise; `?`: a run is questionable, so the setting "
-    "is not recommended. *Repeats for* an error: so many are averaged for nine of ten means to be "
-    "within it (Student's interval for the mean of new repeats, and the bias); `-`: not even 20 "
-    "are "
-    "enough.\n";
+    "is not recommended. *Repeats for* an error: repeats whose mean "
+    "is within it nine times in ten (Student's interval for the mean of new repeats, and the "
+    "bias); "
+    "`-`: more than 20.\n";
 
 std::string number(const json& value, int digits = 4) {
     return value.is_number() ? rounded(value.get<double>(), digits) : "-";

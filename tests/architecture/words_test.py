@@ -47,6 +47,9 @@ BANNED = {
     r"mend(s|ed|ing)?": "correct, repair",
     r"bears": "supports, withstands",
     r"what (became|becomes) of": "state of, result of",
+    r"nobody|somebody": "no one, another client",
+    r"believe(s|d)?": "rely on, use",
+    r"so many(?! (as|that))": "this many",
 }
 # One word per idea: the twin and the word.
 TWINS = {

@@ -83,7 +83,7 @@ std::vector<std::string> places_of_threads() {
 
 class TroubledAt : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(TroubledAt, NoTaskIsLeftWhereNobodyMovesItOn) {
+TEST_P(TroubledAt, NoTaskIsLeftBehind) {
     const Sandbox sandbox;
     const auto token = sandbox.root() / "token";
     std::ofstream(token) << "\n";

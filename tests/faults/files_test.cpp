@@ -58,7 +58,7 @@ TEST(Files, AreKnownByTheirContentAndComeBackAsTheyWereSent) {
     EXPECT_EQ(files_in(sandbox.data() / "scratch"), 0u);
 }
 
-TEST(Files, AreRefusedWhenNobodyReadsThem) {
+TEST(Files, AreRefusedWhenNoPhaseReadsThem) {
     const Sandbox sandbox;
     Service service(sandbox, {"--largest-file", "1"});
     const Answer words = send(service, "poem.txt", "shall I compare thee\n");

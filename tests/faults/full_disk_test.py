@@ -11,7 +11,7 @@ from service import Service, study, until
 
 
 class Small:
-    """A file system of so many MB in a folder."""
+    """A file system of this size, in MB, in a folder."""
 
     def __init__(self, folder, megabytes):
         self.folder = pathlib.Path(folder)

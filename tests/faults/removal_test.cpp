@@ -46,7 +46,7 @@ const json& use_of(const json& storage, const std::string& run) {
     throw std::runtime_error("no run " + run + " in " + storage.dump());
 }
 
-TEST(Removal, FreesWhatNobodyElseHoldsAndNoMore) {
+TEST(Removal, FreesWhatNoOtherRunHoldsAndNoMore) {
     const Sandbox sandbox;
     Service service(sandbox);
     const std::string first = service.submit(study("", {0.25, 0.5}));

@@ -20,7 +20,7 @@ settings = ["/section/element_size=3", "/fem/stages/2/duration=4.5", "/mpm/durat
 
 
 def prepared(threads):
-    """The study with its phases on so many threads, without the cache."""
+    """The study with its phases on this many threads, without the cache."""
     document = json.loads(study.read_text())
     document["resources"] = {phase: {"cores": threads} for phase in ("fem_solver", "transfer_tool", "mpm_solver")}
     document["reuse"] = False

@@ -22,7 +22,7 @@ class ClockOfDay {
         : ahead_(now.of_day - now.monotonic), true_since_(now.of_day) {}
 
     /// Seconds since that moment [ms since 1970]. Nothing: the clock was set since then, or the
-    /// moment is before this object existed, when nobody watched the clock.
+    /// moment is before this object existed, when the clock was not watched.
     std::optional<double> seconds_since(std::int64_t moment,
                                         ClockReading now = ClockReading::now());
 

@@ -71,7 +71,7 @@ class Supervision {
     }
 
   private:
-    /// Ensures one phase of a task at a time, even if an earlier attempt was believed to be over.
+    /// Ensures one phase of a task at a time, even if an earlier attempt seemed to be over.
     /// False: a stop was requested before.
     bool wait_for_fence() {
         while (true) {

@@ -106,7 +106,7 @@ class Transaction {
     /// from one of them by this name.
     Removal forget_scene_name(const std::string& name);
 
-    /// Gives up to so many free pages at the end of the database back to the disk.
+    /// Gives up to this many free pages at the end of the database back to the disk.
     void shrink(std::int64_t pages);
     /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; tasks that were
     /// not reached stay so. Re-arms triggers that the cancellation disarmed, and triggers that

@@ -156,7 +156,7 @@ export class Uncertainty {
         this.exceedance.labels.x_unit = quantity.unit;
         this.exceedance.show({
             series: [{ name: `${count} of ${of} samples`, ...steps }],
-            x_label: labelled(quantity), errors_name: "90 % interval of so many samples", bands: bound,
+            x_label: labelled(quantity), errors_name: "90 % interval", bands: bound,
         });
     }
 

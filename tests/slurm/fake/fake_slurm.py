@@ -6,7 +6,7 @@ Files in the folder make it misbehave for as long as they are there:
     hang         commands give no answer at all
     drained      no job starts
     refuse       sbatch refuses for good
-    quota        so many jobs may be in the queue; sbatch refuses what would be more
+    quota        number of jobs that may be in the queue; sbatch refuses what would be more
     lose_answer  sbatch takes the job but says that it timed out (once)
     drop         sbatch says that it timed out and takes nothing (once)
     forget       the controller loses its memory and gives its numbers again (once); what runs goes on
@@ -111,7 +111,7 @@ def sbatch(words):
 
 def start_runner(path, job, script, throttle):
     """A process that outlives the command, as slurmd would. It makes the job itself: a command that is killed on its way
-    leaves no job that nobody runs."""
+    leaves no job without a runner."""
     if os.fork():
         return
     os.setsid()

@@ -57,7 +57,7 @@ TEST(Check, SandWithoutAMappingCannotBecomePoints) {
               std::string::npos);
 }
 
-TEST(Check, SandThatNobodyMakesPointsOfNeedsNoMapping) {
+TEST(Check, SandWithoutPointsNeedsNoMapping) {
     auto document =
         nlohmann::json::parse(file_text(BREACH_ROOT "/workflows/scenes/mochikoshi.json"));
     document.erase("mpm");

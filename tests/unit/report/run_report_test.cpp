@@ -536,7 +536,7 @@ TEST_F(WetRun, ThatHasNotEndedIsNotMistakenForAnother) {
         << d.front.headline;
 }
 
-TEST(Entries, AreAllThatTheSceneHasWithWhatNobodySet) {
+TEST(Entries, AreAllThatTheSceneHasWithDefaults) {
     const auto scene = nlohmann::json::parse(
         scene::read_scene(BREACH_ROOT "/workflows/scenes/mochikoshi.json", {}).completed);
     const std::vector<SceneEntry> entries = entries_of(scene, {"/mpm/cfl"});

@@ -1,5 +1,5 @@
 """fem_solver killed by SIGKILL in the middle of shaking wet PM4Sand, and resumed: every dataset of history and last
-snapshot, and every line of telemetry, as of a run that nobody disturbed. So with another number of threads."""
+snapshot, and every line of telemetry, equal to those of an undisturbed run. So with another number of threads."""
 import json
 import os
 import pathlib

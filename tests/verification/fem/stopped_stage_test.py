@@ -1,6 +1,6 @@
 """fem_solver stopped within a drained static stage whose water rises, killed by SIGKILL after it went on, stopped again within
 an undrained one in which a plate is pushed, and resumed: every dataset of history and last snapshot, every line of telemetry and the
-facts of the stages as of a run that nobody disturbed."""
+facts of the stages equal to those of an undisturbed run."""
 import json
 import os
 import pathlib
