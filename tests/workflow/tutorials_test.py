@@ -25,7 +25,7 @@ most_commands = {"own_dam": 8, "import_drawing": 5}  # to the report
 
 
 def blocks_of(page):
-    [file] = (root / "docs").glob(f"*/{page}.md")
+    [file] = [each for kind in ("tutorials", "how-to") for each in (root / "docs" / kind).glob(f"{page}.md")]
     text = file.read_text()
     return [(kind, body) for kind, body in block.findall(text) if not set(body.strip().splitlines()) <= run_elsewhere]
 
