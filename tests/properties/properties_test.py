@@ -135,7 +135,8 @@ def is_refused_everywhere(bench, case):
 def a_wrong_request_changes_nothing(bench, case):
     """Requests to an ended run: refused with 4xx and a problem's type."""
     if not hasattr(bench, "ended"):
-        bench.ended = bench.submit({"format": "breachline-study/1", "scene": studies.scene(), "transfer_times": [0.5]})
+        study = {"format": "breachline-study/1", "scene": studies.scene(), "transfer_times": [0.5]}
+        bench.ended = bench.submit(study | {"reuse": False})  # from the cache it would have spent nothing
         bench.wait(bench.ended)
     path, body = case["request"]
     before = bench.service.call(f"/v1/runs/{bench.ended}")
