@@ -31,8 +31,7 @@ std::optional<NotMeasured> why_not_measured(const scene::Scene& scene, telemetry
                                materials::types_of_laws_that(materials::has_state_parameter),
                            "give a region that law, or ask for another column"};
     if (needs == looks_at_strength && !scene.fem->strength_interval)
-        return NotMeasured{"the strength is not used",
-                           "say in /fem/strength_interval how often"};
+        return NotMeasured{"the strength is not used", "say in /fem/strength_interval how often"};
     if (needs == damping && !(scene.fem->rayleigh_stiffness > 0.0))
         return NotMeasured{"the FEM is not damped", "give /fem/damping, or ask for another column"};
     if (needs == water && !scene.fem->water)
