@@ -160,16 +160,15 @@ void add_without_transfer(const Facts& facts, std::vector<Reason>& reasons) {
         const std::string& first = variants.front()->reason;
         const bool same = std::ranges::all_of(
             variants, [&](const NoTransfer* each) { return each->reason == first; });
-        const std::string why = same ? first : "of " + names.front() + ": " + first;
+        const std::string why = (same ? ": " : "; of " + names.front() + ": ") + first;
         const std::string of = names.front().empty() ? ""
                                : names.size() == 1   ? " from " + names.front()
                                : same ? " from " + std::to_string(names.size()) + " variants (" +
                                             names.front() + ", ...)"
                                       : " from " + std::to_string(names.size()) + " variants";
         reasons.push_back({facts.has_runout ? Usable::questionable : Usable::no, "no_transfer",
-                           "no transfer" + of + (same ? ": " : "; ") + why,
-                           "No transfer" + of + ", so there is no runout" + (same ? ": " : "; ") +
-                               why +
+                           "no transfer" + of + why,
+                           "No transfer" + of + ", so there is no runout" + why +
                                (stood ? ". The dam may stand; then nothing runs out."
                                       : ". This does not mean that the dam is stable."),
                            pointer, static_cast<std::int64_t>(names.size())});

@@ -114,8 +114,11 @@ def differences(bench, run, folder):
     against = answer["verdict"]["usable"] in ("questionable", "no")
     if shown.startswith(f"Verdict: {answer['verdict']['words']}\n") != against:
         found.append(f"breach results begins with {shown[:40]!r}, the verdict is {answer['verdict']['words']}")
-    for stood in {each["stood"] for each in answer["without_transfer"]}:  # one reason stands for all variants
-        if not any(each["reason"] in shown for each in answer["without_transfer"] if each["stood"] is stood):
+    then = ", so there is no runout"
+    leads = (f"No transfer{then}: ", f"from {{}}{then}: ", f"({{}}, ...){then}: ", f"{then}; of {{}}: ")
+    for stood in {each["stood"] for each in answer["without_transfer"]}:  # the reason of one variant, which is named
+        alike = [each for each in answer["without_transfer"] if each["stood"] is stood]
+        if not any(lead.format(each["variant"]) + each["reason"] in shown for each in alike for lead in leads):
             found.append(f"breach results gives no reason for variants without a transfer, stood: {stood}")
     export = folder / run
     done = subprocess.run([programs / "breach", "--server", service.url, "export", run, export], capture_output=True, text=True)
