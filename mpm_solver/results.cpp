@@ -196,6 +196,7 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["runout_beyond_toe_95"] = row.runout_beyond_toe_95;
     result["runout_beyond_toe_50"] = row.runout_beyond_toe_50;
     result["runout_largest"] = row.runout_largest;
+    result["stood"] = ending.stood;
     result["runout_by_count"] = row.runout_by_count;
     result["runout_front"] = row.runout_front == nowhere ? json() : json(row.runout_front);
     result["area_beyond_toe"] = row.area_beyond_toe;

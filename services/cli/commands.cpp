@@ -212,6 +212,7 @@ ExitCode results(Server& server, const ResultsOptions& options, const Console& c
                                                      {"table", options.means ? "means" : ""},
                                                      {"state", options.state},
                                                      {"flag", options.flag}});
+    const json run = server.get(path_of({"runs", id}));
     if (csv) {
         console.out << server.get_text(path).body;
     } else if (console.style == Style::json) {
@@ -219,11 +220,11 @@ ExitCode results(Server& server, const ResultsOptions& options, const Console& c
     } else {
         const json answer = server.get(path);
         const std::string means = as_mean_table(answer);
-        console.out << as_verdict(answer) << means;
+        console.out << as_verdict(run.at("headline"), answer.at("verdict"), answer.at("rows"))
+                    << means;
         if (!options.means) console.out << (means.empty() ? "" : "\n") << as_result_table(answer);
         if (options.means && means.empty()) console.notes << "the study has no repeats\n";
     }
-    const json run = server.get(path_of({"runs", id}));
     if (end_of(run) != RunEnd::good) console.notes << as_progress_line(run) << "\n";
     return end_of(run) == RunEnd::not_yet ? ExitCode::done
                                           : code_of_end(run, options.questionable, console);

@@ -176,12 +176,17 @@ bool is_final_task(const json& task) {
     return is_one_of(state_of(task), {"cached", "succeeded", "failed", "cancelled", "skipped"});
 }
 
+static std::string note_of_run(const json& run) {
+    std::string note = tasks_of(run);
+    if (run.at("headline").at("text") != "") note += "  " + cell(run.at("headline"), "text");
+    return is_doubtful(run) ? note + "  " + warning_of(run) : note;
+}
+
 std::string as_run_table(const json& runs) {
     std::vector<Cells> rows;
     for (const json& run : runs) {
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), percent(run),
-                        moment(run, "created"),
-                        tasks_of(run) + (is_doubtful(run) ? "  " + warning_of(run) : "")});
+                        moment(run, "created"), note_of_run(run)});
     }
     return as_table({{"run", Align::left},
                      {"name", Align::left},
@@ -190,6 +195,24 @@ std::string as_run_table(const json& runs) {
                      {"created (UTC)", Align::left},
                      {"", Align::left}},
                     rows);
+}
+
+std::string as_verdict(const json& headline, const json& verdict, const json& results) {
+    std::vector<json> explained;
+    for (const json& each : results)
+        for (const json& flag : flags_of(each)) explained.push_back(flag);
+    const auto is_explained = [&](const json& reason) {
+        return std::ranges::any_of(explained, [&](const json& flag) {
+            return flag.at("code") == reason.at("code") &&
+                   cell(reason, "text").find(cell(flag, "message")) != std::string::npos;
+        });
+    };
+    std::string text;
+    if (headline.at("text") != "") text += "Result: " + cell(headline, "text") + "\n";
+    text += "Verdict: " + cell(verdict, "words") + "\n";
+    for (const json& each : verdict.at("reasons"))
+        if (!is_explained(each)) text += "  " + cell(each, "text") + "\n";
+    return text + "\n";
 }
 
 std::string as_run_page(const json& run) {
@@ -204,7 +227,8 @@ std::string as_run_page(const json& run) {
         text += "budget    " + cell(run, "spent_cpu_seconds") + " of " + cell(budget) +
                 " CPU s spent\n";
     if (!run.value("message", "").empty()) text += "message   " + cell(run, "message") + "\n";
-    text += "\n" + as_task_table(run.at("tasks"));
+    text += "\n" + as_verdict(run.at("headline"), run.at("verdict"), run.at("tasks")) +
+            as_task_table(run.at("tasks"));
     for (const json& task : run.at("tasks")) {
         if (task.contains("fault") && !task["fault"].is_null())
             text += "\n" + cell(task, "id") + "  " + fate_of_task(task);
@@ -330,18 +354,6 @@ std::string as_result_table(const json& answer) {
     }
     const std::string notes = legend.as_text(" of " + std::to_string(rows.size()) + " rows");
     return as_table(columns, lines) + (notes.empty() ? "" : "\n" + notes);
-}
-
-std::string as_verdict(const json& answer) {
-    std::set<std::string> explained;
-    for (const json& row : answer.at("rows"))
-        for (const json& flag : flags_of(row)) explained.insert(cell(flag, "code"));
-    const json& verdict = answer.at("verdict");
-    std::string text;
-    if (is_doubtful(answer)) text += "Verdict: " + cell(verdict, "words") + "\n";
-    for (const json& each : verdict.at("reasons"))
-        if (!explained.contains(cell(each, "code"))) text += "  " + cell(each, "text") + "\n";
-    return text.empty() ? "" : text + "\n";
 }
 
 std::string as_mean_table(const json& answer) {

@@ -30,8 +30,10 @@ std::string as_run_page(const nlohmann::json& run);
 std::string as_task_page(const nlohmann::json& task);
 /// GET /v1/runs/{id}/results, with a legend of the flags that its rows carry.
 std::string as_result_table(const nlohmann::json& answer);
-/// The verdict of the same answer with its reasons, except flags. Empty: usable.
-std::string as_verdict(const nlohmann::json& answer);
+/// Result and verdict of a run, with the reasons that the flags of these results (rows or tasks) do
+/// not explain: their tables do.
+std::string as_verdict(const nlohmann::json& headline, const nlohmann::json& verdict,
+                       const nlohmann::json& results);
 /// The means of the same answer, with their standard deviations and missing repeats; empty: the
 /// study has no repeats.
 std::string as_mean_table(const nlohmann::json& answer);

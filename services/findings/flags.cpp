@@ -11,15 +11,29 @@ using fault::Severity;
 using nlohmann::json;
 
 std::vector<Flag> flags_of(const json& result) {
+    return result.is_object() ? flags_in(result.value("flags", json::array()))
+                              : std::vector<Flag>{};
+}
+
+std::vector<Flag> flags_in(const json& list) {
     std::vector<Flag> flags;
-    if (!result.is_object()) return flags;
-    for (const json& each : result.value("flags", json::array()))
+    for (const json& each : list)
         flags.push_back({each.at("code"),
                          each.at("severity") == name_of(Severity::questionable)
                              ? Severity::questionable
                              : Severity::warning,
                          each.at("message"), each.value("pointer", "")});
     return flags;
+}
+
+json as_json(const std::vector<Flag>& flags) {
+    json list = json::array();
+    for (const Flag& each : flags)
+        list.push_back({{"code", each.code},
+                        {"severity", name_of(each.severity)},
+                        {"message", each.message},
+                        {"pointer", each.pointer}});
+    return list;
 }
 
 std::string worded(std::string code) {

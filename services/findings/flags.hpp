@@ -12,6 +12,10 @@ namespace breach::findings {
 
 /// The flags in a result.json; empty without a result.
 std::vector<fault::Flag> flags_of(const nlohmann::json& result);
+/// The flags of a list as result.json, the API and the database have it.
+std::vector<fault::Flag> flags_in(const nlohmann::json& list);
+/// Such a list: [{"code", "severity", "message", "pointer"}]
+nlohmann::json as_json(const std::vector<fault::Flag>& flags);
 
 /// "still moving"
 std::string worded(std::string code);

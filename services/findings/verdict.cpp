@@ -113,6 +113,22 @@ void add_flags(std::vector<Raised> raised, std::vector<Reason>& reasons) {
     }
 }
 
+/// Warnings of the submission that no result repeats. Only a check of the whole scene finds them: a
+/// phase sees its own entries. Of a variant: "variant "wet": " and the message.
+void add_submitted(const Facts& facts, std::vector<Reason>& reasons) {
+    for (const fault::Flag& each : facts.submitted) {
+        const bool repeated = std::ranges::any_of(facts.raised, [&](const Raised& raised) {
+            return raised.flag.code == each.code && each.message.ends_with(raised.flag.message);
+        });
+        if (repeated) continue;
+        reasons.push_back({worth_of(each), each.code, brief_of(each.code) + " at submission",
+                           capital(worded(each.code)) + ", at submission" +
+                               (each.pointer.empty() ? "" : " (" + each.pointer + ")") + ": " +
+                               ended(each.message),
+                           each.pointer});
+    }
+}
+
 Reason reason_of(const Unstable& unstable) {
     const bool all = unstable.analyses == unstable.of_analyses;
     const std::string of = unstable.of_analyses == 1 ? ""
@@ -233,6 +249,7 @@ Verdict verdict_of(const Facts& facts) {
     if (facts.early) reasons.push_back(reason_of(*facts.early));
     add_broken(facts, reasons);
     add_flags(facts.raised, reasons);
+    add_submitted(facts, reasons);
     add_same_results(facts.same_results, reasons);
     std::ranges::stable_sort(reasons, [](const Reason& a, const Reason& b) {
         return a.usable != b.usable ? a.usable > b.usable : a.code < b.code;

@@ -54,7 +54,8 @@ struct Broken {
 };
 
 struct Facts {
-    std::string state;  ///< of the run
+    std::string state;                        ///< of the run
+    std::vector<fault::Flag> submitted = {};  ///< warnings of the submission
     std::vector<Raised> raised = {};
     std::optional<Unstable> unstable =
         {};  ///< nothing: for samples, or a section that is known to have failed

@@ -44,8 +44,17 @@ test("the top of a run answers: verdict, factor of safety, runout, depth, arriva
     assert.deepEqual(drawn_parts.sort(), ["after", "axis", "before", "gauge", "label", "runout", "slip", "toe", "water"]);
     assert.match(await page.getAttribute("#answer-picture .plot", "aria-label"), /^The section before and after\. Factor of safety: 0\.912\. Runout: 15\.5 m\./);
     assert.match(await text_of("#answer-picture .legend"), /after, t_T = 0\.75 s, softened/);
-    assert.match(await text_of("#run-list a[aria-current] .run-answer"), /^FS 0\.912 · runout 15\.5 m$/);
+    assert.match(await text_of("#headline"), /^flows 15\.5 m beyond the toe; FS 0\.912 as built$/);
+    assert.equal(await text_of("#run-list a[aria-current] .run-answer"), await text_of("#headline"));
+    assert.equal(await text_of("#run-state"), "✓ usable");
     assert.equal(await page.getAttribute("#report", "href"), `/v1/runs/${run.id}/report`);
+});
+
+test("a warning of the submission is a reason of the verdict", async () => {
+    const warnings = [{ code: "total_stress", severity: "warning", message: "the soil is too strong", pointer: "/scene/materials/dam" }];
+    await open_run(api.add_run({ ...two_variants, name: "warned", warnings }, ended()).id);
+    assert.equal(await text_of("#verdict"), "Verdict: usable, with remarks");
+    assert.match(await text_of("#reasons"), /total stress.*at submission \(\/scene\/materials\/dam\): the soil is too strong/i);
 });
 
 test("soil in motion and telemetry open on the governing variant, and stay where a person has put them", async () => {

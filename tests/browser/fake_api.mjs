@@ -206,7 +206,7 @@ class FakeRun {
         for (const { code } of verdicts.flatMap(({ flags }) => flags ?? [])) flag_counts[code] = (flag_counts[code] ?? 0) + 1;
         const state = !over ? "running" : this.cancelled_at ? "cancelled" : count("failed") ? "partial" : questionable ? "questionable" : "succeeded";
         const moving = flag_counts.still_moving ?? 0;
-        return { governing: this.governing(over), stability: this.stability(), id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
+        return { governing: this.governing(over), stability: this.stability(), headline: this.headline(over), warnings: this.study.warnings ?? [], id: this.id, name: this.study.name, title: this.title ?? this.study.title, state,
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
@@ -220,7 +220,9 @@ class FakeRun {
         const usable_of = ({ code, severity }) => (code === "implausible" ? "no" : severity === "questionable" ? "questionable" : "with_remarks");
         const name_of = (code) => code[0].toUpperCase() + code.slice(1).replaceAll("_", " ");
         const order = ["no", "questionable", "with_remarks"];
-        const reasons = [...(this.study.without ?? []).map(({ variant, reason }) => ({ usable: "with_remarks", code: "no_transfer", brief: "",
+        const reasons = [...(this.study.warnings ?? []).map(({ code, message, pointer }) => ({ usable: "with_remarks", code, brief: "",
+                             text: `${name_of(code)}, at submission (${pointer}): ${message}.`, pointer })),
+                         ...(this.study.without ?? []).map(({ variant, reason }) => ({ usable: "with_remarks", code: "no_transfer", brief: "",
                              text: `No transfer${variant ? ` from ${variant}` : ""}, so there is no runout: ${reason}. The dam may stand; then nothing runs out.`, pointer: "" })),
                          ...(this.study.same ?? []).map((names) => ({ usable: "with_remarks", code: "same_results", brief: "",
                              text: `The variants ${names.join(", ")} have identical results: the entries that differ had no effect.`, pointer: "" })),
@@ -230,6 +232,13 @@ class FakeRun {
             .sort((a, b) => order.indexOf(a.usable) - order.indexOf(b.usable));
         const usable = flag_counts.implausible ? "no" : questionable ? "questionable" : reasons.length ? "with_remarks" : "yes";
         return { usable, words: { no: "not usable", with_remarks: "usable, with remarks", yes: "usable" }[usable] ?? usable, reasons };
+    }
+
+    /// As services/findings words it, with what the fake knows.
+    headline(over) {
+        const [soil, factor] = [this.governing(over)?.runout, this.stability()?.factor_of_safety];
+        const text = [soil > 0 ? `flows ${soil.toFixed(1)} m beyond the toe` : "", factor ? `FS ${factor} as built` : ""].filter(Boolean).join("; ");
+        return { outcome: soil > 0 ? "flows" : "not_known", text };
     }
 
     stability() {

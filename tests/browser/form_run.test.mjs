@@ -108,7 +108,7 @@ test("a scene from a template, changed in the form, runs to its result", async (
     await page.click("#submit");
     await page.waitForSelector("#run:not([hidden])");
     assert.equal(await page.textContent("#run-title"), "A heap of mine");
-    await until("the end of the run", async () => /succeeded|questionable/.test(await page.textContent("#run-state")), 120000);
+    await until("the end of the run", async () => /usable|questionable/.test(await page.textContent("#run-state")), 120000);
     const answer = async (path) => (await fetch(live.service.url + path)).json();
     const { runs: [run] } = await answer("/v1/runs");
     const { rows } = await answer(`/v1/runs/${run.id}/results`);

@@ -32,9 +32,9 @@ test("one request starts everything", async () => {
 });
 
 test("the page sees it to its end", async () => {
-    await until("the end of the run", async () => /succeeded|questionable|failed|partial/.test(await page.textContent("#run-state")), patience);
+    await until("the end of the run", async () => /usable|questionable|failed|partial/.test(await page.textContent("#run-state")), patience);
     // On 5 m cells some of it may be questionable, which it then says.
-    assert.match(await page.textContent("#run-state"), /succeeded|questionable/);
+    assert.match(await page.textContent("#run-state"), /usable|questionable/);
     await until("one marker per transfer time", async () =>
         (await page.locator("#runout-plot svg.plot > .marker.series-0").count()) >= study.transfer_times.length);
     await screenshot(page, "mochikoshi");

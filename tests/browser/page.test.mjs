@@ -527,8 +527,8 @@ test("a runout that still moves, is questionable or carries no flags does not lo
     await screenshot(page, "page_flags");
 
     // The list says it, too; its entangled FEM is a regular end.
-    assert.match(await text_of("#run-state"), /questionable/);
-    assert.match(await text_of("#run-list a[aria-current]"), /⚠ questionable.*not usable: 1 of 8 runouts flagged implausible/s);
+    assert.equal(await text_of("#run-state"), "✕ not usable");
+    assert.match(await text_of("#run-list a[aria-current]"), /✕ not usable.*1 of 8 runouts flagged implausible/s);
     assert.ok(await page.isHidden("#retry"), "nothing of it has failed");
     const fem = '#task-rows tr:has-text("fem_solver")';
     assert.match(await text_of(fem), /■ ended: entangled at 2.1 s/);
@@ -545,7 +545,7 @@ test("a runout that still moves, is questionable or carries no flags does not lo
 test("a transfer time beyond the mesh's regular end is not reached, which is nothing to retry", async () => {
     await open_run(api.add_run({ ...study, name: "short" }, { began: Date.now() - 60000, entangles: 1.6, breaks: [] }).id);
     await until("six markers", async () => (await markers()) === 6);
-    assert.match(await text_of("#run-state"), /succeeded/);
+    assert.match(await text_of("#run-state"), /usable/);
     assert.ok(await page.isHidden("#retry"));
     assert.match(await text_of('#runout-rows tr[data-key="1.75/"]'), /⊘ not reached/);
     assert.deepEqual(await page.locator("#runout-plot svg.plot > .mark title").allTextContents(),

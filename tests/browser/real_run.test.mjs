@@ -157,7 +157,7 @@ test("a job submitted in the page runs to its end, and the page shows it without
     await page.click("#submit");
     await page.waitForSelector("#run:not([hidden])");
     assert.equal(await text_of("#run-title"), study.title);
-    await until("the end of the run", async () => /succeeded|questionable/.test(await text_of("#run-state")), 120000);
+    await until("the end of the run", async () => /usable|questionable/.test(await text_of("#run-state")), 120000);
     await until("one marker per transfer time", async () => (await markers()) === study.transfer_times.length);
     assert.equal(await page.locator("#task-rows tr").count(), 1 + 2 * study.transfer_times.length);
 });
@@ -316,7 +316,7 @@ test("variants are curves of their own, and a trigger's threshold and firing are
     await write_json(page, JSON.stringify(several));
     await page.click("#submit");
     await until("its title", async () => (await text_of("#run-title")) === several.title);
-    await until("the end of the run", async () => /succeeded|questionable/.test(await text_of("#run-state")), 120000);
+    await until("the end of the run", async () => /usable|questionable/.test(await text_of("#run-state")), 120000);
     await until("two curves of two points", async () => (await markers()) === 2 &&
         (await page.locator("#runout-plot svg.plot > .marker.series-1").count()) === 2);
     await until("the threshold", async () => (await page.locator("#telemetry-plots .level-text").allTextContents()).join() === "strained 0.05");
@@ -351,7 +351,7 @@ test("a scene without a FEM is shown by variant: no transfer time, no triggers, 
         await write_json(page, JSON.stringify(sent));
         await page.click("#submit");
         await until("its title", async () => (await text_of("#run-title")) === sent.title);
-        await until("the end of the run", async () => /succeeded|questionable/.test(await text_of("#run-state")), 120000);
+        await until("the end of the run", async () => /usable|questionable/.test(await text_of("#run-state")), 120000);
     };
     await submit(flow);
     await until("one marker per variant", async () => (await markers()) === 2);

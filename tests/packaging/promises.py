@@ -39,6 +39,8 @@ def entries(schema, document, path="", found=None, optional=False):
     have the value of their "type" in brackets; alternatives without one are merged. Patterns are not listed."""
     found = {} if found is None else found
     schema = resolved(schema, document)
+    if base := schema.get("extends"):
+        entries(document["components"]["schemas"][base], document, path, found, optional)
     for choice in schema.get("oneOf", ()):
         kind = resolved(choice, document).get("properties", {}).get("type", {})
         kind = kind.get("const") or "".join(kind.get("enum", [])[:1])

@@ -1,8 +1,8 @@
-"""Every view of a run shows the verdict, the lower bounds and the sentences of its findings: API, CSV, `breach results`, `breach
-runs` and the report. Of random runs, whose phases are this file itself under their names: they copy the files of one real run and
-write random results.
+"""Every view of a run shows the headline, the verdict, the lower bounds and the sentences of its findings, and every warning of its
+submission: API, CSV, `breach results`, `breach show`, `breach runs`, Python and the report. Of random runs, and of every shipped
+scene and template. Their phases are this file itself under their names: they copy the files of one real run and write random results.
 
-    views_agree_test.py [RUNS]"""
+    views_agree_test.py RUNS | shipped"""
 import csv
 import hashlib
 import html
@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import warnings
 
 phase = pathlib.Path(sys.argv[0]).name
 flags_of_phases = {
@@ -37,7 +38,7 @@ def result_of(chance):
             result["milestones"] = {"liquefied": {"depth": 8.0, "time": round(chance.uniform(0.0, 0.7), 2)}}
     if phase == "mpm_solver":
         rests = chance.random() < 0.7
-        result |= {"runout": round(chance.uniform(1, 200), 2), "runout_beyond_toe": round(chance.uniform(1, 200), 2), "at_rest": rests,
+        result |= {"stood": rests and chance.random() < 0.3, "runout": round(chance.uniform(1, 200), 2), "runout_beyond_toe": round(chance.uniform(1, 200), 2), "at_rest": rests,
                    "runout_largest": 210.0, "area_beyond_toe": 33.5, "depth_beyond_toe": round(chance.uniform(0.1, 9), 2), "volume_ratio": 1.0, "end_time": 9.0, "energy": {"numerical": {"share": 0.01}}}
         if not rests:
             result["flags"].append({"code": "still_moving", "severity": "questionable", "message": "it still moves", "pointer": "/mpm/duration"})
@@ -81,6 +82,9 @@ if phase in flags_of_phases:
 from phases import programs, root  # noqa: E402
 from service import Service  # noqa: E402
 
+sys.path.insert(0, str(root / "services/python"))
+import breachline  # noqa: E402
+
 
 def random_study(number):
     chance = random.Random(number)
@@ -121,6 +125,14 @@ def compare(service, run, folder):
     hold("the list's governing result is not that of the run", [listed[each] for each in ("governing", "stability")] ==
          [head[each] for each in ("governing", "stability")])
 
+    for each in head["warnings"]:
+        hold(f"the verdict does not have the warning: {each['message']}",
+             any(reason["code"] == each["code"] and each["message"].rstrip(".") in reason["text"] for reason in verdict["reasons"]))
+    hold("the list's headline is not that of the run", listed["headline"] == head["headline"])
+    in_python = breachline.run(run, service.url)
+    hold(f"Python says {in_python!r}", in_python.headline == head["headline"]["text"] and in_python.verdict == verdict["words"])
+    hold(f"Python's reasons are {in_python.reasons}", in_python.reasons == [reason["text"] for reason in own])
+
     rows = answer["rows"]
     in_csv = list(csv.DictReader(io.StringIO(service.text(f"/v1/runs/{run}/results?format=csv"))))
     for row, line in zip(rows, in_csv):
@@ -136,14 +148,18 @@ def compare(service, run, folder):
     farthest = max(ran, key=lambda row: row["runout"], default=None)
     if ran:
         hold(f"{head['governing']} governs, not {farthest}", {name: farthest[name] for name in ("variant", "transfer_time", "runout",
-             "lower_bound", "depth_beyond_toe")} | {"task": farthest["mpm_task"]} == head["governing"])
+             "lower_bound", "depth_beyond_toe")} | {"task": farthest["mpm_task"], "farthest": farthest["runout_beyond_toe"],
+             "error": farthest["runout_error"]} == head["governing"])
 
+    result = f"Result: {head['headline']['text']}\n" if head["headline"]["text"] else ""
+    for words, flagged in [(("results", run), rows), (("show", run), head["tasks"])]:
+        shown = subprocess.run([programs / "breach", "--server", service.url, *words], capture_output=True, text=True).stdout
+        hold(f"`breach {words[0]}` does not begin with the verdict", f"{result}Verdict: {verdict['words']}\n" in shown)
+        flags = [flag for each in flagged for flag in each["flags"] or []]
+        for reason in (verdict["reasons"] if words[0] == "results" else own):
+            explained = any(flag["code"] == reason["code"] and flag["message"] in reason["text"] for flag in flags)
+            hold(f"`breach {words[0]}` does not say: {reason['text']}", explained or reason["text"] in shown)
     shown = subprocess.run([programs / "breach", "--server", service.url, "results", run], capture_output=True, text=True).stdout
-    against = verdict["usable"] in ("questionable", "no")
-    hold("`breach results` does not begin with the verdict", shown.startswith(f"Verdict: {verdict['words']}\n") == against)
-    explained = {flag["code"] for row in rows for flag in row["flags"] or []}
-    for reason in verdict["reasons"]:
-        hold(f"`breach results` does not say: {reason['text']}", reason["code"] in explained or reason["text"] in shown)
     grows = {column["name"] for column in answer["columns"] if column["grows"]}
     hold(f"what grows is {grows}", grows == {"runout", "runout_beyond_toe", "runout_largest", "area_beyond_toe"})
     bounds = sum(row["lower_bound"] is True for row in rows)
@@ -161,6 +177,10 @@ def compare(service, run, folder):
     hold("the report over REST is another", service.text(f"/v1/runs/{run}/report") == re.sub(f" {link}(, {link})*", "", page))
     if ran:
         hold("the report is about another runout", f"Governing case: the largest runout of all ({'t_T = ' if farthest['transfer_time'] else ''}" in page)
+    if head["headline"]["text"]:
+        first = plain(re.search(r'<p class="headline">.*?</p>', page, re.S).group(0)).strip().lower()
+        outcome, *factors = head["headline"]["text"].lower().split("; ")
+        hold(f"the report's headline is \"{first}\" for \"{outcome}\"", first.startswith(outcome) and all(each in first for each in factors))
     heading = plain(re.search(r'<section id="verdict".*?</section>', page, re.S).group(0))
     hold(f"the report's verdict is not \"{verdict['words']}\": {heading[:90]}", f"checks: {verdict['words']}" in heading)
     for reason in verdict["reasons"]:
@@ -177,7 +197,32 @@ def real_run(folder):
         subprocess.run([programs / name, scene, "--output", folder / name, "--progress", "none", *more], check=True, capture_output=True)
 
 
-def main(count, folder):
+def shipped_studies(service, folder):
+    """Of each shipped scene and each template, as files."""
+    for file in sorted((root / "workflows/scenes").glob("*.json")):
+        scene = json.loads(file.read_text())
+        study = {"format": "breachline-study/1", "name": file.stem.replace("_", "-"), "scene": str(file)}
+        if "fem" in scene and "mpm" in scene:
+            study["transfer_times"] = [0.5]
+        (folder / file.name).write_text(json.dumps(study))
+        yield folder / file.name
+    for template in service.call("/v1/templates")["templates"]:
+        subprocess.run([programs / "breach", "--server", service.url, "new", template["name"], "--output", folder / template["name"]],
+                       check=True, capture_output=True)
+        yield folder / template["name"] / "study.json"
+
+
+def submitted_by_python(service, run):
+    """Whether Python warns of what the service warned of."""
+    study = service.call(f"/v1/runs/{run}")["study"]
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        again = breachline.submit(study, service.url).cancel()
+    told = [str(each.message) for each in caught]
+    return all(any(flag["message"] in text for text in told) for flag in again.about["warnings"])
+
+
+def main(asked, folder):
     bin_folder = folder / "bin"
     bin_folder.mkdir()
     for name in flags_of_phases:
@@ -189,18 +234,22 @@ def main(count, folder):
     service = Service(folder / "data", "--bin", str(bin_folder), "--slots", "4", "--tries", "1")
     faults, verdicts = [], {}
     try:
-        runs = [service.call("/v1/runs", random_study(number))["id"] for number in range(count)]
+        if asked == "shipped":
+            runs = [service.submit(file) for file in shipped_studies(service, folder)]
+            faults += [f"{run}: Python drops warnings of the submission" for run in runs if not submitted_by_python(service, run)]
+        else:
+            runs = [service.call("/v1/runs", random_study(number))["id"] for number in range(int(asked))]
         for run in runs:
             end = service.finish(run, every=0.1)
             verdicts[end["verdict"]["usable"]] = verdicts.get(end["verdict"]["usable"], 0) + 1
             faults += compare(service, run, folder)
     finally:
         service.stop()
-    print(f"{count} runs: {verdicts}")
+    print(f"{len(runs)} runs: {verdicts}")
     print("\n".join(faults[:40]))
-    return 1 if faults or len(verdicts) < (2 if count < 100 else 4) else 0
+    return 1 if faults or len(verdicts) < (2 if len(runs) < 100 else 4) else 0
 
 
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as name:
-        sys.exit(main(int(sys.argv[1]) if len(sys.argv) > 1 else 12, pathlib.Path(name)))
+        sys.exit(main(sys.argv[1], pathlib.Path(name)))

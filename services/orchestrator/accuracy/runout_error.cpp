@@ -354,4 +354,19 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
     }
 }
 
+void tell_governing_error(const Store& store, const DataFolder& data, Run& run) {
+    if (!run.governing || !run.governing->soil || run.governing->soil->worst_of > 1) return;
+    const std::vector<ResultRow> all = store.results(run.id);
+    const auto governs = [&](const ResultRow& row) {
+        return value_of(row, "mpm_task") == json(run.governing->task);
+    };
+    std::vector<ResultRow> row, no_means;
+    std::ranges::copy_if(all, std::back_inserter(row), governs);
+    tell_runout_errors(
+        store, data, run.id, row, no_means, [&]() -> const auto& { return all; });
+    if (row.empty()) return;
+    if (const json& error = value_of(row.front(), "runout_error"); error.is_number())
+        run.governing->soil->error = error;
+}
+
 }  // namespace breach::orchestrator

@@ -27,4 +27,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
                         std::vector<ResultRow>& rows, std::vector<ResultRow>& means,
                         const AllRows& all_rows);
 
+/// Fills the error of the run's governing runout. Not of samples: their spread is the answer.
+void tell_governing_error(const Store& store, const DataFolder& data, Run& run);
+
 }  // namespace breach::orchestrator

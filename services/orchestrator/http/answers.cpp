@@ -2,6 +2,7 @@
 
 #include "core/exchange/csv.hpp"
 #include "services/findings/flags.hpp"
+#include "services/findings/headline.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/records/time_left.hpp"
 
@@ -32,6 +33,8 @@ json as_json(const GoverningResult& governing) {
             {"variant", governing.variant},
             {"transfer_time", or_null(governing.transfer_time)},
             {"runout", or_null(governing.runout)},
+            {"farthest", governing.soil ? json(governing.soil->farthest) : json()},
+            {"error", governing.soil ? or_null(governing.soil->error) : json()},
             {"lower_bound", governing.lower_bound},
             {"depth_beyond_toe", or_null(governing.depth_beyond_toe)}};
 }
@@ -41,6 +44,20 @@ json as_json(const LeastFactor& least) {
             {"variant", least.variant},
             {"factor_of_safety", least.factor_of_safety},
             {"factor_of_safety_liquefied", or_null(least.liquefied)}};
+}
+
+findings::Headline headline_of(const Run& run) {
+    findings::HeadlineFacts facts{
+        .stood_in_fem =
+            !run.facts.has_runout && !run.facts.without_transfer.empty() &&
+            std::ranges::all_of(run.facts.without_transfer, &findings::NoTransfer::stood),
+        .lem_alone = run.lem_alone};
+    if (run.governing) facts.soil = run.governing->soil;
+    if (run.stability) {
+        facts.factor_of_safety = run.stability->factor_of_safety;
+        facts.factor_of_safety_liquefied = run.stability->liquefied;
+    }
+    return findings::headline_of(facts);
 }
 
 json schema_of(ColumnKind kind) {
@@ -90,6 +107,8 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"seconds_left", or_null(left)},
             {"questionable", run.questionable},
             {"flag_counts", run.flag_counts},
+            {"warnings", findings::as_json(run.facts.submitted)},
+            {"headline", findings::as_json(headline_of(run))},
             {"verdict", findings::as_json(findings::verdict_of(run.facts))},
             {"governing", run.governing ? as_json(*run.governing) : json()},
             {"stability", run.stability ? as_json(*run.stability) : json()},
@@ -207,16 +226,6 @@ json as_json(const std::vector<fault::Fault>& faults) {
     json list = json::array();
     for (const fault::Fault& each : faults)
         list.push_back({{"pointer", each.pointer}, {"cause", each.cause}, {"remedy", each.remedy}});
-    return list;
-}
-
-json warnings_json(const std::vector<fault::Flag>& flags) {
-    json list = json::array();
-    for (const fault::Flag& each : flags)
-        list.push_back({{"code", each.code},
-                        {"severity", fault::name_of(each.severity)},
-                        {"message", each.message},
-                        {"pointer", each.pointer}});
     return list;
 }
 

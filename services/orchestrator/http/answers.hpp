@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
-#include "core/fault/flag.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/records/result_columns.hpp"
@@ -17,8 +16,6 @@ nlohmann::json as_json(const Task& task, const std::vector<Attempt>& attempts,
                        const std::vector<Artifact>& artifacts, const ProgressBoard& board);
 nlohmann::json as_json(const Event& event);
 nlohmann::json as_json(const std::vector<fault::Fault>& faults);
-/// [{code, severity, message, pointer}]
-nlohmann::json warnings_json(const std::vector<fault::Flag>& flags);
 
 using Columns = std::span<const ResultColumn>;
 

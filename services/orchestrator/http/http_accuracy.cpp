@@ -53,7 +53,7 @@ void draw_check(Service& service, Call& call) {
     const std::string check =
         accept_made_study(service, call, study_of_check(service.store, run.id, table, request));
     call.response.set_header("Location", "/v1/runs/" + check);
-    reply(call.response, as_json(wanted_run(service, check), service.store, service.board), 202);
+    reply(call.response, run_json(service, wanted_run(service, check)), 202);
 }
 
 /// The result of a blind check so far.

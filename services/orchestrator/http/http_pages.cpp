@@ -6,6 +6,7 @@
 #include "core/scene/file_paths.hpp"
 #include "core/scene/schema_text.hpp"
 #include "core/telemetry/columns.hpp"
+#include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/openapi_text.hpp"
@@ -193,7 +194,7 @@ void add_page_routes(Router& router, Service& service) {
         auto [scene, warnings] = sent_scene(call.json_body(), service);
         scene::resolve_references(scene, service.data.root());
         reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())},
-                              {"warnings", warnings_json(warnings)}});
+                              {"warnings", findings::as_json(warnings)}});
     });
 }
 

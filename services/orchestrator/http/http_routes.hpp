@@ -67,6 +67,8 @@ std::string whole_text(const std::filesystem::path& file);
 /// The task, or 404.
 Task wanted_task(const Service& service, const std::string& id);
 Run wanted_run(const Service& service, const std::string& id);
+/// The run as the API describes it, with the error of its governing runout.
+nlohmann::json run_json(const Service& service, Run run);
 /// The only task of a phase; with a time, the one per transfer of that time, with a name, the one
 /// of that variant; 400 where several match, 404 where none does.
 Task meant_task(const Service& service, const std::string& run, const std::string& phase,

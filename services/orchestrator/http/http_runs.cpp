@@ -28,10 +28,6 @@ namespace {
 
 constexpr std::size_t tasks_at_once = 500;  // read and sent together
 
-json run_json(const Service& service, const std::string& id) {
-    return as_json(wanted_run(service, id), service.store, service.board);
-}
-
 /// The tasks with their attempts and artifacts: three queries for any number of tasks.
 json tasks_json(const Service& service, const std::vector<Task>& tasks) {
     json list = json::array();
@@ -51,11 +47,9 @@ json task_json(const Service& service, const Task& task) {
 /// 202 only when the run is on the disk.
 void submit(Service& service, Call& call) {
     call.allow_parameters({});
-    const Accepted accepted = accept_study(service, call, Ask::run);
-    call.response.set_header("Location", "/v1/runs/" + accepted.run);
-    json answer = run_json(service, accepted.run);
-    answer["warnings"] = warnings_json(accepted.warnings);
-    reply(call.response, answer, 202);
+    const std::string id = accept_study(service, call, Ask::run);
+    call.response.set_header("Location", "/v1/runs/" + id);
+    reply(call.response, run_json(service, wanted_run(service, id)), 202);
 }
 
 constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
@@ -83,7 +77,7 @@ void list_runs(const Service& service, Call& call, Ask ask) {
     const json next =
         cut_to(length, runs, [](const Run& last) { return last.created + "~" + last.id; });
     json list = json::array();
-    for (const Run& each : runs) list.push_back(as_json(each, service.store, service.board));
+    for (Run& each : runs) list.push_back(run_json(service, std::move(each)));
     reply(call.response, {{filter.sweeps_only ? "sweeps" : "runs", list}, {"next", next}});
 }
 
@@ -134,7 +128,7 @@ void show_run(const Service& service, Call& call) {
     const bool with_tasks = call.whole_number("tasks", 1, 0, 1) == 1;
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
-    json body = as_json(run, service.store, service.board);
+    json body = run_json(service, run);
     body["study"] = still(service.store.study_of(id));
     body["study"]["scene"] = json::parse(still(service.store.scene_of(id)));
     body["files"] = files_json(service, id);
@@ -166,7 +160,7 @@ void cancel(Service& service, Call& call) {
     });
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.wake();
-    reply(call.response, run_json(service, call.parts[0]), 202);
+    reply(call.response, run_json(service, wanted_run(service, call.parts[0])), 202);
 }
 
 /// An order to a whole run; 404 when there is none.
@@ -178,7 +172,7 @@ void command_run(Service& service, Call& call, Order order) {
     });
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.settle_all();
-    reply(call.response, run_json(service, call.parts[0]), 202);
+    reply(call.response, run_json(service, wanted_run(service, call.parts[0])), 202);
 }
 
 /// The value of an entry, if the body has no other; else null.
@@ -313,7 +307,7 @@ void results(const Service& service, Call& call) {
 /// read as a sweep; the list contains those with several points.
 json sweep_json(const Service& service, const Run& run) {
     const auto [points, done] = service.store.points_of(run.id);
-    json body = as_json(run, service.store, service.board);
+    json body = run_json(service, run);
     body["run"] = run.id;
     body["points_total"] = points;
     body["points_done"] = done;
@@ -328,11 +322,9 @@ Run wanted_sweep(const Service& service, const std::string& id) {
 
 void submit_sweep(Service& service, Call& call) {
     call.allow_parameters({});
-    const Accepted accepted = accept_study(service, call, Ask::sweep);
-    call.response.set_header("Location", "/v1/sweeps/" + accepted.run);
-    json answer = sweep_json(service, wanted_sweep(service, accepted.run));
-    answer["warnings"] = warnings_json(accepted.warnings);
-    reply(call.response, answer, 202);
+    const std::string id = accept_study(service, call, Ask::sweep);
+    call.response.set_header("Location", "/v1/sweeps/" + id);
+    reply(call.response, sweep_json(service, wanted_sweep(service, id)), 202);
 }
 
 /// Sets another budget, or none (null). Refuses a budget that is already spent.
@@ -411,6 +403,11 @@ Task wanted_task(const Service& service, const std::string& id) {
     auto task = service.store.task(id);
     if (!task) throw not_found("task " + id);
     return std::move(*task);
+}
+
+json run_json(const Service& service, Run run) {
+    tell_governing_error(service.store, service.data, run);
+    return as_json(run, service.store, service.board);
 }
 
 Run wanted_run(const Service& service, const std::string& id) {

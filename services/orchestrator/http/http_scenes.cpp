@@ -1,6 +1,7 @@
 // Stored scenes, by the SHA-256 of their completed text and by name.
 #include "core/exchange/provenance.hpp"
 #include "core/scene/file_paths.hpp"
+#include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/http_submission.hpp"
@@ -56,7 +57,7 @@ void keep_scene(Service& service, Call& call) {
     });
     call.response.set_header("Location", "/v1/scenes/" + kept.sha256);
     json answer = as_json(wanted_scene(service, kept.sha256).scene);
-    answer["warnings"] = warnings_json(warnings);
+    answer["warnings"] = findings::as_json(warnings);
     reply(call.response, answer, is_new ? 201 : 200);
 }
 

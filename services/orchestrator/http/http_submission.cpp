@@ -62,16 +62,17 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .triggers = study.triggers,
             .firing_plan = std::move(graph.one_more_transfer),
             .batches = batches_of(study),
+            .warnings = study.warnings,
             .priority = study.priority,
             .sweep = study.variants.size() * states > 1,
             .budget = study.budget,
             .files = std::move(files)};
 }
 
-Accepted stored(Service& service, const Call& call, const std::string& body, Ask ask,
-                const std::function<void(Transaction&, const std::string&)>& besides) {
+std::string stored(Service& service, const Call& call, const std::string& body, Ask ask,
+                   const std::function<void(Transaction&, const std::string&)>& besides) {
     ResolvedStudy sent = resolved_study(service.store, body);
-    Study study = sent_study(sent.text, service);
+    const Study study = sent_study(sent.text, service);
     NewRun run = run_from(study, service.numerics);
     run.made_of = std::move(sent.made_of);
     if (ask == Ask::sweep) run.sweep = true;
@@ -80,7 +81,7 @@ Accepted stored(Service& service, const Call& call, const std::string& body, Ask
         besides(transaction, run.id);
     });
     service.dispatcher.wake();
-    return {run.id, std::move(study.warnings)};
+    return run.id;
 }
 
 }  // namespace
@@ -97,7 +98,7 @@ std::pair<std::string, std::string> place_of(const std::string& cursor) {
     return {cursor.substr(0, split), cursor.substr(split + 1)};
 }
 
-Accepted accept_study(Service& service, Call& call, Ask ask) {
+std::string accept_study(Service& service, Call& call, Ask ask) {
     const std::string& body = call.json_body();
     const auto key = idempotency_key(call.request);
     if (!key) return stored(service, call, body, ask, [](Transaction&, const std::string&) {});
@@ -108,7 +109,7 @@ Accepted accept_study(Service& service, Call& call, Ask ask) {
             throw Problem{422, "/problems/idempotency-key-reused", "Idempotency-Key reused",
                           "this key was sent before with another body; use a new key"};
         call.response.set_header("Idempotent-Replayed", "true");
-        return {known->run, {}};
+        return known->run;
     }
     return stored(service, call, body, ask, [&](Transaction& transaction, const std::string& run) {
         transaction.keep_idempotency_key(*key, hash, run);
@@ -116,8 +117,7 @@ Accepted accept_study(Service& service, Call& call, Ask ask) {
 }
 
 std::string accept_made_study(Service& service, const Call& call, const json& study) {
-    return stored(service, call, study.dump(), Ask::run, [](Transaction&, const std::string&) {})
-        .run;
+    return stored(service, call, study.dump(), Ask::run, [](Transaction&, const std::string&) {});
 }
 
 }  // namespace breach::orchestrator

@@ -7,6 +7,7 @@
 #include "core/scene/schema.hpp"
 #include "core/words/number.hpp"
 #include "services/estimate/cost.hpp"
+#include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/http/stored_scene.hpp"
@@ -146,7 +147,7 @@ json cost_of(const Service& service, const std::string& body) {
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
     if (document.is_object() && document.contains("budget"))
         hold_against(checked_budget(document["budget"]), cost);
-    cost["warnings"] = warnings_json(warnings);
+    cost["warnings"] = findings::as_json(warnings);
     return cost;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/findings/headline.hpp"
 #include "services/findings/verdict.hpp"
 #include "services/orchestrator/records/lifecycle.hpp"
 #include "services/orchestrator/records/trigger.hpp"
@@ -105,6 +106,7 @@ struct NewRun {
     std::vector<TriggerPlan> triggers = {};   ///< to be watched, on each FEM of the run
     std::vector<TaskPlan> firing_plan = {};   ///< of one more transfer (firing_plan.hpp)
     std::optional<TriggerPlan> batches = {};  ///< draws more samples (ensemble/batch_watch.hpp)
+    std::vector<fault::Flag> warnings = {};   ///< of the study
     std::int64_t priority = 0;                ///< higher goes first
     bool sweep = false;                       ///< several points, or requested as a sweep
     std::optional<SceneSource> made_of = {};  ///< a stored scene
@@ -125,6 +127,7 @@ struct Extension {
     std::vector<AddedTask> tasks;           ///< parents first
     std::vector<Recipe> recipes;
     nlohmann::json study;                    ///< the study's document with all of them
+    std::vector<fault::Flag> warnings = {};  ///< of that study
     std::vector<TaskPlan> firing_plan = {};  ///< with the new samples; empty: unchanged
     std::vector<TriggerPlan> triggers = {};  ///< for FEMs that are added
 };
@@ -135,6 +138,7 @@ struct GoverningResult {
     std::string variant;
     std::optional<double> transfer_time = {};     ///< [s]
     std::optional<double> runout = {};            ///< [m]
+    std::optional<findings::Soil> soil = {};      ///< its error by accuracy/runout_error.hpp
     std::optional<double> depth_beyond_toe = {};  ///< [m]
     bool lower_bound = false;
 };
@@ -175,6 +179,7 @@ struct Run {
     std::map<std::string, std::int64_t> flag_counts = {};
     std::optional<GoverningResult> governing = {};
     std::optional<LeastFactor> stability = {};
+    bool lem_alone = false;  ///< it has stability analyses only
 };
 
 /// The MPM of a rung of an accuracy study.

@@ -38,7 +38,7 @@ std::string selected_runs(const std::string& state = "r.state") {
     return "SELECT " + state +
            R"( AS shown, r.id, r.name, r.title, r.created, r.started, r.finished,
     r.tasks_total, r.tasks_done, r.tasks_ended, r.tasks_failed, r.paused, r.questionable, r.pinned,
-    r.budget_cpu_seconds, r.spent_cpu_seconds,
+    r.budget_cpu_seconds, r.spent_cpu_seconds, r.warnings,
     coalesce((SELECT t.label || ': ' || t.fault_summary FROM tasks t INDEXED BY tasks_with_faults
         WHERE t.run = r.id AND t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), '')
         AS message,
@@ -65,7 +65,9 @@ Run run_from(const Row& row) {
             .pinned = row.yes("pinned"),
             .budget = row.optional_real("budget_cpu_seconds"),
             .spent = row.real("spent_cpu_seconds"),
-            .submitted_by = row.optional_text("submitted_by")};
+            .submitted_by = row.optional_text("submitted_by"),
+            .facts = {.state = row.text("shown"),
+                      .submitted = findings::flags_in(row.document("warnings"))}};
 }
 
 const std::string selected_tasks =

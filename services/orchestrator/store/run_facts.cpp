@@ -207,6 +207,12 @@ void add_governing(Connection& database, Run& run) {
                                    [](const Row& row) { return row.document("result"); })
                             .value();
     run.governing->lower_bound = findings::still_moves(result);
+    run.governing->soil = findings::soil_of(result);
+    const bool samples = database.finds(
+        "SELECT 1 FROM runs WHERE id=? AND json_extract(study, '$.uncertainty') IS NOT NULL",
+        {run.id});
+    if (samples && run.governing->soil)
+        run.governing->soil->worst_of = static_cast<std::int64_t>(runouts.size());
     if (const json depth = result.value("depth_beyond_toe", json()); depth.is_number())
         run.governing->depth_beyond_toe = depth;
 }
@@ -216,7 +222,6 @@ void add_governing(Connection& database, Run& run) {
 void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
     json list = json::array();
     for (Run& each : runs) {
-        each.facts.state = each.state;
         if (each.tasks_ended > 0) list.push_back(each.id);  // without results there are no facts
     }
     if (list.empty()) return;
@@ -236,6 +241,8 @@ void Store::gather_facts(Connection& database, std::vector<Run>& runs) {
     for (Run& each : runs) {
         if (each.tasks_ended == 0) continue;
         each.stability = least_factor(database, each.id);
+        each.lem_alone = !database.finds("SELECT 1 FROM tasks WHERE run=? AND phase<>? LIMIT 1",
+                                         {each.id, phases::lem.program});
         add_governing(database, each);
         if (const std::string line = line_of(findings::verdict_of(each.facts)); !line.empty())
             each.message += (each.message.empty() ? "" : "; ") + line;

@@ -6,7 +6,7 @@ namespace breach::orchestrator {
 
 namespace {
 
-constexpr std::int64_t this_version = 13;
+constexpr std::int64_t this_version = 14;
 
 const char* const tables = R"sql(
 -- What a phase computes: equal recipes and inputs have equal results.
@@ -17,7 +17,7 @@ CREATE TABLE recipes (
     part TEXT NOT NULL CHECK (json_valid(part))
 ) STRICT;
 
--- budget_cpu_seconds: what the run may spend. last_task: the largest task number that was given.
+-- warnings: flags of the submission. budget_cpu_seconds: what the run may spend. last_task: the largest task number that was given.
 CREATE TABLE runs (
     id TEXT PRIMARY KEY,
     name TEXT NOT NULL,
@@ -25,6 +25,7 @@ CREATE TABLE runs (
     created TEXT NOT NULL,
     study TEXT NOT NULL CHECK (json_valid(study)),
     scene TEXT NOT NULL CHECK (json_valid(scene)),
+    warnings TEXT NOT NULL DEFAULT '[]' CHECK (json_valid(warnings)),
     paused INTEGER NOT NULL DEFAULT 0 CHECK (paused IN (0, 1)),
     sweep INTEGER NOT NULL DEFAULT 0 CHECK (sweep IN (0, 1)),
     last_task INTEGER NOT NULL DEFAULT 0,

@@ -39,9 +39,10 @@ void keep_artifacts(Connection& database, const std::string& task,
 void Transaction::add_run(const NewRun& run) {
     const std::string now = utc_now();
     database_.change(
-        R"(INSERT INTO runs (id, name, title, created, study, scene, sweep, last_task,
-    budget_cpu_seconds) VALUES (?,?,?,?,?,?,?,?,?))",
-        {run.id, run.name, run.title, now, run.study, run.scene, std::int64_t{run.sweep ? 1 : 0},
+        R"(INSERT INTO runs (id, name, title, created, study, scene, warnings, sweep, last_task,
+    budget_cpu_seconds) VALUES (?,?,?,?,?,?,?,?,?,?))",
+        {run.id, run.name, run.title, now, run.study, run.scene,
+         findings::as_json(run.warnings).dump(), std::int64_t{run.sweep ? 1 : 0},
          static_cast<std::int64_t>(run.tasks.size()), value_or_null(run.budget)});
     add_recipes(run.recipes);
     add_files(run);
@@ -77,9 +78,24 @@ std::int64_t Transaction::next_ordinal(const std::string& run) {
         .value_or(0);
 }
 
+/// Those of the run so far, and those that the extension adds or words anew: of more variants.
+std::string Transaction::warnings_with(const std::string& run,
+                                       const std::vector<fault::Flag>& more) const {
+    std::vector<fault::Flag> all = findings::flags_in(
+        json::parse(database_.text("SELECT warnings FROM runs WHERE id=?", {run}).value_or("[]")));
+    std::erase_if(all, [&](const fault::Flag& old) {
+        return std::ranges::any_of(more, [&](const fault::Flag& each) {
+            return each.code == old.code && each.pointer == old.pointer;
+        });
+    });
+    all.insert(all.end(), more.begin(), more.end());
+    return findings::as_json(all).dump();
+}
+
 void Transaction::extend_run(const std::string& run, const Extension& extension) {
     add_recipes(extension.recipes);
-    database_.change("UPDATE runs SET study=?, sweep=1 WHERE id=?", {extension.study.dump(), run});
+    database_.change("UPDATE runs SET study=?, warnings=?, sweep=1 WHERE id=?",
+                     {extension.study.dump(), warnings_with(run, extension.warnings), run});
     add_run_event(run, {{"event", "extend"}, {"tasks", extension.tasks.size()}});
     const std::int64_t priority =
         database_.integer("SELECT max(priority) FROM tasks WHERE run=?", {run}).value_or(0);

@@ -130,6 +130,7 @@ class Transaction {
     bool removes_events() const { return removes_events_; }
 
   private:
+    std::string warnings_with(const std::string& run, const std::vector<fault::Flag>& more) const;
     void insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
                      const std::optional<std::string>& parent, std::int64_t priority,
                      TaskState state);

@@ -20,7 +20,7 @@ SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_
     CASE WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
          THEN (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
          ELSE 0 END AS questionable,
-    budget_cpu_seconds, spent_cpu_seconds,
+    budget_cpu_seconds, spent_cpu_seconds, warnings,
     CASE WHEN is_open THEN CASE WHEN spent_cpu_seconds >= budget_cpu_seconds AND NOT EXISTS
              (SELECT 1 FROM tasks WHERE tasks.run = counted.id AND tasks.state IN
              ('starting', 'running', 'finalizing', 'cancelling')) THEN 'budget_exhausted'

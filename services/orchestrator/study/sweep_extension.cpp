@@ -113,6 +113,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
 
     const Study study = study_with(run, data, all);
     extension.study = study.document;
+    extension.warnings = study.warnings;
     add_missing_tasks(plan_tasks(study, numerics), present, data, extension);
     return extension;
 }
@@ -141,6 +142,7 @@ Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const 
     for (const Task& each : run.tasks) present.emplace(each.label, each);
     Extension extension;
     extension.study = study.document;
+    extension.warnings = study.warnings;
     for (std::size_t i = before; i < study.variants.size(); ++i)
         extension.samples.push_back(study.variants[i].name);
     TaskGraph graph = plan_tasks(study, numerics);

@@ -5,6 +5,7 @@ import json
 import os
 import re
 import time
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -38,11 +39,17 @@ class Run:
         self.id: str = about["id"]
         self.name: str = about["name"]
         self.state: str = about["state"]  #: when this object was made
+        self.headline: str = about["headline"]["text"]  #: "flows 10.4 m beyond the toe; FS 1.41 as built"; empty: no result yet
         self.verdict: str = about["verdict"]["words"]  #: "not usable"; the reasons are in `about["verdict"]`
         self.about: Document = about  #: the service's description of the run
 
     def __repr__(self) -> str:
-        return f"Run({self.id}, {self.name}, {self.state}: {self.verdict})"
+        return f"Run({self.id}, {self.name}, {self.state}: {'; '.join(filter(None, [self.headline, self.verdict]))})"
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why the verdict is not simply "usable", worst first; the warnings of the submission among them."""
+        return [str(each["text"]) for each in self.about["verdict"]["reasons"]]
 
     @cached_property
     def study(self) -> Document:
@@ -160,9 +167,13 @@ def template(name: str, server: str | None = None, token_file: str | os.PathLike
 
 
 def submit(study: Document, server: str | None = None, token_file: str | os.PathLike[str] | None = None) -> Run:
-    """Submits a study. study: a document with its scene, such as from `template` or `Run.study`."""
+    """Submits a study. study: a document with its scene, such as from `template` or `Run.study`. Its warnings are also shown as
+    Python's warnings, and stay in `Run.reasons`."""
     api = Api(server, token_file)
-    return Run(Served(api, str(api.json_at("/v1/runs", study)["id"])))
+    answer = api.json_at("/v1/runs", study)
+    for each in answer["warnings"]:
+        warnings.warn(f"{each['pointer']}: {each['message']}", stacklevel=2)
+    return Run(Served(api, str(answer["id"])))
 
 
 def runs(server: str | None = None, token_file: str | os.PathLike[str] | None = None, most: int = 50) -> list[Document]:

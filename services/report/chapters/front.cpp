@@ -4,6 +4,7 @@
 #include <map>
 
 #include "core/phases/phases.hpp"
+#include "services/findings/headline.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/samples.hpp"
 #include "services/report/read/verdict.hpp"
@@ -438,25 +439,38 @@ std::string named(const PhaseFolder& phase) {
     return one ? "" : " (" + of_transfer(phase) + ")";
 }
 
-/// "Runout ≥ 37.3 m (t_T = 13 s, soft); 1 of 2 runouts without a result. Factor of safety 0.912."
+/// "flows ≥ 37.3 m beyond the toe; FS 0.912 as built (t_T = 13 s, soft); 1 of 2 runouts without a
+/// result."
 std::string headline_of(const Run& run) {
-    std::string text;
-    if (const PhaseFolder* farthest = farthest_runout(run)) {
-        const auto asked = phases_named(run, phases::mpm.program);
-        const auto missing = std::ranges::count_if(
-            asked, [](const PhaseFolder* each) { return !each->result.is_object(); });
-        text += "Runout " + bounded(*farthest, rounded(runout_of(farthest), digits)) + " m" +
-                (farthest->runout_error ? " \u00b1 " + rounded(*farthest->runout_error, 2) + " m"
-                                        : "") +
-                named(*farthest);
-        if (missing > 0)
-            text += "; " + std::to_string(missing) + " of " + std::to_string(asked.size()) +
-                    " runouts without a result";
-        text += ". ";
+    findings::HeadlineFacts facts{
+        .stood_in_fem =
+            !phase_named(run, phases::mpm.program) && !run.without_transfer.empty() &&
+            std::ranges::all_of(run.without_transfer,
+                                [](const json& each) { return each.value("stood", false); }),
+        .lem_alone = std::ranges::all_of(
+            run.phases, [](const PhaseFolder& each) { return each.phase == phases::lem.program; })};
+    const PhaseFolder* farthest = farthest_runout(run);
+    const auto asked = phases_named(run, phases::mpm.program);
+    const auto missing = std::ranges::count_if(
+        asked, [](const PhaseFolder* each) { return !each->result.is_object(); });
+    if (farthest && (facts.soil = findings::soil_of(farthest->result))) {
+        facts.soil->error = farthest->runout_error;
+        if (has_samples(run))
+            facts.soil->worst_of = static_cast<std::int64_t>(asked.size()) - missing;
     }
-    if (const PhaseFolder* least = least_factor(run))
-        text += "Factor of safety " + brief_fact(*least, "/factor_of_safety") + named(*least) + ".";
-    return text;
+    const PhaseFolder* least = least_factor(run);
+    if (least) {
+        facts.factor_of_safety = least->result.at("factor_of_safety").get<double>();
+        facts.factor_of_safety_liquefied = liquefied_factor(*least);
+    }
+    std::string text = findings::headline_of(facts).text;
+    if (const PhaseFolder* governs = farthest ? farthest : least) text += named(*governs);
+    if (farthest && missing > 0)
+        text += "; " + std::to_string(missing) + " of " + std::to_string(asked.size()) +
+                " runouts without a result";
+    if (text.empty()) return text;
+    text[0] = static_cast<char>(std::toupper(text[0]));
+    return text + ".";
 }
 
 }  // namespace

@@ -8,9 +8,11 @@
 #include <set>
 #include <tuple>
 
+#include "core/check/check.hpp"
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
+#include "services/findings/flags.hpp"
 #include "services/report/read/read_results.hpp"
 
 namespace breach::report {
@@ -248,6 +250,12 @@ Run read_run(const fs::path& folder) {
             if (const json at = about.value("finished", json()); at.is_string()) run.finished = at;
             if (!about.value("title", "").empty()) run.title = about.at("title");
         }
+        // Phases run by hand: nobody has checked the whole scene.
+        run.warnings =
+            about.is_object() && about.contains("warnings")
+                ? about.at("warnings")
+                : findings::as_json(
+                      check::checked_document(run.scene, "scene", folder, {}).scene.warnings);
         return run;
     } catch (const json::exception& error) {
         throw fault::BadInput(folder.string(), {{"", error.what(), "export the run again"}});

@@ -31,8 +31,9 @@ struct Run {
     std::filesystem::path folder;
     std::string name;
     std::string title;
-    std::string id;             ///< empty: not known to a service
-    std::string state = {};     ///< as the service reported it; empty: unknown
+    std::string id;          ///< empty: not known to a service
+    std::string state = {};  ///< as the service reported it; empty: unknown
+    nlohmann::json warnings = nlohmann::json::array();  ///< flags of the submission
     std::string finished = {};  ///< when the run ended; empty: unknown, or it has not
     /// Completed: the study's scene with its overrides, without the changes of variants; in a
     /// folder without a study, the scene of its first phase

@@ -143,6 +143,7 @@ std::vector<findings::Broken> broken_in(const Run& run) {
 findings::Facts facts_of(const Run& run) {
     findings::Facts facts{
         .state = run.state,
+        .submitted = findings::flags_in(run.warnings),
         .raised = raised_in(run),
         .unstable = unstable_in(run),
         .has_runout = std::ranges::any_of(phases_named(run, phases::mpm.program), has_result),

@@ -15,12 +15,6 @@ export function governing_of(run, rows, means) {
     return { row, mean: means.find((mean) => draws_of(mean, rows, run.study).includes(row)) ?? null };
 }
 
-/// Factor of safety and runout for the list.
-export function brief_answer({ governing, stability }) {
-    return [stability ? `FS ${number(stability.factor_of_safety, 3)}` : "",
-            Number.isFinite(governing?.runout) ? `runout ${governing.lower_bound ? "≥ " : ""}${number(governing.runout, 3)} m` : ""].filter(Boolean).join(" · ");
-}
-
 export class Answer {
     /// look_at(row): called to show the governing variant.
     constructor(look_at) {
@@ -37,7 +31,9 @@ export class Answer {
         this.draw_figures();
     }
 
-    show_verdict({ verdict, flag_counts: flags }) {
+    show_verdict({ headline, verdict, flag_counts: flags }) {
+        set_text(by_id("headline"), headline.text);
+        by_id("headline").hidden = headline.text === "";
         const look = verdict_look(verdict.usable);
         by_id("verdict").className = `verdict ${look}${verdict.usable === "no" ? " unusable" : ""}`;
         set_text(by_id("verdict"), `${look === "bad" ? "✕ " : ""}Verdict: ${verdict.words}`);

@@ -77,6 +77,8 @@ export const flag_items = (flags) => kinds_of(flags).map((kind) =>
 /// Class of a verdict and its reasons; usable: from the findings.
 export const verdict_look = (usable) => ({ no: "bad", questionable: "warn", in_part: "warn", with_remarks: "calm", yes: "good" })[usable] ?? "off";
 
+export const verdict_sign = (usable) => ({ no: "✕", questionable: "⚠", in_part: "◐", with_remarks: "✓", yes: "✓" })[usable] ?? "·";
+
 /// The reasons of a verdict, worst first, one line per kind. flags: an object with the flags' codes as members.
 export function reason_items({ reasons }, flags) {
     const kinds = Map.groupBy(reasons, ({ usable, code }) => `${usable} ${code}`);

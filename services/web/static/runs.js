@@ -1,14 +1,20 @@
 // The list of runs, and the head of the open run.
-import { brief_answer } from "./answer.js";
 import * as api from "./api.js";
 import { differences_address } from "./differences.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
+import { verdict_look, verdict_sign } from "./flags.js";
 import { bytes, clock, is_active, percent, seconds, show_state, span, task_state } from "./format.js";
 import { RenameDialog } from "./rename.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
 
-const state_of = (run) => (run.paused && is_active(run.state) ? "paused" : run.state);
+/// The state until the run ends well, then the verdict: a good run may have results that are not usable.
+function show_badge(badge, { state, paused, verdict }) {
+    if (!["succeeded", "questionable"].includes(state)) return show_state(badge, paused && is_active(state) ? "paused" : state);
+    const look = verdict_look(verdict.usable);
+    badge.className = `state ${look}`;
+    set_text(badge, `${verdict_sign(verdict.usable)} ${verdict.words}`);
+}
 
 /// The search text; "": none.
 export const searched = () => by_id("run-search").value.trim();
@@ -34,9 +40,9 @@ function fill_item(item, run, open_id) {
     set_text(name, run.name);
     set_text(called, run.title);
     called.hidden = !run.title;
-    set_text(answer, brief_answer(run));
+    set_text(answer, run.headline.text);
     answer.hidden = answer.textContent === "";
-    show_state(state, state_of(run));
+    show_badge(state, run);
     progress.value = run.progress ?? 0;
     progress.hidden = !is_active(run.state);
     progress.setAttribute("aria-label", `progress of ${run.name}`);
@@ -51,8 +57,8 @@ function fill_item(item, run, open_id) {
     else link.removeAttribute("aria-current");
 }
 
-/// The verdict with its worst reason if the results are questionable or unusable; else "".
-const doubt_of = ({ verdict: { usable, words, reasons } }) => (["questionable", "no"].includes(usable) ? `${words}: ${reasons[0]?.brief}` : "");
+/// The worst reason if the results are questionable or unusable; else "".
+const doubt_of = ({ verdict: { usable, reasons } }) => (["questionable", "no"].includes(usable) ? reasons[0]?.brief ?? "" : "");
 
 /// The parts of the run's message that are not reasons of its verdict.
 function beside_the_verdict({ verdict, message }) {
@@ -79,7 +85,7 @@ export class RunHead {
     begin(run) {
         set_text(by_id("run-title"), run.title || run.name);
         document.title = `${percent(run.progress)} ${run.name} – Breachline`;
-        show_state(by_id("run-state"), state_of(run));
+        show_badge(by_id("run-state"), run);
         by_id("run-progress").value = run.progress ?? 0;
         by_id("run-progress").hidden = !is_active(run.state);
         set_text(by_id("run-message"), beside_the_verdict(run));

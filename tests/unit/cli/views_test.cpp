@@ -96,16 +96,20 @@ TEST(ResultTable, ShowsADashWhereThereIsNoRunoutAndTheReason) {
               "      1  failed     -              -             -  no memory\n");
 }
 
-TEST(Verdict, GivesTheReasonsThatNoFlagOfARowExplains) {
-    EXPECT_EQ(as_verdict(json::parse(R"({
-        "verdict": {"usable": "no", "words": "not usable", "reasons": [
-            {"code": "does_not_stand", "text": "It falls."}, {"code": "still_moving", "text": "It moves."}]},
-        "rows": [{"flags": [{"code": "still_moving", "severity": "questionable"}]}]})")),
-              "Verdict: not usable\n  It falls.\n\n");
-    EXPECT_EQ(
-        as_verdict(json::parse(
-            R"({"verdict": {"usable": "yes", "words": "usable", "reasons": []}, "rows": []})")),
-        "");
+TEST(Verdict, FollowsTheResultAndGivesTheReasonsThatNoFlagOfARowExplains) {
+    const json headline{{"outcome", "flows"}, {"text", "flows 3 m beyond the toe"}};
+    const json verdict = json::parse(R"({"usable": "no", "words": "not usable", "reasons": [
+        {"code": "does_not_stand", "text": "It falls."},
+        {"code": "coarse_cells", "text": "Coarse cells, 1 of 2 runouts: 3 cells."},
+        {"code": "coarse_cells", "text": "Coarse cells, at submission: 2 cells."}]})");
+    const json rows = json::parse(R"([{"flags": [{"code": "coarse_cells", "severity": "warning",
+        "message": "3 cells"}]}, {"flags": null}])");
+    EXPECT_EQ(as_verdict(headline, verdict, rows),
+              "Result: flows 3 m beyond the toe\nVerdict: not usable\n  It falls.\n"
+              "  Coarse cells, at submission: 2 cells.\n\n");
+    EXPECT_EQ(as_verdict({{"text", ""}}, {{"words", "usable"}, {"reasons", json::array()}},
+                         json::array()),
+              "Verdict: usable\n\n");
 }
 
 TEST(MeanTable, ListsScatterAndMissingRepeats) {

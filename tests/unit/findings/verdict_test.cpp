@@ -51,6 +51,24 @@ TEST(Verdict, IsNoOfImplausibleEntriesThoughTheyAreWarnings) {
         Usable::with_remarks);
 }
 
+TEST(Verdict, HasEachWarningOfTheSubmissionThatNoResultRepeats) {
+    const fault::Flag strong{"total_stress", Severity::warning, "too strong",
+                             "/scene/materials/dam"};
+    const fault::Flag coarse{"coarse_cells", Severity::warning, "variant \"wet\": its message",
+                             "/scene/mpm/cell_size"};
+    const fault::Flag other{"coarse_cells", Severity::warning, "another message", ""};
+    const Verdict verdict =
+        verdict_of({.state = "succeeded",
+                    .submitted = {strong, coarse, other},
+                    .raised = {raised("coarse_cells", Severity::warning, 1, 1)}});
+    EXPECT_EQ(verdict.usable, Usable::with_remarks);
+    ASSERT_EQ(verdict.reasons.size(), 3u);
+    EXPECT_EQ(verdict.reasons[1].text, "Coarse cells, at submission: another message.");
+    EXPECT_EQ(verdict.reasons[2].text,
+              "Total stress, at submission (/scene/materials/dam): too strong.");
+    EXPECT_EQ(verdict_of({.state = "queued", .submitted = {strong}}).reasons.size(), 2u);
+}
+
 TEST(Verdict, IsNoWhereNothingWasTransferred) {
     Facts facts{.state = "partial", .without_transfer = {{"", true, "window: not met"}}};
     EXPECT_EQ(verdict_of(facts).usable, Usable::no);

@@ -731,7 +731,7 @@ TEST_F(StoreTest, DatabaseOfAnotherVersionIsRefusedAndLeftAsItIs) {
         database.script(std::string("PRAGMA user_version=") + version);
         EXPECT_THROW(Store{file()}, StoreError);
         EXPECT_EQ(std::to_string(version_of(database)), version);
-        database.script("PRAGMA user_version=13");
+        database.script("PRAGMA user_version=14");
     }
 }
 
