@@ -416,6 +416,8 @@ std::string as_progress_line(const json& run) {
         const auto minutes = static_cast<long>(std::ceil(left.get<double>() / 60.0));
         text += "  about " + std::to_string(minutes) + " min left";
     }
+    if (end_of(run) == RunEnd::good && run.at("headline").at("text") != "")
+        text += "  " + cell(run.at("headline"), "text");
     if (!run.value("message", "").empty()) text += "  " + cell(run, "message");
     return text;
 }

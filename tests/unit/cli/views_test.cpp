@@ -68,8 +68,12 @@ TEST(ProgressLine, SaysWhenTheRunWillBeReady) {
     const std::string line = as_progress_line(run);
     EXPECT_NE(line.find("3 of 13 tasks"), std::string::npos) << line;
     EXPECT_NE(line.find("about 4 min left"), std::string::npos) << line;
-    EXPECT_EQ(as_progress_line({{"progress", 1.0}, {"seconds_left", nullptr}}).find("left"),
-              std::string::npos);
+    const std::string end = as_progress_line({{"progress", 1.0},
+                                              {"state", "succeeded"},
+                                              {"seconds_left", nullptr},
+                                              {"headline", {{"text", "stands"}}}});
+    EXPECT_EQ(end.find("left"), std::string::npos);
+    EXPECT_TRUE(end.ends_with("  stands")) << end;
 }
 
 const json columns = json::parse(R"([

@@ -17,8 +17,11 @@ std::map<std::string, std::size_t> attempts_by_label(const json& run) {
 TEST(Extension, AddsTimesAndKeepsWhatIsThere) {
     const Sandbox sandbox;
     Service service(sandbox);
-    const std::string run = service.submit(study("", {0.5, 1.0}));
-    service.wait_for_end(run);
+    json sent = study("", {0.5, 1.0});
+    sent["overrides"] = {"/mpm/cfl=0.3", "/mpm/cfl=0.31"};
+    const std::string run = service.submit(sent);
+    const json warnings = service.wait_for_end(run).at("warnings");
+    EXPECT_FALSE(warnings.empty());
     const json before = service.table(run);
     const auto answer =
         service.post("/v1/sweeps/" + run + "/extend", R"({"transfer_times": [0.75, 1.0]})");
@@ -27,6 +30,7 @@ TEST(Extension, AddsTimesAndKeepsWhatIsThere) {
     EXPECT_EQ(answer.body.at("state"), "running");
     const json end = service.wait_for_end(run);
     EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
+    EXPECT_EQ(end.at("warnings"), warnings) << "each once";
     const json rows = service.table(run);
     ASSERT_EQ(rows.size(), 3u);
     EXPECT_EQ(rows[0], before[0]);
