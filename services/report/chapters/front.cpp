@@ -433,14 +433,14 @@ std::string identity_of(const Run& run) {
     return text + ".";
 }
 
-/// " (t_T = 13 s, soft)"; empty without variants and transfer times.
+/// "; governing case: t_T = 13 s, soft"; empty without variants and transfer times.
 std::string named(const PhaseFolder& phase) {
     const bool one = phase.variant.empty() && !phase.transfer_time;
-    return one ? "" : " (" + of_transfer(phase) + ")";
+    return one ? "" : "; governing case: " + of_transfer(phase);
 }
 
-/// "flows ≥ 37.3 m beyond the toe; FS 0.912 as built (t_T = 13 s, soft); 1 of 2 runouts without a
-/// result."
+/// "Flows ≥ 37.3 m beyond the toe; FS 0.912 as built; governing case: t_T = 13 s, soft; 1 of 2
+/// runouts without a result."
 std::string headline_of(const Run& run) {
     findings::HeadlineFacts facts{
         .stood_in_fem =
