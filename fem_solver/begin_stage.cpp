@@ -105,8 +105,11 @@ void find_frictional_rest(Course& course) {
     if (rest.converged) {
         spdlog::info("  {}", in_words(rest));
     } else {
-        course.session.flag({"no_frictional_rest", fault::Severity::warning, in_words(rest),
-                             course.pointer_of_stage()});
+        course.session.flag(
+            {"no_frictional_rest", fault::Severity::warning,
+             in_words(rest) +
+                 seepage_remedy(course.fem, static_cast<std::size_t>(course.position.stage)),
+             course.pointer_of_stage()});
     }
     course.session.result()["geostatic"][course.stage().name]["friction"] = {
         {"converged", rest.converged},

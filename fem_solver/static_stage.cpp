@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/words/number.hpp"
+#include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/model/pore_water.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/stage.hpp"
@@ -112,7 +113,8 @@ void note_geostatic_state(Course& course, double residual) {
                                 ? course.newton->why_degenerate()
                                 : "out of balance " + text_of(outcome.residual) + " of the weight";
     recorder.give_up("no equilibrium in stage '" + course.stage().name + "' beyond " +
-                     text_of(course.position.load) + " of its load: " + why);
+                     text_of(course.position.load) + " of its load: " + why +
+                     seepage_remedy(course.fem, static_cast<std::size_t>(course.position.stage)));
 }
 
 }  // namespace

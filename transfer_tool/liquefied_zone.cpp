@@ -126,6 +126,8 @@ std::vector<LiquefiedGap> LiquefiedZone::gaps() const {
 }
 
 bool LiquefiedZone::holds(const Vec2& place) const {
+    if (!water_table_.empty() && place.y() >= geometry::level_at(water_table_, place.x()))
+        return false;
     const bool below_line = line_.empty() || place.x() > line_.back().x() ||
                             place.y() < geometry::level_at(line_, place.x());
     if (!below_line) return true;

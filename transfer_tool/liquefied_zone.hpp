@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/exchange/mesh_snapshot.hpp"
@@ -32,13 +33,16 @@ std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double
 /// A node is liquefied if r_u = (u - u_0) / sigma'_v0 is above the threshold, now or at any earlier
 /// time. It represents the column between the middles of its elements on both sides; everything
 /// above the deepest liquefied node of a column is liquefied. Columns narrower than
-/// `narrowest_wall` between two deeper ones are liquefied to the shallower depth of the two. On the
-/// undeformed mesh.
+/// `narrowest_wall` between two deeper ones are liquefied to the shallower depth of the two. Soil
+/// above the water table never is. On the undeformed mesh.
 class LiquefiedZone {
   public:
     /// regions: [n_regions of the mesh] whether it can liquefy. The mesh must have sigma_v0.
     LiquefiedZone(const exchange::MeshSnapshot& mesh, const std::vector<char>& regions,
                   double threshold, scene::LiquefiedWhen when, double narrowest_wall = 0.0);
+
+    /// Takes out the soil above the water table [m]; an empty one is not known.
+    void keep_below(std::vector<Vec2> water_table) { water_table_ = std::move(water_table); }
 
     /// Adds the soil above the line.
     void add(const scene::LiquefiedLine& line) {
@@ -62,7 +66,8 @@ class LiquefiedZone {
 
     /// x where the column begins -> level; +infinity: not liquefied
     std::map<double, double> level_from_;
-    std::vector<Vec2> line_;   ///< soil above it counts; empty: none [m]
+    std::vector<Vec2> line_;  ///< soil above it counts; empty: none [m]
+    std::vector<Vec2> water_table_;
     double highest_, lowest_;  ///< of the soil that can liquefy [m]
     std::size_t nodes_ = 0;
     double closed_width_ = 0.0;

@@ -71,6 +71,16 @@ std::vector<bool> regions_gone(const MeshSnapshot& mesh, const scene::Scene& sce
     return gone;
 }
 
+/// The water table when the shaking began, to which r_u refers: of the FEM, else of the mapping;
+/// empty if the scene has neither.
+std::vector<Vec2> water_table_of(const scene::Scene& scene) {
+    if (!scene.fem || !scene.fem->water) return scene::transfer_of(scene).phreatic_line;
+    const auto& stages = scene.fem->stages;
+    const auto shaking = std::ranges::find(stages, scene::StageKind::dynamic, &scene::Stage::kind);
+    const auto last = static_cast<std::size_t>(shaking - stages.begin());
+    return scene.fem->water_in(std::min(last, stages.size() - 1))->line;
+}
+
 }  // namespace
 
 StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
@@ -116,6 +126,7 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
         liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u, settings.liquefied->when,
                            settings.liquefied->narrowest_wall);
     if (!liquefied_) return;
+    liquefied_->keep_below(water_table_of(scene));
     for (const scene::LiquefiedLine& line : settings.liquefied->lines)
         if (std::abs(line.transfer_time - mesh.time) < 1e-6) liquefied_->add(line);
 }

@@ -46,13 +46,18 @@ void check_held(const scene::Scene& scene, double tolerance, Findings& findings)
     const auto& regions = scene.section.regions;
     const std::vector<std::size_t> body = bodies_of(scene, tolerance);
     std::vector<bool> x(regions.size(), false), y(regions.size(), false);
-    for (const scene::Support& support : scene.fem->supports) {
-        const auto touched = bodies_touched(scene, body, {support.from, support.to}, tolerance);
+    const auto hold = [&](const Side& segment, bool holds_x, bool holds_y) {
+        const auto touched = bodies_touched(scene, body, segment, tolerance);
         for (std::size_t b = 0; b < touched.size(); ++b) {
-            x[b] = x[b] || (touched[b] && support.fixes_x);
-            y[b] = y[b] || (touched[b] && support.fixes_y);
+            x[b] = x[b] || (touched[b] && holds_x);
+            y[b] = y[b] || (touched[b] && holds_y);
         }
-    }
+    };
+    for (const scene::Support& each : scene.fem->supports)
+        hold({each.from, each.to}, each.fixes_x, each.fixes_y);
+    if (!scene.fem->stages.empty())
+        for (const scene::Displacement& each : scene.fem->stages.front().displacements)
+            hold({each.from, each.to}, each.x.has_value(), each.y.has_value());
     for (std::size_t r = 0; r < regions.size(); ++r) {
         if (regions[r].polygon.empty() || body[r] != r || (x[r] && y[r])) continue;
         const bool whole = std::ranges::count(body, r) == std::ptrdiff_t(regions.size());

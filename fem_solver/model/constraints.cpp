@@ -34,7 +34,8 @@ void hold(const scene::Fem& fem, const Mesh& mesh, double tolerance, std::vector
         holds_x = holds_x || (found && support.fixes_x);
         holds_y = holds_y || (found && support.fixes_y);
     }
-    if (!holds_x || !holds_y) {
+    // set_stage checks bodies that change, stage by stage: displaced edges hold them as well.
+    if ((!holds_x || !holds_y) && !fem.changes_the_body()) {
         faults.push_back({"/fem/supports",
                           std::string("nothing holds the body in ") + (holds_x ? "y" : "x"),
                           "add a support that fixes this direction"});

@@ -41,7 +41,7 @@ enum class Solved {
 };
 
 /// ties: of both displacements; pressure_ties: of pressures. Throws BadInput if a support contains
-/// no node, nothing supports the body in x or y, or a node above the base is both supported and
+/// no node, nothing supports an unchanging body in x or y, or a node above the base is both supported and
 /// tied.
 Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::ElasticBase>& base,
                            const Mesh& mesh, const std::vector<Tie>& ties,

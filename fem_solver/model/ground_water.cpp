@@ -1,5 +1,7 @@
 #include "fem_solver/model/ground_water.hpp"
 
+#include <algorithm>
+
 #include "fem_solver/model/ground.hpp"
 #include "fem_solver/model/pore_water.hpp"
 
@@ -133,6 +135,17 @@ double unit_weight(const scene::Scene& scene) {
 std::vector<bool> elements_below(const GroundWater& water, const Mesh& mesh) {
     const double tolerance = 1e-6 * quality_of(mesh).shortest_edge;
     return wet_elements(mesh, depths_below(water, mesh, tolerance));
+}
+
+std::string seepage_remedy(const scene::Fem& fem, std::size_t stage) {
+    const auto water = fem.water_in(stage);
+    if (!water || !water->boundaries.empty()) return "";
+    const auto level = [](const Vec2& each) { return each.y(); };
+    const auto [lowest, highest] = std::ranges::minmax(water->line, {}, level);
+    if (highest.y() - lowest.y() <= 0.0) return "";
+    return "; or let water flow: the phreatic line slopes, and the pressure of water at rest below "
+           "it pushes the soil sideways. Give /fem/water/boundaries the segments where water "
+           "enters and leaves, and this stage \"permeability\": \"scene\"";
 }
 
 PoreWater ground_water(const scene::Scene& scene, const GroundWater& water, const Model& model) {

@@ -19,6 +19,9 @@ PoreWater ground_water(const scene::Scene& scene, const scene::GroundWater& wate
 void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,
                       Model& model);
 
+/// "; or ..." for a stage without equilibrium, if its water rests below a line that slopes; else "".
+std::string seepage_remedy(const scene::Fem& fem, std::size_t stage);
+
 /// Prevents all flow, for an undrained stage.
 void close_to_flow(Model& model);
 

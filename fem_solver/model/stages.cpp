@@ -64,24 +64,16 @@ void hold_what_is_left(const scene::Scene& scene, std::size_t stage, Model& mode
     for (std::size_t s = 0; s <= stage; ++s)
         for (const std::size_t k : fem.stages[s].releases) released[k] = true;
     std::vector<bool> held(model.constraints.held.size(), false);
-    bool holds_x = false, holds_y = false;
     for (std::size_t k = 0; k < fem.supports.size(); ++k) {
         const scene::Support& support = fem.supports[k];
         if (released[k]) continue;
         const std::size_t found = hold_nodes(support, model.mesh, lonely, held);
-        holds_x = holds_x || (found > 0 && support.fixes_x);
-        holds_y = holds_y || (found > 0 && support.fixes_y);
         if (found > 0 || fem.stages[stage].removes.empty()) continue;
         throw fault::BadInput(
             "scene",
             {{pointer + "/remove", "removes everything that support '" + support.name + "' holds",
               "release the support in this stage, or keep the region"}});
     }
-    if (!holds_x || !holds_y)
-        throw fault::BadInput("scene", {{pointer,
-                                         std::string("leaves nothing that holds the body in ") +
-                                             (holds_x ? "y" : "x"),
-                                         "keep a support that fixes this direction"}});
     for (std::size_t i = 0; i < lonely.size(); ++i)
         if (lonely[i]) held[2 * i] = held[2 * i + 1] = true;
     model.constraints.held = std::move(held);
@@ -113,6 +105,20 @@ void displace(const scene::Fem& fem, std::size_t stage, Model& model) {
                            "let its segment run along an edge of a region"}});
         }
     }
+}
+
+/// Supports hold the body, and so do displaced edges.
+void refuse_loose_body(std::size_t stage, const Model& model) {
+    const std::vector<bool> lonely = lonely_nodes(model);
+    bool holds[] = {false, false};
+    for (std::size_t d = 0; d < model.constraints.held.size(); ++d)
+        if (model.constraints.held[d] && !lonely[d / 2]) holds[d % 2] = true;
+    if (holds[0] && holds[1]) return;
+    throw fault::BadInput(
+        "scene", {{"/fem/stages/" + std::to_string(stage),
+                   std::string("leaves nothing that holds the body in ") + (holds[0] ? "y" : "x"),
+                   "keep a support that fixes this direction, or displace an "
+                   "edge in it"}});
 }
 
 /// Nodes with unknown pressure in undrained regions, except where they meet soil that drains. The
@@ -232,6 +238,7 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     if (floods) refuse_wet_changes(scene, stage, model);
     hold_what_is_left(scene, stage, model);
     displace(fem, stage, model);
+    refuse_loose_body(stage, model);
     find_undrained(fem, stage, model);
     double k_h = 0.0;
     for (std::size_t s = 0; s <= stage; ++s) k_h = fem.stages[s].seismic_coefficient.value_or(k_h);

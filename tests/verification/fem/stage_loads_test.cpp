@@ -184,6 +184,70 @@ TEST(DisplacedEdges, ThrustHasAllThatTheSupportBeforeGave) {
     }
 }
 
+json moved(const Vec2& from, const Vec2& to, const json& by) {
+    json edge{{"name", "edge"}, {"from", {from.x(), from.y()}}, {"to", {to.x(), to.y()}}};
+    edge.update(by);
+    return json::array({edge});
+}
+
+/// A block 2 m wide under its weight; `drives`: its further stages.
+json heavy_block(const std::vector<json>& drives) {
+    json stages = json::array({static_stage("gravity")});
+    for (const json& each : drives) stages.push_back(each);
+    return bench::scene_of(
+        {.width = 2.0, .height = 2.0, .columns = 4, .rows = 4, .stages = stages});
+}
+
+TEST(DisplacedEdges, ABaseThatMovesDownCarriesTheBodyWithItWithoutStress) {
+    const json down = {{"x", 0.0}, {"y", -0.01}};
+    bench::Run at_rest(heavy_block({}));
+    const Course& still = at_rest.go();
+    for (const bool part : {false, true}) {
+        // smooth walls keep a body upright on a part of its base, too
+        const json edge = moved({0, 0}, {part ? 0.5 : 2.0, 0}, down);
+        json scene = heavy_block({static_stage("d", {{"release", {"base"}}, {"displace", edge}}),
+                                  static_stage("e", {{"displace", edge}})});
+        bench::Run run(scene);
+        const Course& done = run.go();
+        double weight = 0.0, fall = 0.0, strain = 0.0;
+        for (const json& at : run.session().result()["geostatic"]["e"]["displaced"]["edge"])
+            weight = at["force_y"];
+        for (const double x : {0.0, 0.5})
+            fall = std::max(fall, std::abs(u_at(done, {x, 0}).y() + 0.02) / 0.02);
+        for (std::size_t p = 0; p < done.motion.points.size(); ++p)
+            strain = std::max(strain, (done.motion.points[p].sigma - still.motion.points[p].sigma)
+                                          .lpNorm<Eigen::Infinity>());
+        const std::string name = part ? "part of the base: " : "whole base: ";
+        expect_error(name + "fall", fall, 1e-12);
+        expect_error(name + "force, over the weight",
+                     std::abs(weight / (2000.0 * 9.81 * 4.0) - 1.0), 1e-8);
+        if (!part) expect_error(name + "new stress, over the weight's", strain / 40e3, 1e-8);
+    }
+}
+
+TEST(DisplacedEdges, HoldTheBodyInTheDirectionsThatTheyMove) {
+    const auto refused = [](const json& by, const json& release) {
+        return place_refused(heavy_block(
+            {static_stage("d", {{"release", release}, {"displace", moved({0, 0}, {2, 0}, by)}})}));
+    };
+    const json all = {"left", "right", "base"};
+    EXPECT_EQ(refused({{"x", 0.0}, {"y", 0.0}}, all), "");
+    EXPECT_EQ(refused({{"x", 1e-3}}, {"left", "right"}), "");
+    EXPECT_EQ(refused({{"x", 1e-3}}, all), "/fem/stages/1");
+    EXPECT_EQ(refused({{"y", 1e-3}}, all), "/fem/stages/1");
+    // From the first stage on, and in a stage in motion.
+    json scene = heavy_block({});
+    scene["fem"]["supports"].erase(2);
+    EXPECT_EQ(place_refused(scene), "/fem/supports");
+    scene["fem"]["stages"][0]["displace"] = moved({0, 0}, {2, 0}, {{"y", 0.0}});
+    EXPECT_EQ(place_refused(scene), "");
+    scene["fem"]["stages"].push_back(
+        {{"type", "dynamic"}, {"name", "z"}, {"duration", 0.1}, {"time_step", 0.05}});
+    bench::Run run(scene);
+    const Course& done = run.go();
+    EXPECT_LT(done.motion.u.lpNorm<Eigen::Infinity>(), 1e-9) << "the block rests on its edge";
+}
+
 /// Creep of epsilon_q is a principal strain of that times sqrt(3)/2 in the plane.
 constexpr double principal(double epsilon_q) { return 0.5 * std::numbers::sqrt3 * epsilon_q; }
 

@@ -5,6 +5,7 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/phases/files.hpp"
+#include "fem_solver/model/ground_water.hpp"
 #include "fem_solver/snapshot.hpp"
 #include "tests/verification/fem/wet.hpp"
 
@@ -292,6 +293,31 @@ TEST(PhreaticLine, ThatSlopesIsTakenAsDrawn) {
             expect_error("... mean sigma'_v", now.sigma, 0.01);
         }
     }
+}
+
+TEST(PhreaticLine, ThatSlopesWithoutBoundariesIsNamedWhereAStageHasNoEquilibrium) {
+    json scene = drawn_line("bbar", "drained", {{0, 8.5}, {20, 6.5}});
+    const auto remedy = [&] { return seepage_remedy(scene::fem_of(bench::parse(scene)), 0); };
+    EXPECT_NE(remedy().find("/fem/water/boundaries"), std::string::npos);
+    // Soil that cannot stand: the refusal of a static stage has the remedy, too.
+    json weak = scene;
+    weak["materials"]["soil"]["law"] = {
+        {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 0.1}, {"phi_deg", 5}};
+    weak["fem"]["stages"][0]["laws"] = "scene";
+    weak["fem"]["supports"].erase(1);
+    bench::Run run(weak);
+    try {
+        run.go();
+        FAIL() << "a bank of 10 m with phi 5 degrees stands";
+    } catch (const std::exception& refused) {
+        EXPECT_NE(std::string(refused.what()).find(remedy()), std::string::npos) << refused.what();
+    }
+    scene["fem"]["water"]["boundaries"] = {
+        {{"name", "in"}, {"from", {0, 0}}, {"to", {0, 8.5}}, {"level", 8.5}}};
+    EXPECT_EQ(remedy(), "");
+    EXPECT_EQ(seepage_remedy(
+                  scene::fem_of(bench::parse(drawn_line("ssp", "drained", {{0, 8}, {20, 8}}))), 0),
+              "");
 }
 
 TEST(PhreaticLine, BetweenRowsLeavesAColumnAtRest) {

@@ -121,6 +121,39 @@ TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
     EXPECT_NO_THROW(refuse_losses(t.ledger, *g.scene.transfer));
 }
 
+// Liquefied below y = 6 m everywhere; the water table falls through the elements, over dry soil.
+TEST(LiquefiedLayers, EndAtTheWaterTableOfTheMappingOrOfTheFemWhenItShakes) {
+    const std::vector<Vec2> table{{0.0, 8.3}, {12.0, 5.9}};
+    Ground g = ground([](const Vec2& x) { return x.y() < 6.1 ? 1.0 : 0.0; });
+    g.scene.transfer->liquefied =
+        scene::LiquefiedZone{.regions = {0, 1},
+                             .r_u = 0.7,
+                             .when = scene::LiquefiedWhen::ever,
+                             .layers = {{0.0, 36e3, 1}, {36e3, 40e3, 2}},
+                             .lines = {{.transfer_time = 0.0, .points = {{{0, 2}, {12, 2}}}}}};
+    g.mesh.time = 0.0;
+    scene::Scene shaken = g.scene;
+    g.scene.transfer->phreatic_line = table;
+    // A line that rises before the shaking, and a mapping that says otherwise.
+    shaken.transfer->phreatic_line = {{0.0, 2.0}};
+    shaken.fem.emplace();
+    shaken.fem->water.emplace();
+    shaken.fem->water->line = {{0.0, 1.0}};
+    using enum scene::StageKind;
+    shaken.fem->stages = {
+        {.name = "rise", .kind = static_equilibrium, .laws = {}, .phreatic_line = table},
+        {.name = "shaking", .kind = dynamic, .laws = {}}};
+    for (const scene::Scene& each : {g.scene, shaken}) {
+        const auto t = meshes::transferred(g.mesh, each);
+        for (std::size_t p = 0; p < t.state.size(); ++p) {
+            const Vec2& x = t.state.position[p];
+            const bool wet = x.y() < 8.3 - 0.2 * x.x();
+            const bool liquefied = t.state.materials_of_regions[t.state.region[p]] != "soil";
+            ASSERT_EQ(liquefied, wet) << x.transpose();
+        }
+    }
+}
+
 TEST(LiquefiedLayers, NeedASnapshotThatKnowsTheStressBefore) {
     Ground g = ground([](const Vec2&) { return 0.0; });
     g.scene.transfer->liquefied = scene::LiquefiedZone{
