@@ -144,7 +144,15 @@ void plan_gap_closure(const scene::Scene& scene, Plan& plan) {
                     "/mpm/gap_room"});
 }
 
+std::string span(const std::array<double, 2>& range) {
+    return text_of(range[0]) + " to " + text_of(range[1]) + " m";
+}
+
 void plan_boundaries(const scene::Mpm& mpm, Plan& plan) {
+    plan.push_back({"grid", Use::on,
+                    "x = " + span(mpm.domain_x) + ", y = " + span(mpm.domain_y) +
+                        ": whole cells of " + text_of(mpm.cell_size) + " m",
+                    "/mpm/domain_x"});
     const bool slips = !mpm.floor.friction.empty();
     if (!mpm.terrain.empty()) {
         plan.push_back({"terrain", Use::on,

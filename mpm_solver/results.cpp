@@ -219,6 +219,8 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["dt_max"] = clock.dt_max;
     result["particles"] = simulation.body().points.size();
     result["particle_steps_per_second"] = speed;
+    result["domain_x"] = mpm.domain_x;
+    result["domain_y"] = mpm.domain_y;
     result["fill_shift"] = mpm.fill_shift;
     result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;

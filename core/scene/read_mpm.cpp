@@ -21,25 +21,29 @@ bool is_steep(const std::vector<mechanics::Vec2>& terrain) {
     return geometry::share_steeper_than(tan_30, terrain) > 0.1;
 }
 
-void check_grid(Reader& reader, const Mpm& mpm) {
-    const auto whole = [&](double from, double to) {
-        const double cells = (to - from) / mpm.cell_size;
-        return std::abs(cells - std::nearbyint(cells)) < 1e-6;
-    };
-    if (!whole(mpm.domain_x[0], mpm.domain_x[1])) {
-        reader.add("/mpm/domain_x", "is not a whole number of cells",
-                   "make its length a multiple of cell_size");
-    }
-    if (!whole(mpm.domain_y[0], mpm.domain_y[1])) {
-        reader.add("/mpm/domain_y", "is not a whole number of cells",
-                   "make its length a multiple of cell_size");
-    }
+/// `from` plus or minus whole cells, at or beyond `to`; `to` itself if it is one of them.
+double whole_cells(double from, double to, double h) {
+    const double cells = (to - from) / h;
+    const double round_off = std::max(1e-6, 1e-9 * std::abs(cells));
+    if (std::abs(cells - std::nearbyint(cells)) < round_off) return to;
+    return from + std::copysign(std::ceil(std::abs(cells)) * h, cells);
+}
+
+/// Lines of the grid count from its left end and from the floor, so the other ends move outwards.
+void grow_to_whole_cells(Mpm& mpm) {
+    const double right = mpm.domain_x[1], level = mpm.floor.level;
+    mpm.domain_x[1] = whole_cells(mpm.domain_x[0], right, mpm.cell_size);
+    for (double& end : mpm.domain_y) end = whole_cells(level, end, mpm.cell_size);
+    for (FrictionZone& zone : mpm.floor.friction)  // the end's friction reaches the new end
+        if (zone.to >= right - 1e-9) zone.to = std::max(zone.to, mpm.domain_x[1]);
+}
+
+void check_floor(Reader& reader, const Mpm& mpm) {
     const double level = mpm.floor.level;
-    if (level < mpm.domain_y[0] - 1e-9 || level > mpm.domain_y[1] ||
-        !whole(mpm.domain_y[0], level)) {
-        reader.add("/mpm/floor/level", "is not a grid line inside domain_y",
-                   "move it or domain_y by less than a cell");
-    }
+    if (level >= mpm.domain_y[0] - 1e-9 && level <= mpm.domain_y[1]) return;
+    reader.add("/mpm/floor/level", "is " + words::text_of(level) + " m, outside domain_y",
+               "write a level from " + words::text_of(mpm.domain_y[0]) + " to " +
+                   words::text_of(mpm.domain_y[1]) + ", or move domain_y");
 }
 
 /// Terrain needs a row of nodes below it everywhere: they apply its contact.
@@ -140,7 +144,6 @@ std::string slip_of_drawing(const Section& section, const Mpm& mpm) {
 }
 
 void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
-    check_grid(reader, mpm);
     check_shaking(reader, mpm);
     check_terrain(reader, mpm);
     check_places(reader, mpm, mpm.gauges, "/mpm/gauges", "gauge");
@@ -229,6 +232,8 @@ void read_mpm(Reader& reader, Scene& scene) {
         reader.add("/mpm/floor/friction/" + std::to_string(result.floor.friction.size() - 1),
                    "ends before it begins", "give from < to");
     }
+    check_floor(reader, result);
+    grow_to_whole_cells(result);
     if (mpm.contains("terrain")) {
         result.terrain = line_from(reader, mpm.at("terrain"), "/mpm/terrain");
     }

@@ -118,11 +118,10 @@ def slips_of_meaning(document):
             yield overwritten("unknown region", "/lem/undrained/0/region", "nowhere")
     if "mpm" in document:
         mpm = document["mpm"]
-        x0, x1 = mpm["domain_x"]
+        x1 = mpm["domain_x"][1]
         yield overwritten("unknown region", "/mpm/runout/regions/0", "nowhere")
         for name in ("domain_x", "domain_y"):
             yield overwritten("descending range", f"/mpm/{name}", mpm[name][::-1])
-        yield overwritten("part of a cell", "/mpm/domain_x", [x0, x1 + 0.3])
         yield overwritten("floor below the grid", "/mpm/floor/level", -100)
         yield overwritten("gauge outside", "/mpm/gauges/0/x", x1 + 5)
     if "fem" in document:

@@ -1,6 +1,7 @@
 // Entries of a scene about terrain, gauges and the stress of filled points.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -47,6 +48,34 @@ TEST(MpmScene, SoilThatYieldsIsAsStiffAsItsFallNeeds) {
     EXPECT_FALSE(limit({"/mpm/time_step=1e-4"}));
     EXPECT_FALSE(limit({"/gravity=0"}));
     EXPECT_FALSE(limit({R"(/materials/sand/law={"type":"linear_elastic","E_MPa":20,"nu":0.3})"}));
+}
+
+using Range = std::array<double, 2>;
+
+TEST(MpmScene, TheGridGrowsToWholeCellsAwayFromItsLeftEndAndTheFloor) {
+    const auto grid = [](const std::vector<std::string>& overrides) {
+        return *scene::parse_scene(column().dump(), "test", ".", overrides).mpm;
+    };
+    const std::string zones =
+        R"(/mpm/floor/friction=[{"from":0,"to":30,"coefficient":1},{"from":30,"to":60,"coefficient":0}])";
+    const scene::Mpm grown = grid({"/mpm/cell_size=0.7", "/mpm/domain_y=[-3,22]", zones});
+    EXPECT_DOUBLE_EQ(grown.domain_x[0], 0.0);
+    EXPECT_DOUBLE_EQ(grown.domain_x[1], 86 * 0.7);
+    EXPECT_DOUBLE_EQ(grown.domain_y[0], -2.0 - 2 * 0.7);
+    EXPECT_DOUBLE_EQ(grown.domain_y[1], -2.0 + 35 * 0.7);
+    EXPECT_EQ(grown.floor.level, -2.0);
+    EXPECT_EQ(grown.floor.friction[0].to, 30.0);
+    EXPECT_EQ(grown.floor.friction[1].to, grown.domain_x[1]) << "no smooth strip at the end";
+
+    for (const char* size : {"1", "0.1", "0.3", "0.625"}) {  // whole, up to round-off: untouched
+        const scene::Mpm whole =
+            grid({std::string("/mpm/cell_size=") + size, "/mpm/domain_y=[-2,13]",
+                  "/mpm/runout/toe=[10,0]",
+                  "/section/regions/0/polygon=[[0,0],[10,0],[10,9],[0,9],[0,0]]"});
+        EXPECT_EQ(whole.domain_x, (Range{0.0, 60.0})) << size;
+        EXPECT_EQ(whole.domain_y, (Range{-2.0, 13.0})) << size;
+    }
+    EXPECT_EQ(grid({"/mpm/domain_x=[0,60.00000006]"}).domain_x[1], 60.00000006);
 }
 
 TEST(MpmScene, TerrainGaugesAndFillStressAreRead) {

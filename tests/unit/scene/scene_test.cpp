@@ -120,9 +120,8 @@ TEST(Scene, RefusesWhatTheSchemaCannotSee) {
         {"/fem/newmark_beta", 0.25},
         {"/fem/snapshot_times", json::parse("[0.5, 2.0]")},
         {"/fem/snapshot_times/1", json::parse("[0.5, 0.2]")},
-        {"/mpm/domain_x", json::parse("[0, 60.5]")},
         {"/mpm/domain_y", json::parse("[10, 0]")},
-        {"/mpm/floor/level", 0.5},
+        {"/mpm/floor/level", -0.5},
         {"/mpm/runout/regions/0", json::parse("[\"dam\"]")},
     };
     for (const auto& [pointer, value] : cases) {
