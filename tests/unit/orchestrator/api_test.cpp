@@ -170,6 +170,30 @@ TEST_F(Api, OversizedBodyIs413) {
     EXPECT_EQ(service->get("/healthz").status, 200);
 }
 
+TEST_F(Api, ARefusalIsSmallHoweverManyFaultsThereAre) {
+    json keys = study("", {0.25});
+    for (int i = 0; i < 5000; ++i) keys["scene"]["key" + std::to_string(i)] = 1;
+    json regions = study("", {0.25});
+    for (int i = 0; i < 300; ++i) {
+        regions["scene"]["section"]["regions"].push_back(regions["scene"]["section"]["regions"][0]);
+        regions["scene"]["section"]["regions"].back()["material"] = std::string(2000, '"');
+    }
+    json variants = study("", {0.25});
+    for (int i = 0; i < 300; ++i)
+        variants["variants"].push_back(
+            {{"name", "v" + std::to_string(i)}, {"overrides", {"/mpm/nonsense=1"}}});
+    for (const json& each : {keys, regions, variants}) {
+        const Answer answer = service->post("/v1/runs", each.dump());
+        EXPECT_EQ(answer.status, 422);
+        EXPECT_LT(answer.text.size(), 100'000u);
+        EXPECT_LE(answer.body.at("faults").size(), 100u);
+        EXPECT_GE(answer.body.at("faults").size(), 30u);
+        EXPECT_NE(answer.body.at("detail").get<std::string>().find("of which these are the first"),
+                  std::string::npos)
+            << answer.body.at("detail");
+    }
+}
+
 TEST_F(Api, DoubtfulRequestsAreRefused) {
     const int port = service->port();
     const std::string host = "Host: 127.0.0.1\r\n";
