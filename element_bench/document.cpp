@@ -431,7 +431,8 @@ scene::Scene read_document(const std::filesystem::path& file,
     for (const std::string& each : overrides) {
         for (Fault& found : scene::apply_override(document, each)) faults.push_back(found);
     }
-    for (Fault& found : scene::complete_and_check(document, scene::element_test_schema())) {
+    for (Fault& found :
+         scene::complete_and_check(document, scene::element_test_schema(), file.string())) {
         faults.push_back(found);
     }
     if (!faults.empty()) throw fault::BadInput(file.string(), faults);

@@ -33,7 +33,7 @@ struct Checked {
     std::vector<fault::Fault> faults;
     nlohmann::json completed;  ///< with all defaults; use only without faults
 };
-/// Arguments of scene::parse_scene. Throws BadInput only if the text is no JSON object.
+/// Arguments of scene::parse_scene. Throws BadInput as scene::read_text does.
 Checked checked_text(std::string_view text, const std::string& name,
                      const std::filesystem::path& folder,
                      const std::vector<std::string>& overrides);

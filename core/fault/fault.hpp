@@ -27,16 +27,40 @@ struct Fault {
     std::string remedy;
 };
 
-/// An unusable input, with all its faults. Exit code 65.
+/// Limit of a refusal: nobody corrects more faults at once, and a hostile document has millions.
+inline constexpr std::size_t most_faults = 100;
+
+/// Collects the first faults of a document and counts the others.
+struct FirstFaults {
+    std::vector<Fault> faults;
+    std::size_t more = 0;  ///< faults beyond those
+
+    /// If true, no texts are needed: count a further fault with add({}).
+    bool is_full() const { return faults.size() >= most_faults; }
+    void add(Fault fault) {
+        if (is_full())
+            ++more;
+        else
+            faults.push_back(std::move(fault));
+    }
+};
+
+/// An unusable input, with its first faults. Exit code 65.
 class BadInput : public std::runtime_error {
   public:
-    BadInput(std::string file, std::vector<Fault> faults);
+    /// Keeps at most most_faults, and so many that an answer stays below 100 kB; shortens long
+    /// texts, which quote the input. more: faults beyond the given ones.
+    BadInput(std::string file, std::vector<Fault> faults, std::size_t more = 0);
     const std::string& file() const { return file_; }
-    const std::vector<Fault>& faults() const { return faults_; }
+    const std::vector<Fault>& faults() const { return kept_.faults; }
+    std::size_t more() const { return kept_.more; }
+    /// "3 faults", "5000 faults, of which these are the first 100"
+    std::string count() const;
 
   private:
+    BadInput(std::string file, FirstFaults kept);
     std::string file_;
-    std::vector<Fault> faults_;
+    FirstFaults kept_;
 };
 
 /// A file that cannot be read or written (missing, damaged, disk full). Exit code 74.

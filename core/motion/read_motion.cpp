@@ -76,8 +76,39 @@ class Values {
 /// Limit of values: squares of larger ones overflow.
 constexpr double largest_number = 1e100;
 
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// Fortran leaves out the E of an exponent with three digits: 7.09-100. Whether `rest`, which begins
+/// with a sign, begins with such an exponent of the mantissa before it.
+bool is_bare_exponent(std::string_view before, std::string_view rest) {
+    const std::size_t end = std::min(rest.find_first_not_of("0123456789", 1), rest.size());
+    return end == 4 && (end == rest.size() || rest[end] == '-' || rest[end] == '+') &&
+           before.find('.') != std::string_view::npos &&
+           before.find_first_of("eEdD") == std::string_view::npos;
+}
+
+/// Splits numbers that fill their Fortran fields: "7.09E-20-7.79E-05".
+std::vector<std::string> parted_at_signs(const std::string& word) {
+    std::vector<std::string> parts(1);
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        const bool sign = (word[i] == '-' || word[i] == '+') && i > 0 &&
+                          (is_digit(word[i - 1]) || word[i - 1] == '.');
+        if (sign && !is_bare_exponent(parts.back(), std::string_view(word).substr(i)))
+            parts.emplace_back();
+        parts.back() += word[i];
+    }
+    return parts;
+}
+
+/// An exponent may begin with E, with Fortran's D, or with its sign only.
 std::optional<double> number_from(std::string word) {
     if (!word.empty() && word.front() == '+') word.erase(0, 1);
+    std::ranges::replace_if(
+        word, [](char c) { return c == 'd' || c == 'D'; }, 'e');
+    const std::size_t sign = std::min(word.find_last_of("+-"), word.size());
+    if (sign > 0 && sign < word.size() &&
+        is_bare_exponent(word.substr(0, sign), std::string_view(word).substr(sign)))
+        word.insert(sign, 1, 'e');
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() ||
@@ -222,7 +253,7 @@ struct Samples {
 
 /// Digits after the decimal point of a number.
 int decimals_of(const std::string& word) {
-    const std::size_t point = word.find('.'), power = word.find_first_of("eE");
+    const std::size_t point = word.find('.'), power = word.find_first_of("eEdD");
     const std::size_t end = std::min(word.size(), power);
     int digits = point < end ? static_cast<int>(end - point) - 1 : 0;
     if (power != std::string::npos)
@@ -386,12 +417,13 @@ void take_unit_of_header(std::optional<Unit>& unit, const std::string& text,
                csv_remedy(text));
 }
 
-/// Refuses unsupported publishers' formats, each recognised by words in its first lines.
-void reject_other_forms(const std::string& line, const std::string& name, std::size_t number) {
-    struct Other {
-        std::string_view mark, also, form, convert;
-    };
-    constexpr Other others[] = {
+/// A publisher's form that is not read, recognised by words in its first lines.
+struct OtherForm {
+    std::string_view mark, also, form, convert;
+};
+
+const OtherForm* other_form(const std::string& line) {
+    static constexpr OtherForm others[] = {
         {"SAMPLING FREQ(HZ)", "", "K-NET and KiK-net",
          "multiply the counts by its Scale Factor (in gal) and take off their mean"},
         {"SCALE FACTOR", "(GAL)/", "K-NET and KiK-net",
@@ -402,31 +434,57 @@ void reject_other_forms(const std::string& line, const std::string& name, std::s
         {"SAMPLING_INTERVAL_S:", "", "ESM (DYNA)",
          "count the time in steps of SAMPLING_INTERVAL_S, and take the values in the unit of "
          "UNITS"},
+        {"1 UNCORRECTED ACCEL", "", "SMC (USGS), uncorrected",
+         "take the corrected record of the same station; its values, in cm/s2, follow the lines "
+         "that begin with |"},
+        {"2 CORRECTED ACCEL", "", "SMC (USGS), corrected",
+         "take the values, in cm/s2, which follow the lines that begin with |"},
+        {"UNCORRECTED ACCEL", "", "V1 (CSMIP, COSMOS), an uncorrected accelerogram",
+         "take the corrected record of the same station (V2); its acceleration follows the line "
+         "POINTS OF ACCEL DATA, which names count, time step and unit"},
+        {"CORRECTED ACCEL", "", "V2 (CSMIP, COSMOS), a corrected accelerogram",
+         "take the values that follow the line POINTS OF ACCEL DATA, which names count, time step "
+         "and unit, up to the velocity"},
+        {"POINTS OF ACCEL", "", "V2 (CSMIP, COSMOS), a corrected accelerogram",
+         "take the values that follow this line, which names count, time step and unit, up to the "
+         "velocity"},
     };
-    const std::string text = upper(line);
-    for (const Other& each : others)
-        if (text.find(each.mark) != std::string::npos && text.find(each.also) != std::string::npos)
-            reject(name, number,
-                   "is of a file in the form of " + std::string(each.form) + ", which is not read",
-                   "convert it to a CSV file with the header time_s,acceleration_cm_s2 (or "
-                   "acceleration_g): " +
-                       std::string(each.convert));
+    std::string text;
+    for (const char c : upper(line))
+        if (c != ' ' || !text.ends_with(' ')) text += c;
+    const auto found = std::ranges::find_if(others, [&](const OtherForm& each) {
+        return text.find(each.mark) != std::string::npos &&
+               text.find(each.also) != std::string::npos;
+    });
+    return found != std::end(others) ? &*found : nullptr;
 }
 
 enum class Form { peer, csv, two_columns };
 
-/// Format by the first lines or, if they are unclear, by the file's extension.
+/// Format by the first lines or, if they are unclear, by the file's extension. Refuses other forms,
+/// unless their words are in the title of a form that is read.
 Form form_of(std::istream& in, const std::string& name, const std::string& ending) {
     Lines lines{in, name};
     std::string line;
     bool is_csv = false;
+    const OtherForm* other = nullptr;
+    std::size_t line_of_other = 0;
     while (lines.number < most_header_lines && lines.next(line)) {
         if (line.starts_with('#')) continue;
-        reject_other_forms(line, name, lines.number);
         if (SizeLine(line).is_one()) return Form::peer;
         is_csv = is_csv || unit_of_columns(line);
+        if (other != nullptr) continue;
+        other = other_form(line);
+        line_of_other = lines.number;
     }
-    if (is_csv || ending == ".CSV") return Form::csv;
+    if (is_csv) return Form::csv;
+    if (other != nullptr)
+        reject(name, line_of_other,
+               "is of a file in the form of " + std::string(other->form) + ", which is not read",
+               "convert it to a CSV file with the header time_s,acceleration_cm_s2 (or "
+               "acceleration_g): " +
+                   std::string(other->convert));
+    if (ending == ".CSV") return Form::csv;
     return ending == ".AT2" || ending == ".VT2" || ending == ".DT2" ? Form::peer
                                                                     : Form::two_columns;
 }
@@ -457,9 +515,15 @@ Recording read_peer(std::istream& in, const std::string& name) {
     recording.series.dt = dt;
     for (Values values; lines.next(line);)
         for (const std::string& word : values.of(line))
-            recording.series.values.push_back(unit->factor *
-                                              needed_number(word, name, lines.number));
-    if (recording.series.values.size() != count)
+            for (const std::string& number : parted_at_signs(word))
+                recording.series.values.push_back(unit->factor *
+                                                  needed_number(number, name, lines.number));
+    if (recording.series.values.size() > count)
+        reject(name, lines.number,
+               "the file holds " + std::to_string(recording.series.values.size()) +
+                   " values, and its header gives NPTS= " + std::to_string(count),
+               "correct NPTS, or remove what does not belong to this record");
+    if (recording.series.values.size() < count)
         reject(name, lines.number,
                "the file ends after " + std::to_string(recording.series.values.size()) + " of " +
                    std::to_string(count) + " values",

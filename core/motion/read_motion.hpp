@@ -19,11 +19,11 @@ struct Recording {
 
 /// The first lines decide the format; if they do not, the extension: .at2/.vt2/.dt2 (any case)
 /// PEER, .csv CSV, else two columns. Throws IoError if the file cannot be opened, BadInput ("line
-/// N") for faults in it.
+/// N") for faults in it and for publishers' forms that are not read (V1, V2, SMC, COSMOS, ...).
 Recording read_motion(const std::filesystem::path& file);
 
 /// Header lines, usually four: the last has NPTS and DT in either order, the one before it the
-/// unit. Then values, any number per line.
+/// unit. Then values, any number per line; they may touch ("0.1-0.2") as Fortran writes them.
 Recording read_peer(std::istream& in, const std::string& name);
 
 /// Time [s] and acceleration [g] per line, separated by blanks, tabs, a semicolon or a comma. Lines

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <regex>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -207,10 +208,26 @@ std::vector<Quantity> quantities_in(const std::vector<std::string>& tokens) {
     return named;
 }
 
+/// Takes out what a header adds about the size of g: "G (1 G = 980.665 CM/S/S)" is G.
+std::string without_size_of_g(std::string text) {
+    // The numbers of repeats bound the depth of std::regex.
+    static const std::regex size(
+        R"(\bG ?[(,;]? ?(?:= ?|(?:1|1\.0*)? ?G ?= ?)?([0-9.]{1,12}) ?\*?((?:CM|MM|M|IN|FT)/S[/S2]{1,2}|GAL)\b(?: ?= ?1?\.?0? ?G\b)? ?[)]?)");
+    std::smatch match;
+    if (!std::regex_search(text, match, size)) return text;
+    const auto one = positive(match[1].str());
+    const auto unit = plain_unit(match[2].str());
+    constexpr double rounding = 0.005;  // 9.81 and 32.2 ft/s2 stand for g
+    if (!one || !unit || std::abs(*one * unit->factor / standard_gravity - 1.0) > rounding)
+        return text;
+    return text.replace(static_cast<std::size_t>(match.position(0)),
+                        static_cast<std::size_t>(match.length(0)), "G ");
+}
+
 }  // namespace
 
 std::optional<Unit> unit_in_header(const std::string& header) {
-    const std::string text = spelled(header);
+    const std::string text = without_size_of_g(spelled(header));
     const std::vector<std::string> tokens = tokens_of(text);
     const std::vector<Quantity> named = quantities_in(tokens);
     const auto fits = [&](const Unit& unit) {

@@ -278,6 +278,7 @@ void read_region_mesh(Reader& reader, const json& mesh, const json& ring,
 void check_overlaps(Reader& reader, const Scene& scene) {
     const auto& regions = scene.section.regions;
     for (std::size_t i = 0; i < regions.size(); ++i) {
+        if (reader.found().is_full()) return;  // a million pairs would not help
         for (std::size_t j = i + 1; j < regions.size(); ++j) {
             if (regions[i].polygon.empty() || regions[j].polygon.empty()) continue;
             const double shared = geometry::overlap_area(regions[i].polygon, regions[j].polygon);

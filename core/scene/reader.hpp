@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,20 +15,23 @@ constexpr double kPa = 1e3;  // Pa
 
 class Reader {
   public:
-    Reader(const nlohmann::json& document, std::vector<fault::Fault> faults)
-        : document_(document), faults_(std::move(faults)) {}
+    Reader(const nlohmann::json& document, const std::vector<fault::Fault>& faults)
+        : document_(document) {
+        for (const fault::Fault& each : faults) add(each.pointer, each.cause, each.remedy);
+    }
 
     const nlohmann::json& document() const { return document_; }
-    const std::vector<fault::Fault>& faults() const { return faults_; }
+    const fault::FirstFaults& found() const { return found_; }
     void add(std::string pointer, std::string cause, std::string remedy) {
-        faults_.push_back({std::move(pointer), std::move(cause), std::move(remedy)});
+        pointers_.insert(pointer);
+        found_.add({std::move(pointer), std::move(cause), std::move(remedy)});
     }
     /// Adds a warning, as a possible reason, to every fault in or below the same object, unless
     /// that is a top-level object.
     void explain(const fault::Flag& warn) {
         const std::string object = warn.pointer.substr(0, warn.pointer.rfind('/'));
         if (object.find('/', 1) == std::string::npos) return;
-        for (fault::Fault& each : faults_) {
+        for (fault::Fault& each : found_.faults) {
             const bool same = each.pointer == warn.pointer;  // already mentioned
             if (same || each.pointer.rfind(object + "/", 0) != 0) continue;
             each.remedy += "; " + warn.pointer + ": " + warn.message;
@@ -38,17 +42,15 @@ class Reader {
     /// be read although other parts of the scene are faulty.
     bool sound(const std::string& pointer) const {
         if (!document_.contains(nlohmann::json::json_pointer(pointer))) return false;
-        for (const fault::Fault& each : faults_) {
-            const bool at = each.pointer == pointer;
-            const bool below = each.pointer.rfind(pointer + "/", 0) == 0;
-            if (at || below) return false;
-        }
-        return true;
+        const auto below = pointers_.lower_bound(pointer + "/");
+        return !pointers_.contains(pointer) &&
+               (below == pointers_.end() || !below->starts_with(pointer + "/"));
     }
 
   private:
     const nlohmann::json& document_;
-    std::vector<fault::Fault> faults_;
+    fault::FirstFaults found_;
+    std::set<std::string> pointers_;  ///< of all faults
 };
 
 inline Vec2 point_from(const nlohmann::json& value) {

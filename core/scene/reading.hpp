@@ -15,7 +15,8 @@ struct Reading {
     nlohmann::json completed;  ///< with all defaults; use only without faults
 };
 
-/// As parse_scene, but returns the faults. Throws BadInput only if the text is no JSON object.
+/// As parse_scene, but returns the faults. Throws BadInput only if the text is no JSON object or
+/// has more than fault::most_faults faults.
 Reading read_text(std::string_view text, const std::string& name,
                   const std::filesystem::path& folder = ".",
                   const std::vector<std::string>& overrides = {});

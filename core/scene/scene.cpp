@@ -63,22 +63,26 @@ Reading read_text(std::string_view text, const std::string& name,
 
 Reading read_document(json document, const std::string& name, const std::filesystem::path& folder,
                       const std::vector<std::string>& overrides) {
-    std::vector<Fault> faults;
-    for (const std::string& each : overrides) {
-        for (Fault& found : apply_override(document, each)) faults.push_back(std::move(found));
-    }
+    fault::FirstFaults of_overrides;
+    for (const std::string& each : overrides)
+        for (Fault& found : apply_override(document, each)) of_overrides.add(std::move(found));
+    if (of_overrides.more > 0)
+        throw fault::BadInput(name, std::move(of_overrides.faults), of_overrides.more);
+    std::vector<Fault>& faults = of_overrides.faults;
     std::vector<fault::Flag> warnings;
-    for (Fault& found : complete_and_check(document, scene_schema(), warnings))
+    for (Fault& found : complete_and_check(document, scene_schema(), name, warnings))
         faults.push_back(std::move(found));
     if (!document.is_object()) throw fault::BadInput(name, faults);
 
     Scene scene{};
     scene.warnings = std::move(warnings);
-    Reader reader(document, std::move(faults));
+    Reader reader(document, faults);
     if (reader.sound("/gravity")) scene.gravity = document.at("gravity");
     if (reader.sound("/thickness")) scene.thickness = document.at("thickness");
+    const auto& [found, more] = reader.found();
     read_materials(reader, scene);
     read_section(reader, scene);
+    if (more > 0) throw fault::BadInput(name, found, more);  // others compare all regions
     read_lem(reader, scene);
     read_fem(reader, folder, scene);
     read_transfer(reader, scene);
@@ -90,7 +94,8 @@ Reading read_document(json document, const std::string& name, const std::filesys
         reader.add(each.pointer, std::move(each.cause), std::move(each.remedy));
     }
     std::ranges::move(resolved.flags, std::back_inserter(scene.warnings));
-    if (!reader.faults().empty()) return {std::move(scene), reader.faults(), nullptr};
+    if (more > 0) throw fault::BadInput(name, found, more);
+    if (!found.empty()) return {std::move(scene), found, nullptr};
 
     for (json& material : document.at("materials")) complete_sand(material.at("law"));
     scene.name = document.at("name");

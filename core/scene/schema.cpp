@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <unordered_map>
+#include <utility>
 
 #include "core/scene/slips.hpp"
 #include "core/words/encoding.hpp"
@@ -20,7 +22,11 @@ using nlohmann::json;
 
 namespace {
 
-constexpr int deepest_nesting = 64;
+constexpr std::size_t deepest_nesting = 64;
+// In one object, and in a list whose schema has no limit: far above those of any document.
+constexpr std::size_t most_keys = 10'000;
+constexpr std::size_t most_items = 100'000;
+constexpr std::size_t longest_key = 200;  // every fault below a key repeats it
 
 std::string escaped(const std::string& token) {
     std::string out;
@@ -90,12 +96,14 @@ class Walker {
             return;
         }
         if (const json* only = entry_of(schema, "const"); only && value != *only) {
-            add(pointer, "is " + brief(value), "must be " + only->dump());
+            add(pointer, [&] { return Words{"is " + brief(value), "must be " + only->dump()}; });
             return;
         }
         if (const json* type = entry_of(schema, "type"); type && !is_of_type(value, *type)) {
-            add(pointer, "is " + brief(value),
-                "must be of type " + type->get<std::string>() + meaning(schema));
+            add(pointer, [&] {
+                return Words{"is " + brief(value),
+                             "must be of type " + type->get<std::string>() + meaning(schema)};
+            });
             return;
         }
         if (schema.contains("enum")) check_enum(value, schema, pointer);
@@ -105,18 +113,29 @@ class Walker {
         if (value.is_object()) visit_object(value, schema, pointer);
     }
 
-    std::vector<Fault> faults;
+    fault::FirstFaults found;
     std::vector<Flag> warnings;  ///< possible but implausible numbers
 
   private:
-    const json& resolved(const json& schema) const {
+    using Words = std::pair<std::string, std::string>;  ///< cause, remedy
+
+    const json& resolved(const json& schema) {
         const json* reference = entry_of(schema, "$ref");
         if (!reference) return schema;
-        return root_.at(json::json_pointer(reference->get_ref<const std::string&>().substr(1)));
+        const json*& known = targets_[reference];
+        if (known == nullptr)
+            known =
+                &root_.at(json::json_pointer(reference->get_ref<const std::string&>().substr(1)));
+        return *known;
     }
 
-    void add(const std::string& pointer, std::string cause, std::string remedy) {
-        faults.push_back({pointer, std::move(cause), std::move(remedy)});
+    /// words: returns {cause, remedy}. Not called for faults beyond the first: a document may have
+    /// millions.
+    template <class Words>
+    void add(const std::string& pointer, Words words) {
+        if (found.is_full()) return found.add({});
+        auto [cause, remedy] = words();
+        found.add({pointer, std::move(cause), std::move(remedy)});
     }
 
     static std::string brief(const json& value) {
@@ -138,7 +157,10 @@ class Walker {
     void check_enum(const json& value, const json& schema, const std::string& pointer) {
         const json& allowed = schema.at("enum");
         if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
-        add(pointer, "is " + brief(value), "must be one of " + listed(allowed) + meaning(schema));
+        add(pointer, [&] {
+            return Words{"is " + brief(value),
+                         "must be one of " + listed(allowed) + meaning(schema)};
+        });
     }
 
     void check_number(const json& value, const json& schema, const std::string& pointer) {
@@ -147,10 +169,12 @@ class Walker {
         const auto limit = [&](const char* key, auto violated, const char* sign) {
             const json* bound = entry_of(schema, key);
             if (!bound || !violated(number, bound->get<double>())) return;
-            const std::string slip = likely_slip(number, schema, root_);
-            add(pointer, "is " + brief(value),
-                "must be " + std::string(sign) + " " + bound->dump() + meaning(schema) +
-                    (slip.empty() ? "" : "; " + slip));
+            add(pointer, [&] {
+                const std::string slip = likely_slip(number, schema, root_);
+                return Words{"is " + brief(value), "must be " + std::string(sign) + " " +
+                                                       bound->dump() + meaning(schema) +
+                                                       (slip.empty() ? "" : "; " + slip)};
+            });
             possible = false;
         };
         limit("minimum", std::less<>(), ">=");
@@ -168,29 +192,37 @@ class Walker {
         const auto& text = value.get_ref<const std::string&>();
         if (schema.contains("minLength") &&
             text.size() < schema.at("minLength").get<std::size_t>()) {
-            add(pointer, "is too short",
-                "give at least " + schema.at("minLength").dump() + " characters" + meaning(schema));
+            add(pointer, [&] {
+                return Words{"is too short", "give at least " + schema.at("minLength").dump() +
+                                                 " characters" + meaning(schema)};
+            });
         }
         const json* pattern = entry_of(schema, "pattern");
         if (pattern && !std::regex_search(text, compiled(pattern->get_ref<const std::string&>()))) {
-            add(pointer, "is " + brief(value),
-                "must match " + pattern->get<std::string>() + meaning(schema));
+            add(pointer, [&] {
+                return Words{"is " + brief(value),
+                             "must match " + pattern->get<std::string>() + meaning(schema)};
+            });
         }
     }
 
     void visit_array(json& value, const json& schema, const std::string& pointer) {
         if (schema.contains("minItems") &&
             value.size() < schema.at("minItems").get<std::size_t>()) {
-            add(pointer, "has " + std::to_string(value.size()) + " items",
-                "needs at least " + schema.at("minItems").dump() + meaning(schema));
+            add(pointer, [&] {
+                return Words{"has " + std::to_string(value.size()) + " items",
+                             "needs at least " + schema.at("minItems").dump() + meaning(schema)};
+            });
         }
-        if (schema.contains("maxItems") &&
-            value.size() > schema.at("maxItems").get<std::size_t>()) {
-            add(pointer, "has " + std::to_string(value.size()) + " items",
-                "takes at most " + schema.at("maxItems").dump() + meaning(schema));
+        const std::size_t most = schema.value("maxItems", most_items);
+        if (value.size() > most) {
+            add(pointer, [&] {
+                return Words{"has " + std::to_string(value.size()) + " items",
+                             "takes at most " + std::to_string(most) + meaning(schema)};
+            });
         }
         if (!schema.contains("items")) return;
-        for (std::size_t i = 0; i < value.size(); ++i) {
+        for (std::size_t i = 0; i < std::min(most, value.size()); ++i) {
             visit(value[i], schema.at("items"), pointer + "/" + std::to_string(i));
         }
     }
@@ -202,7 +234,9 @@ class Walker {
         if (schema.contains("required")) require(value, schema, properties, pointer);
         if (schema.contains("minProperties") &&
             value.size() < schema.at("minProperties").get<std::size_t>()) {
-            add(pointer, "is empty", "needs at least one entry" + meaning(schema));
+            add(pointer, [&] {
+                return Words{"is empty", "needs at least one entry" + meaning(schema)};
+            });
         }
         for (const auto& [key, property] : properties.items()) {
             if (value.contains(key) || !resolved(property).contains("default")) continue;
@@ -222,7 +256,7 @@ class Walker {
             } else if (schema.at("additionalProperties").is_object()) {
                 visit(member, schema.at("additionalProperties"), here);
             } else {
-                add(here, "is not a known key", suggestion(key, properties));
+                add(here, [&] { return Words{"is not a known key", suggestion(key, properties)}; });
             }
         }
     }
@@ -231,8 +265,10 @@ class Walker {
                  const std::string& pointer) {
         for (const json& key : schema.at("required")) {
             if (value.contains(key.get<std::string>())) continue;
-            add(pointer, "lacks \"" + key.get<std::string>() + "\"",
-                "add it" + meaning(resolved(properties.at(key.get<std::string>()))));
+            add(pointer, [&] {
+                return Words{"lacks \"" + key.get<std::string>() + "\"",
+                             "add it" + meaning(resolved(properties.at(key.get<std::string>())))};
+            });
         }
     }
 
@@ -264,11 +300,13 @@ class Walker {
             }
         }
         if (value.is_object() && value.contains("type")) {
-            add(pointer + "/type", "is " + brief(value.at("type")), "must be one of " + known);
+            add(pointer + "/type", [&] {
+                return Words{"is " + brief(value.at("type")), "must be one of " + known};
+            });
         } else if (value.is_object()) {
-            add(pointer, "lacks \"type\"", "add it; known: " + known);
+            add(pointer, [&] { return Words{"lacks \"type\"", "add it; known: " + known}; });
         } else {
-            add(pointer, "is " + brief(value), "must be: " + known);
+            add(pointer, [&] { return Words{"is " + brief(value), "must be: " + known}; });
         }
         return nullptr;
     }
@@ -281,6 +319,7 @@ class Walker {
     }
 
     const json& root_;
+    std::unordered_map<const json*, const json*> targets_;  ///< of the references seen so far
 };
 
 void check_encoding(std::string_view text, const std::string& file) {
@@ -307,40 +346,97 @@ std::string words_of(const json::exception& error) {
     return text;
 }
 
+/// Makes the document while it is parsed. Sees every key, also a second one in an object.
+class Maker : public json::json_sax_t {
+  public:
+    explicit Maker(const std::string& file) : file_(file) {}
+
+    bool null() override { return place(nullptr); }
+    bool boolean(bool value) override { return place(value); }
+    bool number_integer(json::number_integer_t value) override { return place(value); }
+    bool number_unsigned(json::number_unsigned_t value) override { return place(value); }
+    bool number_float(json::number_float_t value, const std::string&) override {
+        return place(value);
+    }
+    bool string(std::string& value) override { return place(std::move(value)); }
+    bool binary(json::binary_t&) override { return false; }  // not in texts
+    bool start_object(std::size_t) override { return begin(json::object()); }
+    bool start_array(std::size_t) override { return begin(json::array()); }
+    bool end_object() override { return end(); }
+    bool end_array() override { return end(); }
+
+    bool key(std::string& key) override {
+        if (key.size() > longest_key)
+            refuse("has a key of " + std::to_string(key.size()) + " characters: \"" + key + '"',
+                   "keys have at most " + std::to_string(longest_key));
+        if (!can_be_pointed_at(key))
+            found.add({"", "has the key \"" + key + "\" with / or ~ in it",
+                       "name it without: messages name entries by their path, /materials/sand"});
+        auto& members = open_.back()->get_ref<json::object_t&>();
+        next_ = &dropped_;
+        if (members.size() >= most_keys) {
+            found.add({"",
+                       "has the key \"" + key + "\" in an object that has " +
+                           std::to_string(most_keys) + " keys before it",
+                       "remove it"});
+            return true;
+        }
+        const auto [member, is_new] = members.try_emplace(std::move(key));
+        if (!is_new)
+            found.add({"", "has the key \"" + member->first + "\" twice in one object",
+                       "keep one of them"});
+        next_ = &member->second;
+        return true;
+    }
+
+    bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
+        refuse("is not valid JSON: " + words_of(error), "correct the text at this place");
+    }
+
+    json document;
+    fault::FirstFaults found;
+
+  private:
+    [[noreturn]] void refuse(std::string cause, std::string remedy) const {
+        throw fault::BadInput(file_, {{"", std::move(cause), std::move(remedy)}});
+    }
+    /// The value's place: below its key, at the end of an array, or the whole document.
+    json& placed(json&& value) {
+        if (open_.empty()) return document = std::move(value);
+        if (open_.back()->is_object()) return *next_ = std::move(value);
+        return open_.back()->get_ref<json::array_t&>().emplace_back(std::move(value));
+    }
+    bool place(json&& value) {
+        placed(std::move(value));
+        return true;
+    }
+    bool begin(json&& value) {
+        open_.push_back(&placed(std::move(value)));
+        if (open_.size() > deepest_nesting)
+            refuse("is nested deeper than " + std::to_string(deepest_nesting) + " levels",
+                   "flatten it");
+        return true;
+    }
+    bool end() {
+        open_.pop_back();
+        return true;
+    }
+
+    const std::string& file_;
+    std::vector<json*> open_;  ///< objects and arrays around the next value
+    json* next_ = nullptr;     ///< place of the last key's value
+    json dropped_;             ///< place of a value that is not kept
+};
+
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& file) {
     check_encoding(text, file);
-    std::vector<std::set<std::string>> keys;
-    std::vector<Fault> faults;
-    const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-        if (depth > deepest_nesting) {
-            throw fault::BadInput(file, {{"", "is nested deeper than 64 levels", "flatten it"}});
-        }
-        if (event == json::parse_event_t::object_start) keys.emplace_back();
-        if (event == json::parse_event_t::object_end) keys.pop_back();
-        if (event != json::parse_event_t::key) return true;
-        const auto& key = parsed.get_ref<const std::string&>();
-        if (!keys.back().insert(key).second) {
-            faults.push_back(
-                {"", "has the key \"" + key + "\" twice in one object", "keep one of them"});
-        }
-        if (!can_be_pointed_at(key)) {
-            faults.push_back(
-                {"", "has the key \"" + key + "\" with / or ~ in it",
-                 "name it without: messages name entries by their path, /materials/sand"});
-        }
-        return true;
-    };
-    json document;
-    try {
-        document = json::parse(text, watch);
-    } catch (const json::exception& error) {
-        throw fault::BadInput(file, {{"", "is not valid JSON: " + words_of(error),
-                                      "correct the text at this place"}});
-    }
-    if (!faults.empty()) throw fault::BadInput(file, faults);
-    return document;
+    Maker maker(file);
+    json::sax_parse(text, &maker);
+    auto& [faults, more] = maker.found;
+    if (!faults.empty()) throw fault::BadInput(file, std::move(faults), more);
+    return std::move(maker.document);
 }
 
 std::optional<Fault> missing_parent(const json& document, const std::string& pointer) {
@@ -415,17 +511,19 @@ std::vector<Fault> apply_override(json& document, const std::string& assignment)
     return {};
 }
 
-std::vector<Fault> complete_and_check(json& document, const json& schema,
+std::vector<Fault> complete_and_check(json& document, const json& schema, const std::string& file,
                                       std::vector<Flag>& warnings) {
     Walker walker(schema);
     walker.visit(document, schema, "");
+    auto& [faults, more] = walker.found;
+    if (more > 0) throw fault::BadInput(file, std::move(faults), more);
     warnings = std::move(walker.warnings);
-    return std::move(walker.faults);
+    return std::move(faults);
 }
 
-std::vector<Fault> complete_and_check(json& document, const json& schema) {
+std::vector<Fault> complete_and_check(json& document, const json& schema, const std::string& file) {
     std::vector<Flag> warnings;
-    return complete_and_check(document, schema, warnings);
+    return complete_and_check(document, schema, file, warnings);
 }
 
 }  // namespace breach::scene

@@ -18,8 +18,8 @@ const nlohmann::json& scene_schema();
 const nlohmann::json& study_schema();
 const nlohmann::json& element_test_schema();
 
-/// Parses JSON. Refuses duplicate keys, keys with / or ~ (which JSON pointers escape), comments,
-/// numbers out of range, nesting deeper than 64. Throws BadInput.
+/// Parses JSON. Refuses duplicate keys, keys with / or ~ (which JSON pointers escape) or of more
+/// than 200 characters, comments, numbers out of range, nesting deeper than 64. Throws BadInput.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
 /// Fault of a pointer into a material or list entry that the document lacks. None for a new whole
@@ -33,10 +33,12 @@ std::optional<fault::Fault> missing_parent(const nlohmann::json& document,
 std::vector<fault::Fault> apply_override(nlohmann::json& document, const std::string& assignment);
 
 /// Adds the schema's defaults to `document` and returns all faults. `warnings` get possible but
-/// implausible numbers, as flags "implausible".
+/// implausible numbers, as flags "implausible". Throws BadInput, with the file's name, for more
+/// than fault::most_faults: checks of the contents would then read faulty entries.
 std::vector<fault::Fault> complete_and_check(nlohmann::json& document, const nlohmann::json& schema,
+                                             const std::string& file,
                                              std::vector<fault::Flag>& warnings);
-std::vector<fault::Fault> complete_and_check(nlohmann::json& document,
-                                             const nlohmann::json& schema);
+std::vector<fault::Fault> complete_and_check(nlohmann::json& document, const nlohmann::json& schema,
+                                             const std::string& file = "document");
 
 }  // namespace breach::scene

@@ -31,6 +31,10 @@ inline std::size_t utf8_length(std::string_view text, std::size_t at) {
 /// The first byte that is not UTF-8; npos: none.
 inline std::size_t first_not_utf8(std::string_view text) {
     for (std::size_t at = 0; at < text.size();) {
+        if (static_cast<std::uint8_t>(text[at]) < 0x80) {  // most texts have nothing else
+            ++at;
+            continue;
+        }
         const std::size_t length = utf8_length(text, at);
         if (length == 0) return at;
         at += length;

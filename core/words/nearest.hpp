@@ -28,6 +28,7 @@ inline std::string nearest(const std::string& word, const std::vector<std::strin
     std::string found;
     std::size_t least = 1 + word.size() / 3;
     for (const std::string& each : known) {
+        if (word.size() > each.size() + least) continue;  // a distance of more than that
         const std::size_t distance = edit_distance(word, each);
         if (distance > least) continue;
         least = distance;

@@ -7,6 +7,7 @@
 
 #include "core/exchange/provenance.hpp"
 #include "core/scene/file_paths.hpp"
+#include "core/words/loopback.hpp"
 #include "services/cli/table.hpp"
 
 namespace breach::cli {
@@ -30,8 +31,7 @@ void change_files(json& study, const scene::ChangeOfPath& changed) {
 }
 
 bool is_this_machine(const std::string& origin) {
-    const std::string host = origin.substr(origin.find("//") + 2);
-    return host.starts_with("localhost") || host.starts_with("127.") || host.starts_with("[::1]");
+    return words::is_loopback_authority(origin.substr(origin.find("//") + 2));
 }
 
 bool is_about_a_part(const Refused& refused) {

@@ -188,10 +188,8 @@ void Router::answer_uncounted(Call& call) const {
     } catch (const Problem& problem) {
         refuse(response, problem);
     } catch (const fault::BadInput& error) {
-        refuse(response,
-               {422, "/problems/bad-input", "Bad input",
-                std::to_string(error.faults().size()) + " fault(s) in the " + error.file(),
-                error.faults()});
+        refuse(response, {422, "/problems/bad-input", "Bad input",
+                          error.file() + ": " + error.count(), error.faults()});
     } catch (const StoreError& error) {
         spdlog::error("{} {}: {}", request.method, request.path, error.what());
         response.set_header("Retry-After", "5");

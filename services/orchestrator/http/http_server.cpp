@@ -1,11 +1,14 @@
 #include "services/orchestrator/http/http_server.hpp"
 
 #include <spdlog/spdlog.h>
+#include <strings.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
+#include "core/words/loopback.hpp"
 #include "services/orchestrator/access/callers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
@@ -21,21 +24,12 @@ constexpr std::size_t most_requests_per_connection = 1000;
 constexpr auto longest_pause = std::chrono::seconds(10);  // between a client's reads or writes
 constexpr int backlog = 512;
 
-bool is_loopback(const std::string& host) {
-    return host == "localhost" || host == "::1" || host == "[::1]" || host.starts_with("127.");
-}
-
-std::string without_port(const std::string& host) {
-    const std::size_t colon = host.rfind(':');
-    if (colon == std::string::npos || host.find(']', colon) != std::string::npos) return host;
-    return host.substr(0, colon);
-}
-
-/// The secret after "Bearer " in the header; empty: none.
+/// The secret after "Bearer " (any case, RFC 9110) in the header; empty: none.
 std::string secret_of(const httplib::Request& request) {
     constexpr std::string_view scheme = "Bearer ";
     const std::string given = request.get_header_value("Authorization");
-    return given.starts_with(scheme) ? given.substr(scheme.size()) : std::string();
+    if (strncasecmp(given.c_str(), scheme.data(), scheme.size()) != 0) return "";
+    return given.substr(std::min(given.find_first_not_of(' ', scheme.size()), given.size()));
 }
 
 /// The request's length is ambiguous: bytes after it on the connection cannot be trusted.
@@ -249,7 +243,7 @@ class HttpServer::Implementation {
             throw Problem{416, "/problems/range", "Range not satisfiable", "one range at a time"};
         const std::string host = request.get_header_value("Host");
         // A web page elsewhere could reach a service on loopback through a user's browser.
-        if (!callers_.needs_token() && !is_loopback(without_port(host)))
+        if (!callers_.needs_token() && !words::is_loopback_authority(host))
             throw Problem{421, "/problems/misdirected", "Misdirected request",
                           "without a token the service answers only as localhost"};
         const std::string origin = request.get_header_value("Origin");
@@ -268,16 +262,16 @@ class HttpServer::Implementation {
     }
 
     void bind() {
-        if (!callers_.needs_token() && !is_loopback(settings_.host)) {
+        if (!callers_.needs_token() && !words::is_loopback(settings_.host)) {
             throw fault::BadInput(
                 "command line",
                 {{"--host",
-                  settings_.host + " can be reached from other machines, and there is "
-                                   "no token",
+                  settings_.host + " is no loopback address: other machines may reach it, and "
+                                   "there is no token",
                   "stay on 127.0.0.1; for other machines give --tokens FILE (or --token-file FILE) "
                   "and put nginx with TLS in front (docs/how-to/reverse_proxy.md)"}});
         }
-        if (!is_loopback(settings_.host))
+        if (!words::is_loopback(settings_.host))
             spdlog::warn(
                 "tokens and results travel unencrypted: stay on 127.0.0.1 and put nginx with TLS "
                 "in front (docs/how-to/reverse_proxy.md)");

@@ -67,8 +67,8 @@ double reached(const DataFolder& data, const Task& fem) {
 TriggerPlan checked(const Service& service, const std::string& run, const std::string& body) {
     // Uses the schema of an entry in a study's list.
     json entries = json::array({scene::parse_json(body, "trigger")});
-    std::vector<fault::Fault> faults =
-        scene::complete_and_check(entries, scene::study_schema().at("properties").at("triggers"));
+    std::vector<fault::Fault> faults = scene::complete_and_check(
+        entries, scene::study_schema().at("properties").at("triggers"), "trigger");
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
     const json scene = json::parse(still(service.store.scene_of(run)));
     if (!scene.contains(phases::fem.part))

@@ -122,8 +122,9 @@ std::string picture_of_import(const std::string& body) {
     importing::Imported made = importing::import_section(request);
     const json shown =
         made.faults.empty() ? made.scene : json{{"title", "What is wrong with the drawing"}};
-    const report::Draft draft{{shown, {}, ""}, std::move(made.sketch), made.faults};
-    if (!report::can_be_drawn(draft)) throw fault::BadInput("drawing", std::move(made.faults));
+    const fault::BadInput first("drawing", std::move(made.faults));
+    const report::Draft draft{{shown, {}, ""}, std::move(made.sketch), first.faults()};
+    if (!report::can_be_drawn(draft)) throw first;
     return report::as_svg(draft, {});
 }
 

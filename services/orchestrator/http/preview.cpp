@@ -32,7 +32,9 @@ Sent sent(const Service& service, const std::string& body) {
     if (is_study_document(document) && !document.value("scene", json()).is_object())
         sent_study(document, service);  // throws its faults
     report::BaseScene base = report::base_scene_of(document);
-    check::Checked checked = check_sent_scene(base.scene, base.overrides, files_of(service));
+    check::Recordings recordings;
+    check::Checked checked = check_scene_of_study(base.pointer, base.scene, base.overrides,
+                                                  files_of(service), recordings);
     checked.faults = seen_from_here(std::move(checked.faults));
     return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
 }

@@ -43,7 +43,7 @@ auto read_here(Read read) {
     try {
         return read();
     } catch (const BadInput& error) {
-        throw BadInput(error.file(), seen_from_here(error.faults()));
+        throw BadInput(error.file(), seen_from_here(error.faults()), error.more());
     }
 }
 
@@ -81,11 +81,12 @@ Study sent_study(json document, const Service& service) {
 }
 
 WholeScene sent_scene(const std::string& body, const Service& service) {
-    if (is_study_document(json::parse(body, nullptr, false))) {
+    const json document = scene::parse_json(body, "scene");
+    if (is_study_document(document)) {
         throw BadInput("scene", {{"", "this is a study, not a scene",
                                   "give the scene that it holds or names in \"scene\""}});
     }
-    return read_here([&] { return read_whole_scene(body, files_of(service)); });
+    return read_here([&] { return read_whole_scene(document, files_of(service)); });
 }
 
 }  // namespace breach::orchestrator

@@ -14,7 +14,7 @@ double checked_budget(const json& entry) {
     const json schema{
         {"type", "object"},
         {"properties", {{"budget", scene::study_schema().at("properties").at("budget")}}}};
-    std::vector<fault::Fault> faults = scene::complete_and_check(document, schema);
+    std::vector<fault::Fault> faults = scene::complete_and_check(document, schema, "study");
     if (!faults.empty()) throw fault::BadInput("study", std::move(faults));
     return entry.at("cpu_seconds").get<double>();
 }

@@ -73,4 +73,17 @@ check::Checked check_sent_scene(const json& document, const std::vector<std::str
     return checked;
 }
 
+check::Checked check_scene_of_study(const std::string& prefix, const json& document,
+                                    const std::vector<std::string>& overrides,
+                                    const SentFiles& files, check::Recordings& recordings) {
+    try {
+        return check_sent_scene(document, overrides, files, recordings);
+    } catch (const fault::BadInput& error) {
+        std::vector<Fault> faults = error.faults();
+        for (Fault& each : faults) each.pointer = prefix + each.pointer;
+        throw fault::BadInput(prefix.empty() ? error.file() : "study", std::move(faults),
+                              error.more());
+    }
+}
+
 }  // namespace breach::orchestrator

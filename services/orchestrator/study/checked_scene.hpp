@@ -22,11 +22,15 @@ struct SentFiles {
 
 /// check::checked_document, plus a fault for each file that is not named by an absolute path (an
 /// uploaded scene has no folder) or lies outside the allowed folders; such files are not opened.
-/// Throws BadInput only for a non-object.
+/// Throws BadInput as scene::read_text does.
 check::Checked check_sent_scene(const nlohmann::json& document,
                                 const std::vector<std::string>& overrides, const SentFiles& files,
                                 check::Recordings& recordings);
 check::Checked check_sent_scene(const nlohmann::json& document,
                                 const std::vector<std::string>& overrides, const SentFiles& files);
+/// The same for the scene of a study; the pointers of a thrown BadInput begin with `prefix`.
+check::Checked check_scene_of_study(const std::string& prefix, const nlohmann::json& document,
+                                    const std::vector<std::string>& overrides,
+                                    const SentFiles& files, check::Recordings& recordings);
 
 }  // namespace breach::orchestrator

@@ -263,7 +263,7 @@ class StudyReader {
     StudyReader(json document, const SentFiles& files)
         : document_(std::move(document)), base_{files, {}, {}, {}, {}, &recordings_} {
         refuse_scene(document_);
-        of_schema_ = scene::complete_and_check(document_, scene::study_schema());
+        of_schema_ = scene::complete_and_check(document_, scene::study_schema(), "study");
         faults_ = of_schema_;
         if (document_.is_object()) kind_ = kind_of(document_);
         repeats_are_sound_ = sound("variants") && sound("draws") && sound("first_draw") &&
@@ -330,7 +330,7 @@ class StudyReader {
         for (const phases::Phase& phase : phases_of(study_.reach))
             if (!phase.has_default_part) need_part(base_.scene, phase.part, faults_);
         check::Checked checked =
-            check_sent_scene(base_.scene, base_.overrides, base_.files, recordings_);
+            check_scene_of_study("/scene", base_.scene, base_.overrides, base_.files, recordings_);
         add_below("/scene", checked.faults, faults_);
         base_.faults = std::move(checked.faults);
         base_.warnings = checked.scene.warnings;
@@ -447,8 +447,8 @@ Study read_study_document(json document, const SentFiles& files) {
     return StudyReader(std::move(document), files).read();
 }
 
-WholeScene read_whole_scene(std::string_view text, const SentFiles& files) {
-    check::Checked checked = check_sent_scene(scene::parse_json(text, "scene"), {}, files);
+WholeScene read_whole_scene(const json& document, const SentFiles& files) {
+    check::Checked checked = check_sent_scene(document, {}, files);
     if (!checked.faults.empty()) throw BadInput("scene", checked.faults);
     return {std::move(checked.completed), std::move(checked.scene.warnings)};
 }

@@ -14,6 +14,6 @@ struct WholeScene {
     std::vector<fault::Flag> warnings;
 };
 /// A scene without a study, as in POST /v1/scenes/plan. Throws BadInput.
-WholeScene read_whole_scene(std::string_view text, const SentFiles& files = {});
+WholeScene read_whole_scene(const nlohmann::json& document, const SentFiles& files = {});
 
 }  // namespace breach::orchestrator

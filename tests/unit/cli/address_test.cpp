@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/words/loopback.hpp"
+
 namespace breach::cli {
 
 TEST(Address, IsOriginAndPrefix) {
@@ -19,6 +21,49 @@ TEST(Address, RefusesWhatIsNoHttpAddress) {
     for (const char* wrong : {"", "localhost:8470", "ftp://host", "http://", "http://host:port",
                               "http://user@host", "http://host/?a=b", "http://ho st"})
         EXPECT_FALSE(address_from(wrong)) << wrong;
+}
+
+TEST(Address, IsOfThisMachineOnlyAsAWholeLoopbackAddress) {
+    for (const char* own :
+         {"localhost", "localhost.", "LocalHost:8470", "127.0.0.1", "127.0.0.1.", "127.255.3.4:80",
+          "[::1]", "[::1]:65535", "[0:0:0:0:0:0:0:1]", "[::ffff:127.0.0.1]", "[::FFFF:7f00:1]:1"})
+        EXPECT_TRUE(words::is_loopback_authority(own)) << own;
+    for (const char* other : {"",
+                              ":8470",
+                              "127.attacker.example",
+                              "localhost.attacker.example",
+                              "127.1",
+                              "127.0.0",
+                              "127.0.0.1.2",
+                              "127.0.0.1.attacker.example:8470",
+                              "127.0.0.256",
+                              "127.0.0.01",
+                              "0x7f.0.0.1",
+                              "2130706433",
+                              "128.0.0.1",
+                              "0.0.0.0",
+                              "localhost..",
+                              "localhosts",
+                              "::1",
+                              "[::1",
+                              "[::1]x",
+                              "[::2]",
+                              "[::]",
+                              "[127.0.0.1]",
+                              "[localhost]",
+                              "[::ffff:128.0.0.1]",
+                              "[::1%lo]",
+                              "localhost:",
+                              "localhost:80x",
+                              "localhost:80:80",
+                              "user@localhost",
+                              "localhost:80@evil.example",
+                              "localhost:123456",
+                              " localhost",
+                              "localhost/",
+                              "[::1]:80]"})
+        EXPECT_FALSE(words::is_loopback_authority(other)) << other;
+    EXPECT_FALSE(words::is_loopback(std::string_view("127.0.0.1\0.evil.example", 23)));
 }
 
 TEST(Address, PathsAndQueriesKeepTheirShapeForAnyNames) {

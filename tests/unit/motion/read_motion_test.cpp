@@ -50,12 +50,37 @@ TEST(Peer, NamesTheLineOfAFault) {
               "line 5: 'nan' is not a finite number");
     EXPECT_EQ(fault_of(read_peer, header + size + "0.1 0.2\n"),
               "line 5: the file ends after 2 of 3 values");
+    EXPECT_EQ(fault_of(read_peer, header + size + "0.1 0.2\n0.3 0.4\n"),
+              "line 6: the file holds 4 values, and its header gives NPTS= 3");
     EXPECT_EQ(fault_of(read_peer, header + "NPTS= 3\n"),
               "line 4: the header has no line that gives NPTS and DT");
     EXPECT_EQ(fault_of(read_peer, header + "NPTS= 1, DT= .01\n"),
               "line 4: NPTS must be a whole number above 1 and DT positive");
     EXPECT_EQ(fault_of(read_peer, header + "NPTS= 3, DT= 10 MSEC\n"), "line 4: gives DT in MSEC");
     EXPECT_EQ(fault_of(read_peer, "a\n"), "line 1: the header has no line that gives NPTS and DT");
+}
+
+TEST(Peer, ReadsNumbersAsFortranWritesThem) {
+    const std::pair<const char*, std::vector<double>> rows[] = {
+        {"7.0923734E-20-7.7943408E-05-1.66E-04", {7.0923734e-20, -7.7943408e-05, -1.66e-04}},
+        {"0.012-0.034 0.5-1.", {0.012, -0.034, 0.5, -1.0}},
+        {"0.5+0.25-.125", {0.5, 0.25, -0.125}},
+        {"1.5D-02 -0.3d+00-2.5D-03", {1.5e-2, -0.3, -2.5e-3}},
+        {"0.709-100 1.5", {0.709e-100, 1.5}},
+        {"0.709-100-0.709-101", {0.709e-100, -0.709e-101}},
+        {"1.5E+00-100.25", {1.5, -100.25}}};
+    for (const auto& [row, wanted] : rows) {
+        std::istringstream in(header + "NPTS= " + std::to_string(wanted.size()) +
+                              ", DT= .01 SEC\n" + row + "\n");
+        const Recording r = read_peer(in, "file");
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            EXPECT_DOUBLE_EQ(r.series.values[i], wanted[i] * standard_gravity) << row;
+    }
+    for (const char* word : {"0.5--0.25", "0.5-", "1.5-02x", "0.709+200", "***"})
+        EXPECT_NE(fault_of(read_peer, header + "NPTS= 2, DT= .01 SEC\n" + word + "\n")
+                      .find("is not a finite number"),
+                  std::string::npos)
+            << word;
 }
 
 TEST(Peer, GivesItsTimeStepInSecondsOnly) {
@@ -92,6 +117,13 @@ TEST(TwoColumns, AreTimeAndAccelerationInG) {
               "line 3: the time goes from 0.01 s to 0.005 s");
     EXPECT_EQ(fault_of(read_two_columns, "0 1\n0.01 2 5\n"), "line 2: has 3 columns, not two");
     EXPECT_EQ(fault_of(read_two_columns, "0.01 1\n0.02 1\n"), "line 1: the first time is not zero");
+}
+
+TEST(TwoColumns, MayHaveExponentsOfFortran) {
+    std::istringstream in("0.000D+00 1.0D-01\n1.000D-02 2.0D-01\n2.000D-02 -3.0D-01\n");
+    const Recording r = read_two_columns(in, "file");
+    EXPECT_DOUBLE_EQ(r.series.dt, 0.01);
+    EXPECT_DOUBLE_EQ(r.series.values.back(), -0.3 * standard_gravity);
 }
 
 TEST(TwoColumns, HaveTheUnitThatACommentNames) {
@@ -237,6 +269,11 @@ TEST(Unit, IsAWholeWordOfTheHeader) {
         {"ACCELERATION AT 12 M DEPTH IN G", 9.80665},
         {"ACCELERATION IN UNITS OF G FILTER POINTS HP=0.5", 9.80665},
         {"COMMUNITY HALL, ACCELERATION IN UNITS OF GAL", 0.01},
+        {"ACCELERATION TIME SERIES IN UNITS OF G (1 G = 980.665 CM/SEC/SEC)", 9.80665},
+        {"Acceleration in units of g (g = 9.81 m/s^2). Filter points: 0.1 Hz", 9.80665},
+        {"ACCELERATION IN UNITS OF G, 1G=981.0CM/S**2", 9.80665},
+        {"ACCELERATION IN UNITS OF G (9.80665 M/SEC2)", 9.80665},
+        {"ACCELERATION IN G (386.1 IN/S2 = 1 G)", 9.80665},
     };
     for (const auto& [text, factor] : accelerations) {
         const auto [value, quantity] = unit_of(text);
@@ -274,6 +311,8 @@ TEST(Unit, ThatIsNoneOfTheListIsRefused) {
                              "ACCELERATION IN UNITS OF G MULTIPLIED BY 10",
                              "ACCELERATION IN UNITS OF G DOZENS",
                              "ACCELERATION IN HUNDREDTHS OF G",
+                             "ACCELERATION IN UNITS OF G (1 G = 98.0665 CM/SEC/SEC)",
+                             "ACCELERATION IN UNITS OF G (1 MG = 980.665 CM/SEC/SEC)",
                              "ACCELERATION IN TEN G"})
         EXPECT_EQ(unit_of(text).first, 0.0) << text;
 }
@@ -353,6 +392,11 @@ TEST(Motion, OfAPublishersOtherFormIsRefusedByItsName) {
     const std::pair<const char*, const char*> forms[] = {
         {"Origin Time 2011/03/11 14:46:00\nSampling Freq(Hz) 100Hz\n0 119\n", "KiK-net"},
         {"Corrected acceleration   (Format v01.20 with 13 text lines)\nStation\n", "COSMOS"},
+        {"CORRECTED ACCELEROGRAM DATA  PROCESSED: 01/01/01\nStation\n", "V2"},
+        {"Corrected  accelerogram\nGNS Science\n", "V2"},
+        {"UNCORRECTED ACCELEROGRAM DATA  PROCESSED: 01/01/01\nStation\n", "V1"},
+        {"Station\n 400 POINTS OF ACCEL DATA EQUALLY SPACED AT .010 SEC, IN CM/SEC2.\n", "V2"},
+        {"2 CORRECTED ACCELEROGRAM\n*\n", "SMC"},
         {"EVENT_NAME: X\nSAMPLING_INTERVAL_S: 0.010000\nUNITS: cm/s^2\n0.0\n", "ESM"}};
     for (const auto& [text, form] : forms) {
         std::ofstream(file) << text;
@@ -364,6 +408,8 @@ TEST(Motion, OfAPublishersOtherFormIsRefusedByItsName) {
             EXPECT_NE(bad.faults().at(0).remedy.find("convert it"), std::string::npos);
         }
     }
+    std::ofstream(file) << "Corrected accelerogram\n" + header + "NPTS= 2, DT= .01 SEC\n0.5 0.25\n";
+    EXPECT_EQ(read_motion(file).series.values.size(), 2u);  // the words are a PEER title's
     std::filesystem::remove(file);
 }
 

@@ -170,6 +170,30 @@ TEST_F(Api, OversizedBodyIs413) {
     EXPECT_EQ(service->get("/healthz").status, 200);
 }
 
+TEST_F(Api, ARefusalIsSmallHoweverManyFaultsThereAre) {
+    json keys = study("", {0.25});
+    for (int i = 0; i < 5000; ++i) keys["scene"]["key" + std::to_string(i)] = 1;
+    json regions = study("", {0.25});
+    for (int i = 0; i < 300; ++i) {
+        regions["scene"]["section"]["regions"].push_back(regions["scene"]["section"]["regions"][0]);
+        regions["scene"]["section"]["regions"].back()["material"] = std::string(2000, '"');
+    }
+    json variants = study("", {0.25});
+    for (int i = 0; i < 300; ++i)
+        variants["variants"].push_back(
+            {{"name", "v" + std::to_string(i)}, {"overrides", {"/mpm/nonsense=1"}}});
+    for (const json& each : {keys, regions, variants}) {
+        const Answer answer = service->post("/v1/runs", each.dump());
+        EXPECT_EQ(answer.status, 422);
+        EXPECT_LT(answer.text.size(), 100'000u);
+        EXPECT_LE(answer.body.at("faults").size(), 100u);
+        EXPECT_GE(answer.body.at("faults").size(), 30u);
+        EXPECT_NE(answer.body.at("detail").get<std::string>().find("of which these are the first"),
+                  std::string::npos)
+            << answer.body.at("detail");
+    }
+}
+
 TEST_F(Api, DoubtfulRequestsAreRefused) {
     const int port = service->port();
     const std::string host = "Host: 127.0.0.1\r\n";
@@ -186,11 +210,23 @@ TEST_F(Api, DoubtfulRequestsAreRefused) {
     EXPECT_EQ(raw(port, "GET /v1/runs HTTP/1.1\r\n" + host + "Range: bytes=0-1,2-3\r\n\r\n")
                   .substr(0, 12),
               "HTTP/1.1 416");
-    EXPECT_EQ(raw(port, "GET /v1/runs HTTP/1.1\r\nHost: evil.example\r\n\r\n").substr(0, 12),
-              "HTTP/1.1 421");
     EXPECT_EQ(raw(port, "GET /v1/runs HTTP/1.1\r\n" + host + "Origin: http://evil.example\r\n\r\n")
                   .substr(0, 12),
               "HTTP/1.1 403");
+}
+
+// A page of the first name, which resolves to 127.0.0.1, has the same origin as the service.
+TEST_F(Api, OnlyAddressesOfLoopbackAreAnsweredWithoutAToken) {
+    const auto status = [](const std::string& host) {
+        return raw(service->port(), "GET /v1/runs HTTP/1.1\r\nHost: " + host +
+                                        "\r\nOrigin: http://" + host + "\r\n\r\n")
+            .substr(0, 12);
+    };
+    for (const char* foreign : {"127.attacker.example:8611", "localhost.attacker.example",
+                                "evil.example", "localhost:80@evil.example", ""})
+        EXPECT_EQ(status(foreign), "HTTP/1.1 421") << foreign;
+    for (const char* own : {"localhost", "LOCALHOST.:8470", "127.0.0.1:1", "[::1]:8470"})
+        EXPECT_EQ(status(own), "HTTP/1.1 200") << own;
 }
 
 TEST_F(Api, PagesStayInsideTheirFolder) {
@@ -315,8 +351,12 @@ TEST(ApiAccess, TokenIsNeededWhenThereIsOne) {
     EXPECT_EQ(service.get("/v1/runs").status, 401);
     EXPECT_EQ(service.get("/v1/runs", {{"Authorization", "Bearer correct-horse-batterz"}}).status,
               401);
-    EXPECT_EQ(service.get("/v1/runs", {{"Authorization", "Bearer correct-horse-battery"}}).status,
-              200);
+    for (const std::string scheme : {"Bearer ", "bearer ", "BEARER  "})
+        EXPECT_EQ(
+            service.get("/v1/runs", {{"Authorization", scheme + "correct-horse-battery"}}).status,
+            200)
+            << scheme;
+    EXPECT_EQ(service.get("/v1/runs", {{"Authorization", "bearer"}}).status, 401);
     EXPECT_EQ(service.get("/healthz").status, 200);
 }
 

@@ -76,6 +76,46 @@ TEST(Schema, RefusesEveryWrongType) {
     }
 }
 
+/// The refusal of a text that has more faults than are listed.
+BadInput refusal_of(const std::string& text) {
+    try {
+        json document = parse_json(text, "x");
+        complete_and_check(document, schema, "x");
+    } catch (const BadInput& bad) {
+        return bad;
+    }
+    return {"nothing was thrown", std::vector<breach::fault::Fault>{}};
+}
+
+TEST(Schema, ListsTheFirstHundredFaultsAndCountsTheOthers) {
+    std::string keys;
+    for (int i = 0; i < 5000; ++i) keys += "\"key" + std::to_string(i) + "\": 1, ";
+    const BadInput bad = refusal_of("{" + keys + "\"speed\": 1}");
+    EXPECT_EQ(bad.faults().size(), 100u);
+    EXPECT_EQ(bad.more(), 4900u);
+    EXPECT_EQ(bad.faults()[0].pointer, "/key0");
+    EXPECT_EQ(bad.count(), "5000 faults, of which these are the first 100");
+    EXPECT_EQ(std::string(bad.what()).substr(0, 48), "x: " + bad.count());
+}
+
+TEST(StrictJson, BoundsKeysListsAndTexts) {
+    std::string many;
+    for (int i = 0; i < 30000; ++i)
+        many += (i > 0 ? ", \"" : "\"") + std::to_string(i) + "\": [{}]";
+    const BadInput keys = refusal_of("{" + many + "}");
+    EXPECT_EQ(keys.faults().size(), 100u);
+    EXPECT_EQ(keys.more(), 19900u);
+    std::string twice;
+    for (int i = 0; i < 300; ++i) twice += "\"a\": 1, ";
+    EXPECT_EQ(refusal_of("{" + twice + "\"a\": 1}").more(), 200u);
+    const std::string longest(1 << 20, 'k');
+    for (const std::string& text : {"{\"" + longest + "\": 1}", "{\"speed\": " + longest + "}"}) {
+        const BadInput bad = refusal_of(text);
+        ASSERT_EQ(bad.faults().size(), 1u);
+        EXPECT_LT(bad.faults()[0].cause.size(), 1200u);
+    }
+}
+
 TEST(StrictJson, RefusesWhatOrdinaryParsersLetPass) {
     EXPECT_THROW(parse_json(R"({"a": 1, "a": 2})", "x"), BadInput);
     EXPECT_THROW(parse_json(R"({"a": 1e400})", "x"), BadInput);
