@@ -28,6 +28,7 @@ Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
     }
     check_soils(scene, findings);
     check_strengths(scene, findings);
+    check_agreement(scene, findings);
     if (scene.transfer) check_transfer(scene, findings);
     if (scene.mpm) check_ground(scene, findings);
     return findings;

@@ -47,6 +47,9 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
 /// Warns of strengths of one soil that differ between phases, and of relations used outside their
 /// range.
 void check_strengths(const scene::Scene& scene, Findings& findings);
+/// Soil that liquefies in the LEM or in the runout alone, and a phase without the water that another
+/// one has.
+void check_agreement(const scene::Scene& scene, Findings& findings);
 /// Laws of the transfer's and the MPM's material points.
 void check_soils(const scene::Scene& scene, Findings& findings);
 /// /transfer: the FEM entries that it needs, and its window.

@@ -141,6 +141,55 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
              metres(end));
 }
 
+/// x of the crest's downstream edge: the last place before the toe that is nearly as high as any
+/// [m].
+double crest_of(const scene::Scene& scene) {
+    const geometry::Box box = extent(scene.section);
+    const double near = 0.02 * (box.high.y() - box.low.y());
+    const double toe = scene.mpm->runout.toe.x();
+    double highest = -std::numeric_limits<double>::infinity(), crest = highest;
+    for (const auto& piece : geometry::ground_between(scene.section, box.low.x(), toe))
+        for (const Vec2& each : piece) {
+            if (each.y() >= highest - near) crest = each.x();
+            highest = std::max(highest, each.y());
+        }
+    return crest;
+}
+
+/// A flow section records what leaves the dam: not upstream of its crest.
+void check_flow_sections(const scene::Scene& scene, Findings& findings) {
+    const scene::Mpm& mpm = *scene.mpm;
+    if (mpm.sections.empty()) return;
+    const double crest = crest_of(scene);
+    for (std::size_t i = 0; i < mpm.sections.size(); ++i) {
+        const double x = mpm.sections[i].x;
+        if (!(x < crest - mpm.cell_size)) continue;
+        warn(findings, "section_upstream", "/mpm/sections/" + std::to_string(i) + "/x",
+             "is " + metres(x) + ", upstream of the crest at x = " + metres(crest) + ": \"" +
+                 mpm.sections[i].name +
+                 "\" records what moves within the pond, not what leaves the dam; write \"x\": " +
+                 text(std::max(crest, std::min(mpm.runout.toe.x(), mpm.domain_x[1]))) +
+                 " for the toe");
+    }
+}
+
+/// Warns of runs that end while soil could only have begun to collapse.
+void check_duration(const scene::Scene& scene, Findings& findings) {
+    const scene::Mpm& mpm = *scene.mpm;
+    const double H = scene::mobile_height(scene, mpm);
+    if (!(H > 0.0) || !(scene.gravity > 0.0)) return;
+    const double fall = std::sqrt(2.0 * H / scene.gravity);
+    const double least = std::ceil(20.0 * fall) / 10.0;  // a granular column collapses in 2 falls
+    if (mpm.duration >= least) return;
+    warn(findings, "short_runout", mpm.until_rest ? "/mpm/longest_duration" : "/mpm/duration",
+         "is " + text(mpm.duration) + " s, and soil needs " + words::text_of(fall, 2) +
+             " s to fall " + words::text_of(H, 3) + " m" +
+             " freely: the run ends before the soil has collapsed, and its runout is too short; "
+             "write \"duration\": \"until_rest\"" +
+             (mpm.until_rest ? " without longest_duration" : "") + ", or at least " + text(least) +
+             " s");
+}
+
 }  // namespace
 
 void check_ground(const scene::Scene& scene, Findings& findings) {
@@ -149,6 +198,8 @@ void check_ground(const scene::Scene& scene, Findings& findings) {
     check_toe(scene, findings);
     check_stiffness(scene, findings);
     check_upstream_end(scene, findings);
+    check_flow_sections(scene, findings);
+    check_duration(scene, findings);
 }
 
 }  // namespace breach::check

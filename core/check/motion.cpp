@@ -86,6 +86,24 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
                  text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
 }
 
+/// Warns of stages that go on long after the motion has ended.
+void check_rest(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
+    constexpr double most = 3.0;  // motions: some soil fails after the shaking
+    const double end = dynamic_duration(fem), length = series.duration();
+    if (end <= most * length) return;
+    std::size_t last = fem.stages.size();
+    while (fem.stages[last - 1].kind != scene::StageKind::dynamic) --last;
+    const double before = end - fem.stages[last - 1].duration;
+    warn(findings, "beyond_motion", "/fem/stages/" + std::to_string(last - 1) + "/duration",
+         "the dynamic stages end at " + text(end) + " s, and the motion at " + text(length) +
+             " s: the rest is computed without shaking, which costs time and strains the mesh; " +
+             (before < length
+                  ? "write \"duration\": " + text(length - before) + ", or up to " +
+                        text(most * length - before) + " if the soil fails after the shaking"
+                  : std::string("delete this stage")) +
+             ", or give the whole record");
+}
+
 /// Warns of damping given at a frequency outside the motion's band: other frequencies have other
 /// ratios.
 void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
@@ -133,6 +151,7 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& f
     check_steps(fem, shaking.series, findings);
     const motion::Series acceleration = acceleration_of(shaking);
     check_length(fem, acceleration, findings);
+    check_rest(fem, acceleration, findings);
     check_damping(fem, acceleration, findings);
 }
 

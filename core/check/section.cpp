@@ -42,6 +42,12 @@ bool has_soil(const scene::Scene& scene) {
                                [](const scene::Region& each) { return !each.polygon.empty(); });
 }
 
+bool is_whole(const scene::Scene& scene) {
+    return std::ranges::all_of(scene.section.regions, [&](const scene::Region& region) {
+        return !region.polygon.empty() && region.material < scene.materials.size();
+    });
+}
+
 double element_size(const scene::Region& region) {
     const int elements = region.divisions[0] * region.divisions[1];
     if (region.mesh == scene::RegionMesh::block && elements > 0)

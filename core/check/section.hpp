@@ -39,6 +39,9 @@ std::string region_pointer(std::size_t region, const std::string& below = "");
 /// The region's material; null if the scene does not define it.
 const scene::Material* material_of(const scene::Scene& scene, const scene::Region& region);
 
+/// Whether every region has a polygon and a material.
+bool is_whole(const scene::Scene& scene);
+
 /// Edge length of the region's elements [m]: sqrt(area / elements) of a block, else element_size.
 double element_size(const scene::Region& region);
 double least_element_size(const scene::Scene& scene);

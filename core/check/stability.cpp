@@ -248,11 +248,8 @@ bool may_be_wet(const scene::Lem& lem, std::size_t region) {
            });
 }
 
-bool has_water(const scene::Lem& lem) {
-    return lem.water || !lem.piezometric_lines.empty() || !lem.pore_pressure_ratios.empty();
-}
-
-/// Soil that fails undrained needs an undrained strength; strength by state needs water.
+/// Soil that fails undrained needs an undrained strength; strength by state needs water. Layers in
+/// a scene without any water: check_agreement.
 void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
     const scene::Lem& lem = *scene.lem;
     const auto refuse_dry = [&](const scene::UndrainedRegion& each, const std::string& pointer,
@@ -280,7 +277,7 @@ void check_undrained_strengths(const scene::Scene& scene, Findings& findings) {
         const scene::UndrainedRegion& layer = lem.liquefaction[i];
         const std::string pointer = "/lem/liquefaction/" + std::to_string(i);
         check_water(layer, pointer);
-        if (!layer.strength.on_path && has_water(lem))
+        if (!layer.strength.on_path && lem.has_water())
             refuse_dry(layer, pointer,
                        "name the region in /lem/water/regions, or leave the layer out: dry soil "
                        "does not liquefy");

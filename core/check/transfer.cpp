@@ -1,12 +1,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "core/check/findings.hpp"
 #include "core/check/measured.hpp"
 #include "core/check/section.hpp"
 #include "core/criteria/expression.hpp"
+#include "core/scene/ground.hpp"
 #include "core/telemetry/columns.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::check {
 
@@ -73,11 +76,10 @@ void warn_about_what_a_transfer_decides(const scene::Scene& scene, Findings& fin
                  "its own");
 }
 
-double tan_phi_of(const scene::Material& material) {
+materials::Strength strength_of(const scene::Material& material) {
     if (materials::has_strength_of_points(material.law) && material.strength)
-        return materials::strength_at(material.strength->peak, {10.0, 0.0, 1e5}).tan_phi;
-    const auto strength = materials::limit_strength(material.law);
-    return strength ? strength->tan_phi : 0.0;
+        return materials::strength_at(material.strength->peak, {10.0, 0.0, 1e5});
+    return materials::limit_strength(material.law).value_or(materials::Strength{0.0, 0.0});
 }
 
 /// The phreatic line of a scene without FEM, from /lem or the mapping.
@@ -89,30 +91,47 @@ const std::vector<Vec2>* water_table_of(const scene::Scene& scene) {
     return everywhere ? &scene.lem->water->line : nullptr;
 }
 
+double degrees(double tan_phi) { return std::atan(tan_phi) * 180.0 / std::numbers::pi; }
+
 /// Warns of friction below the water table with total stress: the water pressure adds to it, so
-/// slopes that fail in limit equilibrium may stand. After a FEM, liquefied soil is flagged instead.
+/// slopes that fail in limit equilibrium may stand. Friction that is reduced for the pore pressure
+/// on the region's base, below that of limit_strength, is sound. After a FEM, liquefied soil is
+/// flagged instead.
 void warn_about_friction_under_water(const scene::Scene& scene,
                                      const std::vector<scene::Soil>& soils, Findings& findings) {
-    if (scene.fem) return;
+    if (scene.fem || !is_whole(scene)) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
     const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
+    const scene::Ground ground(scene);
     std::vector<std::size_t> told;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Region& region = scene.section.regions[r];
         const std::size_t become = soils[r].material;
-        if (region.polygon.empty() || become >= scene.materials.size()) continue;
+        if (become >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[become];
-        if (std::ranges::find(told, become) != told.end() || tan_phi_of(material) == 0.0) continue;
+        const materials::Strength strength = strength_of(material);
+        if (std::ranges::find(told, become) != told.end() || strength.tan_phi == 0.0) continue;
         const Depth deepest = deepest_below(region.polygon, *line, level_at);
         if (deepest.below <= shallow) continue;
+        const auto& limit = scene.materials[region.material].limit_strength;
+        const double drained = limit ? std::tan(limit->phi) : strength.tan_phi;
+        const double r_u = ground.r_u_at_base(r), sound = (1.0 - r_u) * drained;
+        constexpr double rounding = 1.01;
+        if (limit && strength.tan_phi <= rounding * sound) continue;
         told.push_back(become);
+        const double c = limit ? limit->c : strength.c;
         warn(findings, "total_stress", "/materials/" + material.name,
              "has friction, and \"" + region.name + "\" reaches " + metres(deepest.below) +
                  " below the water table: material points carry no pore pressure, so that friction "
-                 "acts on the total stress there and the soil is too strong; give what flows an "
-                 "undrained strength (friction 0)");
+                 "acts on the total stress there and the soil is too strong; give it the friction "
+                 "that the pore pressure on its base leaves (r_u = " +
+                 words::text_of(r_u, 2) +
+                 "), \"phi_deg\": " + words::text_of(std::floor(10.0 * degrees(sound)) / 10.0) +
+                 ", and the LEM \"limit_strength\": {\"c_kPa\": " + text(c / 1e3) +
+                 ", \"phi_deg\": " + words::text_of(degrees(drained), 4) +
+                 "}; or give what flows an undrained strength (\"phi_deg\": 0)");
     }
 }
 

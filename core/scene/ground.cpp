@@ -34,10 +34,7 @@ Ground::Ground(const Scene& scene, const std::vector<bool>& gone) {
             for (Layer& layer : layers_) layer.line = line;
         for (const std::size_t region : regions) layers_[region].line = line;
     };
-    const bool lem_knows =
-        scene.lem && (scene.lem->water || !scene.lem->piezometric_lines.empty() ||
-                      !scene.lem->pore_pressure_ratios.empty());
-    if (lem_knows) {
+    if (scene.lem && scene.lem->has_water()) {
         const auto line_of = [&](const Water& water, bool stands_free) {
             return Line{water.line, water.density * scene.gravity, water.correction, stands_free};
         };
@@ -72,7 +69,7 @@ double Ground::pressure(const Line& line, const Vec2& place, double ground) cons
     return line.gamma * (level - ground) + gamma * (ground - place.y());
 }
 
-materials::Place Ground::at(const Vec2& place, std::size_t region) const {
+Ground::Stress Ground::stress(const Vec2& place, std::size_t region) const {
     double weight = 0.0;
     double ground = -std::numeric_limits<double>::infinity();
     for (const Layer& layer : layers_) {
@@ -83,7 +80,7 @@ materials::Place Ground::at(const Vec2& place, std::size_t region) const {
             weight += layer.gamma * std::max(heights[k + 1] - std::max(heights[k], place.y()), 0.0);
         }
     }
-    if (!(ground > place.y())) return {0.0, place.y(), 0.0};  // on the ground, or beside it
+    if (!(ground > place.y())) return {place.y(), 0.0, 0.0};  // on the ground, or beside it
     const Layer& own = layers_[region];
     double u = own.line ? pressure(*own.line, place, ground) : 0.0;
     if (u == 0.0) u = own.r_u * weight;
@@ -91,7 +88,29 @@ materials::Place Ground::at(const Vec2& place, std::size_t region) const {
         const double level = geometry::level_at(free_water_->points, place.x());
         weight += free_water_->gamma * std::max(0.0, level - ground);
     }
-    return {ground - place.y(), place.y(), weight - u};
+    return {ground, weight, u};
+}
+
+materials::Place Ground::at(const Vec2& place, std::size_t region) const {
+    const Stress found = stress(place, region);
+    return {found.ground - place.y(), place.y(), found.sigma - found.u};
+}
+
+double Ground::r_u_at_base(std::size_t region) const {
+    constexpr int columns = 64;
+    const Polygon& polygon = layers_[region].polygon;
+    if (polygon.empty()) return 0.0;
+    const Box box = geometry::bounding_box(polygon);
+    double u = 0.0, sigma = 0.0;
+    for (int i = 0; i < columns; ++i) {
+        const double x = box.low.x() + (box.high.x() - box.low.x()) * (i + 0.5) / columns;
+        const std::vector<double> heights = geometry::crossings(polygon, x);
+        if (heights.empty()) continue;
+        const Stress found = stress(Vec2(x, heights.front()), region);
+        u += found.u;
+        sigma += found.sigma;
+    }
+    return sigma > 0.0 ? u / sigma : 0.0;
 }
 
 }  // namespace breach::scene

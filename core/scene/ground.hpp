@@ -18,7 +18,17 @@ class Ground {
     /// A place [m] in a region (index into the section's).
     materials::Place at(const Vec2& place, std::size_t region) const;
 
+    /// Pore pressure ratio u / sigma_v on the region's base, where it slides: the mean pore pressure
+    /// over the mean total vertical stress [-] (Bishop & Morgenstern 1960).
+    double r_u_at_base(std::size_t region) const;
+
   private:
+    struct Stress {
+        double ground;    ///< level of the ground [m]
+        double sigma, u;  ///< total vertical stress and pore pressure [Pa]
+    };
+    Stress stress(const Vec2& place, std::size_t region) const;
+
     struct Line {
         std::vector<Vec2> points;
         double gamma;  ///< [N/m3]

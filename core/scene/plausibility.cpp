@@ -18,6 +18,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::string metres(double value) { return plain_number(value) + " m"; }
 std::string seconds(double value) { return plain_number(value) + " s"; }
+/// Two digits.
+double rounded_up(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return unit * std::ceil(value / unit);
+}
 
 struct Warner {
     Reader& reader;
@@ -204,6 +209,24 @@ void warn_about_steps(Warner& d) {
     }
 }
 
+/// Warns of dynamic stages that end before a shear wave has crossed the section.
+void warn_about_brief_stages(Warner& d) {
+    const Fem& fem = *d.scene.fem;
+    const double crossing = 0.25 * natural_period(d);
+    double sum = 0.0;
+    std::size_t last = fem.stages.size();
+    for (std::size_t i = 0; i < fem.stages.size(); ++i) {
+        if (fem.stages[i].kind != StageKind::dynamic) continue;
+        sum += fem.stages[i].duration;
+        last = i;
+    }
+    if (last == fem.stages.size() || sum >= crossing) return;
+    d.warn("/fem/stages/" + std::to_string(last) + "/duration",
+           "the dynamic stages last " + seconds(sum) + ", and a shear wave needs " +
+               seconds(rounded_up(crossing)) +
+               " to cross the section: nothing can fail before; give at least four times that");
+}
+
 /// Warns of more elements or cells than memory holds, or larger than what they divide.
 void warn_about_size(Warner& d, double size, double area, const std::string& pointer,
                      const char* what) {
@@ -332,6 +355,7 @@ void warn_about_together(Reader& reader, Scene& scene) {
         d.warn("/gravity", "gravity is zero: no soil has weight, nothing fails or runs out");
     }
     if (scene.fem) warn_about_steps(d);
+    if (scene.fem) warn_about_brief_stages(d);
     if (d.height() > 0.0) {  // some region is valid
         warn_about_section(d);
         if (scene.lem && scene.lem->water) {

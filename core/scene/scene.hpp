@@ -235,6 +235,11 @@ struct Lem {
     std::vector<std::size_t> unconsolidated;
     std::optional<Sensitivity> sensitivity;
     std::optional<Probability> probability;
+
+    /// Whether any entry gives pore pressure, be it zero.
+    bool has_water() const {
+        return water || !piezometric_lines.empty() || !pore_pressure_ratios.empty();
+    }
 };
 
 // ---------------------------------------------------------------- fem_solver
