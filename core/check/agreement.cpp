@@ -24,14 +24,16 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// Mean residual strength of the runout's soil, as entries of a layer.
 std::string residual_entry(const scene::Scene& scene, const scene::Ground& ground, std::size_t r,
-                           const RegionStrengths& region) {
+                           const RegionStrengths& region, const std::array<double, 2>& levels) {
     if (materials::has_state_parameter(material_of(scene, scene.section.regions[r])->law))
         return "\"norsand\": \"residual\"";
     double sum = 0.0, n = 0.0;
     for (const View& view : region.residuals()) {
         if (view.phase == "LEM" || n > 0.0) continue;
         for (const Vec2& each : spread_over(scene.section.regions[r].polygon))
-            if (const auto shear = view.at(ground.at(each, r))) sum += shear->high, ++n;
+            if (const auto shear = view.at(ground.at(each, r));
+                shear && each.y() >= levels[0] && each.y() <= levels[1])
+                sum += shear->high, ++n;
     }
     if (n == 0.0) return "\"residual_strength_kPa\": ...";
     return "\"residual_strength_kPa\": " + text(std::round(sum / n / 100.0) / 10.0);
@@ -70,9 +72,12 @@ void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std:
                     const RegionStrengths& region, const std::string& liquefies,
                     Findings& findings) {
     std::string levels;
+    constexpr double any = std::numeric_limits<double>::infinity();
+    std::array<double, 2> range{-any, any};
     if (region.is_liquefied_in_lem()) {
         const auto gap = left_out(scene, r);
         if (!gap) return;
+        range = *gap;
         levels = "\"levels\": [" + text((*gap)[0]) + ", " + text((*gap)[1]) + "], ";
     }
     warn(findings, "layers_differ", "/lem/liquefaction",
@@ -81,8 +86,8 @@ void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std:
              ", which liquefies in the runout (" + liquefies +
              "): the LEM keeps its drained strength there, and its factor of safety after "
              "liquefaction is too high; add {\"region\": " +
-             quoted(region.name()) + ", " + levels + residual_entry(scene, ground, r, region) +
-             "} in its order from the top down");
+             quoted(region.name()) + ", " + levels +
+             residual_entry(scene, ground, r, region, range) + "} in its order from the top down");
 }
 
 void warn_about_runout(const scene::Scene& scene, const RegionStrengths& region,
@@ -99,12 +104,6 @@ void warn_about_runout(const scene::Scene& scene, const RegionStrengths& region,
 }
 
 // ---------------------------------------------------------------- water
-
-/// Depth below which water counts [m].
-double shallow(const scene::Scene& scene) {
-    const geometry::Box box = extent(scene.section);
-    return 0.02 * (box.high.y() - box.low.y());
-}
 
 struct Table {
     const char* pointer;
@@ -123,11 +122,6 @@ std::vector<Table> tables_besides_lem(const scene::Scene& scene) {
     return tables;
 }
 
-bool is_reached(const scene::Scene& scene, const scene::Region& region, const Table& table) {
-    return !table.line->empty() &&
-           deepest_below(region.polygon, *table.line, level_at).below > shallow(scene);
-}
-
 /// Degree of saturation by density and void ratio, of grains of 2700 kg/m3; 0: unknown [-].
 double saturation(const scene::Material& soil) {
     if (!soil.void_ratio || *soil.void_ratio <= 0.0) return 0.0;
@@ -135,16 +129,20 @@ double saturation(const scene::Material& soil) {
     return (soil.density * (1.0 + e) / 1000.0 - 2.7) / e;
 }
 
-/// Why a region's soil is wet, by other entries than /lem's water; empty: no sign of water.
+/// Why a region's soil is wet, by entries other than /lem's water; empty: no sign of water.
 std::string sign_of_water(const scene::Scene& scene, std::size_t r, const RegionStrengths& region) {
     const scene::Region& drawn = scene.section.regions[r];
+    const std::string soil_here = quoted(region.name());
+    if (region.is_liquefied_in_lem()) return "/lem/liquefaction names " + soil_here;
     for (const Table& each : tables_besides_lem(scene))
-        if (is_reached(scene, drawn, each)) return std::string(each.pointer) + " has a line there";
+        if (scene::is_below_water(scene.section, drawn, *each.line))
+            return std::string(each.pointer) + " has a line in " + soil_here;
     if (const auto liquefies = region.liquefied_in_runout())
-        return *liquefies + " has it undrained in the runout";
+        return *liquefies + " has " + soil_here + " undrained in the runout";
     const auto peak = region.lem_peak();
     const auto shear = peak ? peak->at({10.0, 0.0, 1e5}) : std::nullopt;
-    if (shear && shear->undrained) return peak->pointer + " has it undrained, by sigma'_v0";
+    if (shear && shear->undrained)
+        return peak->pointer + " has " + soil_here + " undrained, by sigma'_v0";
     const scene::Material& soil = *material_of(scene, drawn);
     if (saturation(soil) > 0.8)
         return "density and void ratio of " + quoted(soil.name) + " are those of saturated soil";
@@ -197,8 +195,7 @@ void check_dry_lem(const scene::Scene& scene, const std::vector<RegionStrengths>
     for (std::size_t r = 0; r < strengths.size(); ++r) {
         const RegionStrengths& region = strengths[r];
         if (lem_knows_water_of(lem, r) || !region.lem_depends_on_water()) continue;
-        const std::string sign = region.is_liquefied_in_lem() ? "/lem/liquefaction names it"
-                                                              : sign_of_water(scene, r, region);
+        const std::string sign = sign_of_water(scene, r, region);
         if (sign.empty()) continue;
         if (names.empty()) why = sign;
         names.push_back(region.name());
@@ -233,7 +230,8 @@ void warn_about_dry_fem(const scene::Scene& scene, Findings& findings) {
     std::vector<std::string> names;
     for (const scene::Region& region : scene.section.regions) {
         const materials::Law& law = material_of(scene, region)->law;
-        if (materials::traits(law).frictional && is_reached(scene, region, tables.front()))
+        if (materials::traits(law).frictional &&
+            scene::is_below_water(scene.section, region, *tables.front().line))
             names.push_back(region.name);
     }
     if (names.empty()) return;

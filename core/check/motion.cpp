@@ -88,7 +88,7 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
 
 /// Warns of stages that go on long after the motion has ended.
 void check_rest(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
-    constexpr double most = 3.0;  // motions: some soil fails after the shaking
+    constexpr double most = 2.0;  // motions: some soil fails after the shaking
     const double end = dynamic_duration(fem), length = series.duration();
     if (end <= most * length) return;
     std::size_t last = fem.stages.size();

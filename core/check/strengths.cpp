@@ -38,6 +38,7 @@ std::optional<Means> means_of(const View& a, const View& b, const std::vector<Pl
         const auto one = a.at(place);
         const auto other = b.at(place);
         if (!one || !other || one->undrained != other->undrained) continue;
+        means.a.undrained = means.b.undrained = one->undrained;
         means.a.low += one->low, means.a.high += one->high;
         means.b.low += other->low, means.b.high += other->high;
         ++n;

@@ -102,8 +102,6 @@ void warn_about_friction_under_water(const scene::Scene& scene,
     if (scene.fem || !is_whole(scene)) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
-    const geometry::Box box = extent(scene.section);
-    const double shallow = 0.02 * (box.high.y() - box.low.y());
     const scene::Ground ground(scene);
     std::vector<std::size_t> told;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
@@ -113,8 +111,8 @@ void warn_about_friction_under_water(const scene::Scene& scene,
         const scene::Material& material = scene.materials[become];
         const materials::Strength strength = strength_of(material);
         if (std::ranges::find(told, become) != told.end() || strength.tan_phi == 0.0) continue;
+        if (!scene::is_below_water(scene.section, region, *line)) continue;
         const Depth deepest = deepest_below(region.polygon, *line, level_at);
-        if (deepest.below <= shallow) continue;
         const auto& limit = scene.materials[region.material].limit_strength;
         const double drained = limit ? std::tan(limit->phi) : strength.tan_phi;
         const double r_u = ground.r_u_at_base(r), sound = (1.0 - r_u) * drained;

@@ -113,4 +113,12 @@ double Ground::r_u_at_base(std::size_t region) const {
     return sigma > 0.0 ? u / sigma : 0.0;
 }
 
+bool is_below_water(const Section& section, const Region& region, const std::vector<Vec2>& line) {
+    constexpr double shallow = 0.02;  // of the section's height
+    if (line.empty()) return false;
+    const Box box = geometry::extent(section);
+    const double below = geometry::deepest_below(region.polygon, line, geometry::level_at).below;
+    return below > shallow * (box.high.y() - box.low.y());
+}
+
 }  // namespace breach::scene

@@ -48,4 +48,7 @@ class Ground {
     std::optional<Line> free_water_;  ///< line whose water above the ground has weight
 };
 
+/// Whether soil reaches so far below a water line that its pore pressure counts.
+bool is_below_water(const Section& section, const Region& region, const std::vector<Vec2>& line);
+
 }  // namespace breach::scene

@@ -224,7 +224,8 @@ void warn_about_brief_stages(Warner& d) {
     d.warn("/fem/stages/" + std::to_string(last) + "/duration",
            "the dynamic stages last " + seconds(sum) + ", and a shear wave needs " +
                seconds(rounded_up(crossing)) +
-               " to cross the section: nothing can fail before; give at least four times that");
+               " to cross the section: nothing can fail before; write \"duration\": " +
+               plain_number(rounded_up(4.0 * crossing)) + " or more");
 }
 
 /// Warns of more elements or cells than memory holds, or larger than what they divide.

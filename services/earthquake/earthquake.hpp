@@ -25,8 +25,8 @@ struct Motion {
 /// A section that falls to the right, on a level base.
 struct Section {
     std::vector<Region> regions;
-    std::map<std::string, std::string>
-        runouts;  ///< materials that another one replaces in the runout
+    /// materials that another one replaces in the runout
+    std::map<std::string, std::string> runouts;
     Line phreatic;
     Vec2 crest;                                      ///< downstream edge of the crest [m]
     double crest_from;                               ///< x of the crest's upstream edge [m]

@@ -10,6 +10,7 @@
 #include "core/words/number.hpp"
 #include "services/earthquake/earthquake.hpp"
 #include "services/templates/layers.hpp"
+#include "services/templates/wet_fill.hpp"
 
 namespace breach::templates {
 
@@ -396,6 +397,7 @@ Json scene_of(const Values& values, const Outline& outline, const std::string& n
         scene["transfer"] = transfer_of(shaken);
     }
     scene["mpm"] = runout_of(all);
+    reduce_friction_of_wet_fill(scene);
     return scene;
 }
 
