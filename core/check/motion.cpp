@@ -83,13 +83,14 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
     const double share = felt.values.size() < 2 ? 0.0 : motion::arias_intensity(felt) / whole;
     if (share >= 0.5) return;
     const double enough = motion::strong_part(acceleration).end;
-    const scene::Stage& last = fem.stages.back();
+    std::size_t last = fem.stages.size() - 1;
+    while (last > 0 && fem.stages[last].kind != scene::StageKind::dynamic) --last;
     warn(findings, "motion_cut", "/fem/stages",
          "the dynamic stages end at " + text(end) + " s, when " + text(100.0 * share) +
              " % of the motion's Arias intensity have arrived; its strong part lasts until " +
              text(enough) + " s: " +
-             words::set("/fem/stages/" + std::to_string(fem.stages.size() - 1) + "/duration",
-                        std::ceil(last.duration + enough - end)));
+             words::set("/fem/stages/" + std::to_string(last) + "/duration",
+                        std::ceil(fem.stages[last].duration + enough - end)));
 }
 
 /// Warns of damping given at a frequency outside the motion's band: other frequencies have other
