@@ -10,6 +10,7 @@
 
 #include "core/motion/measures.hpp"
 #include "core/phases/files.hpp"
+#include "core/words/remedy.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/monitors/upstream_wall.hpp"
 #include "fem_solver/monitors/viscous_share.hpp"
@@ -77,11 +78,19 @@ std::optional<fault::Flag> still_liquefying(const std::vector<Reading>& history)
         "/fem/stages"};
 }
 
-fault::Flag viscous_band(double share) {
+fault::Flag viscous_band(const scene::Fem& fem, double share) {
+    // A slide with less damping is faster: its share falls about with the damping's square root.
+    const double stiffness = std::pow(largest_viscous_share / share, 2) * fem.rayleigh_stiffness;
+    const std::string remedy =
+        fem.damping_frequency
+            ? words::set("/fem/damping/ratio",
+                         words::rounded_down(stiffness * std::numbers::pi * *fem.damping_frequency))
+            : words::set("/fem/rayleigh_stiffness", words::rounded_down(stiffness));
     return {"viscous_band", fault::Severity::warning,
             "in soil that fails, damping carries " + shown(100.0 * share) +
                 " % of what the soil itself carries in shear (at most 33 % can be trusted): it "
-                "slows the slide; halve /fem/damping/ratio and compare",
+                "slows the slide; compare with " +
+                remedy,
             "/fem/damping"};
 }
 
@@ -248,7 +257,7 @@ void report_end(Course& course) {
         const double share =
             std::ranges::max(course.history, {}, &Reading::viscous_share).viscous_share;
         facts["viscous_share"] = share;
-        if (share > largest_viscous_share) session.flag(viscous_band(share));
+        if (share > largest_viscous_share) session.flag(viscous_band(course.fem, share));
     }
     if (auto growing = still_liquefying(course.history); growing && course.fem.motion)
         session.flag(std::move(*growing));

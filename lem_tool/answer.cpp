@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/words/remedy.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/non_circular.hpp"
 #include "lem_tool/weak_layers.hpp"
@@ -19,6 +20,10 @@ constexpr double telling_difference = 0.03;
 
 /// The schema's default, for the polyline that is searched without request.
 constexpr int usual_vertices = 13;
+
+std::string with_polyline() {
+    return words::set("/lem/non_circular", "{\"vertices\":" + std::to_string(usual_vertices) + "}");
+}
 
 /// A factor of safety and whether it is valid.
 struct Candidate {
@@ -218,8 +223,8 @@ std::vector<fault::Flag> flags_of_weak_layer(const scene::Scene& scene, const Fa
         char words[256];
         std::snprintf(words, sizeof words,
                       "factor_of_safety is %.3f, and a surface of straight pieces through the weak "
-                      "layer has %.3f (Spencer). Write \"non_circular\": {\"vertices\": %d}",
-                      reported, each.factor, usual_vertices);
+                      "layer has %.3f (Spencer). %s",
+                      reported, each.factor, with_polyline().c_str());
         return {{"surfaces_disagree", fault::Severity::questionable, words, "/lem/non_circular"}};
     }
     return {};
@@ -242,11 +247,11 @@ std::vector<fault::Flag> flags_of_answer(const json& answer, const scene::Lem& l
                                  "takes; use the circle's factor",
                              "/lem/non_circular"});
         else
-            flags.push_back({"surfaces_disagree", fault::Severity::questionable,
-                             std::string(words) +
-                                 ". Check that surface by another method, or let a polyline be "
-                                 "searched: \"non_circular\": {\"vertices\": 13}",
-                             "/lem"});
+            flags.push_back(
+                {"surfaces_disagree", fault::Severity::questionable,
+                 std::string(words) + ". Check that surface by another method" +
+                     (lem.non_circular ? "" : ", or search a polyline: " + with_polyline()),
+                 "/lem"});
     }
     return flags;
 }

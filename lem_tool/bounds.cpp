@@ -6,6 +6,8 @@
 #include <iterator>
 #include <limits>
 
+#include "core/words/remedy.hpp"
+
 namespace breach::lem {
 
 using nlohmann::json;
@@ -20,10 +22,6 @@ std::string text(const char* format, Values... values) {
     char words[512];
     std::snprintf(words, sizeof words, format, values...);
     return words;
-}
-
-std::string range_text(const std::array<double, 2>& range) {
-    return text("[%.5g, %.5g]", range[0], range[1]);
 }
 
 constexpr const char* raises_factor = "bound_raises_factor";
@@ -67,17 +65,18 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
                               each.search->lowest_level.reset();
                           }});
     if (search.minimum_depth > 0.0)
-        bounds.push_back(
-            {"/lem/search/minimum_depth",
-             text("shallower than minimum_depth, %.3g m", search.minimum_depth),
-             "If such slips do harm, write \"minimum_depth\": 0", Severity::warning,
-             [](const Strata&, scene::Lem& each) { each.search->minimum_depth = 0.0; }});
+        bounds.push_back({"/lem/search/minimum_depth",
+                          text("shallower than minimum_depth, %.3g m", search.minimum_depth),
+                          "If such slips do harm, " + words::set("/lem/search/minimum_depth", 0.0),
+                          Severity::warning, [](const Strata&, scene::Lem& each) {
+                              each.search->minimum_depth = 0.0;
+                          }});
     scene::Lem wide = lem;
     widen(strata, wide);
     if (search.entry != wide.search->entry || search.exit != wide.search->exit)
         bounds.push_back({"/lem/search/entry", "outside the ranges of entry and exit",
-                          "Write \"entry\": " + range_text(wide.search->entry) +
-                              ", \"exit\": " + range_text(wide.search->exit),
+                          words::set("/lem/search/entry", wide.search->entry) + " " +
+                              words::set("/lem/search/exit", wide.search->exit),
                           Severity::questionable, widen});
     return bounds;
 }
@@ -101,11 +100,14 @@ double coarse_factor(const scene::Scene& scene, const State& state, int threads)
 }
 
 /// Flags a critical surface that ends at the limit of a range.
-std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::SlipSearch& search,
+std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::Lem& lem,
                                         const State& state) {
     std::vector<fault::Flag> flags;
+    scene::Lem wide = lem;
+    widen(strata, wide);
     const double width = strata.right() - strata.left();
-    const auto look = [&](const std::array<double, 2>& range, const std::string& end) {
+    const auto look = [&](const std::array<double, 2>& range, const std::array<double, 2>& wider,
+                          const std::string& end) {
         const double x = state.answer.at(end)[0];
         for (const double edge : range) {
             const bool ground_ends = edge <= strata.left() || edge >= strata.right();
@@ -114,12 +116,13 @@ std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::SlipS
                 {"range_edge", fault::Severity::warning,
                  "the critical surface" + state.name + " ends at the edge of this range, x = " +
                      text("%.4g m", edge) + ": a lower factor of safety may lie beyond" +
-                     (state.name.empty() ? "" : ", and another critical_depth") + "; widen it",
+                     (state.name.empty() ? "" : ", and another critical_depth") +
+                     (wider == range ? "" : "; " + words::set("/lem/search/" + end, wider)),
                  "/lem/search/" + end});
         }
     };
-    look(search.entry, "entry");
-    look(search.exit, "exit");
+    look(lem.search->entry, wide.search->entry, "entry");
+    look(lem.search->exit, wide.search->exit, "exit");
     return flags;
 }
 
@@ -200,8 +203,13 @@ std::vector<fault::Flag> flags_of_crack(const scene::Lem& lem, const State& stat
     const double taken = facts.at("share").get<double>() * given;
     const double whole = circles.factor_with_whole_crack;
     if (whole <= circles.factor() * (1.0 + telling_rise)) return {};
-    const std::string remedy = taken > 0.01 * given ? text("Write \"depth\": %.3g", taken)
-                                                    : std::string("Delete /lem/tension_crack");
+    const auto with_crack = [&](double depth) {
+        return lem.tension_crack->depth
+                   ? words::set("/lem/tension_crack/depth", words::rounded_down(depth))
+                   : words::set("/lem/tension_crack/level", ground - depth);
+    };
+    const std::string remedy =
+        taken > 0.01 * given ? with_crack(taken) : std::string("Delete /lem/tension_crack");
     const std::string at_whole =
         std::isfinite(whole) ? text("it would be %.3f", whole) : std::string("there is no surface");
     return {{"deep_crack", fault::Severity::warning,
@@ -226,7 +234,7 @@ void add_flags_of_state(const scene::Scene& scene, const State& state, int threa
     add(flags_of_crack(*scene.lem, state));
     if (scene.lem->search) {
         if (state.name.empty()) add(flags_of_weak_layer(scene, state.families, state.answer));
-        add(flags_of_edges(state.model.strata, *scene.lem->search, state));
+        add(flags_of_edges(state.model.strata, *scene.lem, state));
         add(flags_of_bounds(scene, state, threads, flags));
     }
     add(flags_of_upstream_end(state.model.strata, state));

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/words/remedy.hpp"
 #include "lem_tool/limit_scene.hpp"
 #include "lem_tool/search.hpp"
 
@@ -108,8 +109,9 @@ std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene) {
               << " m, y = " << at.y
               << " m), and judged by its drained strength alone: it can fail undrained at a factor "
                  "of "
-                 "safety far above 1; give {\"region\": \""
-              << name << R"(", "norsand": "peak"} in /lem/undrained)";
+                 "safety far above 1; "
+              << words::set("/lem/undrained/-",
+                            "{\"region\":\"" + name + "\",\"norsand\":\"peak\"}");
         flags.push_back(
             {"drained_only", fault::Severity::questionable, words.str(), "/lem/undrained"});
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 #include "core/exchange/publish.hpp"
@@ -152,7 +153,14 @@ bool stood(const scene::Mpm& mpm, const Simulation& simulation) {
            std::abs(last.runout_largest - first.runout_largest) < mpm.cell_size;
 }
 
-Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
+double points_per_cell(const scene::Scene& scene, const Points& points) {
+    const double cell = std::pow(scene::mpm_of(scene).cell_size, 2) * scene.thickness;
+    const auto& V_0 = points.V_0;
+    return cell * static_cast<double>(V_0.size()) / std::accumulate(V_0.begin(), V_0.end(), 0.0);
+}
+
+Ending ending_of(const Session& session, const Simulation& simulation) {
+    const scene::Mpm& mpm = scene::mpm_of(session.scene());
     const Row& row = simulation.last_row();
     const double scale = simulation.scale_of_energy();
     const auto share = [&](double J) { return scale > 0.0 ? J / scale : 0.0; };
@@ -170,6 +178,10 @@ Ending ending_of(const scene::Mpm& mpm, const Simulation& simulation) {
             .until_rest = mpm.until_rest,
             .tension_share = mpm.tension_share,
             .damping_ratio = mpm.damping_ratio,
+            .overlap_rate = mpm.overlap_correction.rate,
+            .points_per_cell = points_per_cell(session.scene(), simulation.body().points),
+            .filled = session.settings().inputs.empty(),
+            .scaled = mpm.stiffness_scale != 1.0,
             .mach = fastest_of(simulation.records().history) / wave_speed(simulation.body()),
             .softer = std::ranges::any_of(simulation.body().zones, [](const Zone& each) {
                 return each.elasticity.bulk_modulus() < (1.0 - 1e-9) * each.K_drawn;
@@ -333,7 +345,7 @@ void write_results(Session& session, const Simulation& simulation, double speed)
     write_history(session, simulation);
     write_profile(session, simulation);
     write_envelope(session, simulation);
-    const Ending ending = ending_of(*session.scene().mpm, simulation);
+    const Ending ending = ending_of(session, simulation);
     conclude(session, simulation, ending, speed);
     for (fault::Flag& each : flags_of_ending(ending)) session.flag(std::move(each));
     for (fault::Flag& each :

@@ -8,6 +8,7 @@
 #include "core/exchange/excess_pressure.hpp"
 #include "core/geometry/polyline.hpp"
 #include "core/words/number.hpp"
+#include "core/words/remedy.hpp"
 #include "transfer_tool/points.hpp"
 
 namespace breach::transfer {
@@ -141,6 +142,7 @@ std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double
     const auto [narrowest, widest] = std::ranges::minmax_element(gaps, {}, width);
     const bool no_wall = width(*narrowest) < cells_of_a_wall * cell_size;
     const LiquefiedGap& gap = no_wall ? *narrowest : *widest;
+    const std::string pointer = "/transfer/liquefied/narrowest_wall";
     const auto text = [](double value) {
         return words::text_of(std::round(100.0 * value) / 100.0);
     };
@@ -152,9 +154,10 @@ std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double
             std::to_string(gaps.size()) +
             " such gaps): single nodes near the threshold of r_u decide, and a wall of unliquefied "
             "soil "
-            "can hold the runout back; set /transfer/liquefied/narrowest_wall to two cells of the "
-            "MPM or more, or compare neighbouring transfer times",
-        "/transfer/liquefied/narrowest_wall"};
+            "can hold the runout back; " +
+            (no_wall ? words::set(pointer, cells_of_a_wall * cell_size) + ", or " : "") +
+            "compare neighbouring transfer times",
+        pointer};
 }
 
 }  // namespace breach::transfer

@@ -7,6 +7,7 @@
 #include "core/scene/resolution.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
+#include "core/words/remedy.hpp"
 
 namespace breach::check {
 
@@ -74,13 +75,12 @@ void check_support(const scene::Scene& scene, Findings& findings) {
     if (gap.size == 0.0) return;
     const bool on_floor = mpm.terrain.empty();
     const double support = on_floor ? mpm.floor.level : straight_level_at(mpm.terrain, gap.x);
-    const std::string level = text(support + gap.size);
     warn(findings, "implausible", on_floor ? "/mpm/floor/level" : "/mpm/terrain",
          "the section lies up to " + metres(gap.size) + " above the " +
              (on_floor ? "floor" : "terrain") + " (from x = " + text(gap.from) + " to " +
              metres(gap.to) + ", most at x = " + metres(gap.x) +
              "): the soil falls as far before it flows; " +
-             (on_floor ? "write \"floor\": {\"level\": " + level + "}"
+             (on_floor ? words::set("/mpm/floor/level", support + gap.size)
                        : "raise the terrain to y = " + metres(support + gap.size) + " there") +
              ", or draw the soil that fills the gap");
 }
@@ -95,11 +95,11 @@ void check_stiffness(const scene::Scene& scene, Findings& findings) {
     const double enough = mpm.stiffness_scale * std::pow(flow / (scene::refused_mach * wave), 2);
     const double unit = std::pow(10.0, std::floor(std::log10(enough)) - 1.0);
     const auto shown = [](double value) { return words::text_of(value, 3); };
-    refuse(
-        findings, "/mpm/stiffness_scale",
-        "leaves the fastest wave " + shown(wave) + " m/s, and soil can fall at " + shown(flow) +
-            " m/s: Mach " + shown(flow / wave) + ", more than " + shown(scene::refused_mach),
-        "give at least " + shown(std::min(std::ceil(enough / unit) * unit, 1.0)) + ", or \"auto\"");
+    refuse(findings, "/mpm/stiffness_scale",
+           "leaves the fastest wave " + shown(wave) + " m/s, and soil can fall at " + shown(flow) +
+               " m/s: Mach " + shown(flow / wave) + ", more than " + shown(scene::refused_mach),
+           "write at least " + shown(std::min(std::ceil(enough / unit) * unit, 1.0)) +
+               ", or \"auto\"");
 }
 
 void check_toe(const scene::Scene& scene, Findings& findings) {
@@ -137,8 +137,8 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
          "begins " + metres(gap) + " before the section, whose soil ends at x = " + metres(end) +
              " in a free face of " + metres(face) +
              ": the FEM supports it there, but in the runout it falls upstream, which shortens the "
-             "runout; begin the grid at x = " +
-             metres(end));
+             "runout; begin the grid there: " +
+             words::set("/mpm/domain_x", std::array{end, mpm.domain_x[1]}));
 }
 
 /// x of the crest's downstream edge: the last place before the toe that is nearly as high as any

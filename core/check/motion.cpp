@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/check/applied_motion.hpp"
@@ -6,6 +7,7 @@
 #include "core/check/recordings.hpp"
 #include "core/check/section.hpp"
 #include "core/motion/plausibility.hpp"
+#include "core/words/remedy.hpp"
 
 namespace breach::check {
 
@@ -79,11 +81,16 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
     felt.values.resize(std::min(felt.values.size(), static_cast<std::size_t>(end / felt.dt) + 1));
     const double whole = motion::arias_intensity(acceleration);
     const double share = felt.values.size() < 2 ? 0.0 : motion::arias_intensity(felt) / whole;
-    if (share < 0.5)
-        warn(findings, "motion_cut", "/fem/stages",
-             "the dynamic stages end at " + text(end) + " s, when " + text(100.0 * share) +
-                 " % of the motion's Arias intensity have arrived; its strong part lasts until " +
-                 text(motion::strong_part(acceleration).end) + " s: lengthen the last stage");
+    if (share >= 0.5) return;
+    const double enough = motion::strong_part(acceleration).end;
+    std::size_t last = fem.stages.size() - 1;
+    while (last > 0 && fem.stages[last].kind != scene::StageKind::dynamic) --last;
+    warn(findings, "motion_cut", "/fem/stages",
+         "the dynamic stages end at " + text(end) + " s, when " + text(100.0 * share) +
+             " % of the motion's Arias intensity have arrived; its strong part lasts until " +
+             text(enough) + " s: " +
+             words::set("/fem/stages/" + std::to_string(last) + "/duration",
+                        std::ceil(fem.stages[last].duration + enough - end)));
 }
 
 /// Warns of stages that go on long after the motion has ended.

@@ -5,6 +5,7 @@
 
 #include "core/check/findings.hpp"
 #include "core/check/section.hpp"
+#include "core/words/remedy.hpp"
 
 namespace breach::check {
 
@@ -62,7 +63,8 @@ bool check_range(const scene::Scene& scene, const std::array<double, 2>& range,
     if (range[0] < box.low.x() - near || range[1] > box.high.x() + near)
         warn(findings, "beyond_ground", pointer,
              "part of [" + text(range[0]) + ", " + text(range[1]) + "] has no ground below it; " +
-                 reach_of_ground(scene));
+                 words::set(pointer, std::array{std::max(range[0], box.low.x()),
+                                                std::min(range[1], box.high.x())}));
     return true;
 }
 
@@ -234,7 +236,8 @@ void check_order(const scene::Scene& scene, Findings& findings) {
              "counts depths from " + metres(zero) +
                  ", critical_depth from the top of the first layer of /lem/liquefaction, " +
                  metres(top) +
-                 ": a trigger that compares them fires at another depth than it says");
+                 ": a trigger that compares them fires at another depth than it says; " +
+                 words::set("/fem/liquefaction/level", top));
 }
 
 bool may_be_wet(const scene::Lem& lem, std::size_t region) {

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "core/words/remedy.hpp"
+
 namespace breach::motion {
 
 namespace {
@@ -157,8 +159,9 @@ Remarks remarks_about(const Recording& motion, const std::string& pointer) {
         find.flag("drifting_motion", "the motion leaves " + text(left.last_velocity, " m/s") +
                                          " at its end, " + text(100.0 * left.velocity_share, " %") +
                                          " of its peak velocity, and moves everything by " +
-                                         text(left.last_displacement, " m") +
-                                         ": \"baseline\": \"corrected\" takes both off");
+                                         text(left.last_displacement, " m") + ": " +
+                                         words::set("/fem/motion/baseline", "corrected") +
+                                         " takes both off");
     }
     return std::move(find.remarks);
 }
@@ -195,8 +198,8 @@ std::optional<fault::Flag> warning_about_step(const Series& motion, double time_
     return fault::Flag{"coarse_step", fault::Severity::warning,
                        "steps of " + text(time_step, " s") + " pass over " + text(samples) +
                            " samples of the motion (" + text(motion.dt, " s") +
-                           " apart): its peaks are missed; give at most " +
-                           text(std::max(fine, 2.0 * motion.dt), " s"),
+                           " apart): its peaks are missed; " +
+                           words::set(pointer, std::max(fine, 2.0 * motion.dt)),
                        pointer};
 }
 

@@ -11,6 +11,7 @@
 #include "core/geometry/thickness.hpp"
 #include "core/scene/beds.hpp"
 #include "core/words/number.hpp"
+#include "core/words/remedy.hpp"
 
 namespace breach::scene {
 
@@ -18,11 +19,9 @@ namespace {
 
 std::string text_of(double value) { return words::text_of(value, 3); }
 
-/// Never rounds up a number below a limit.
-std::string rounded_down(double value) {
-    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-    return text_of(std::floor(value / unit) * unit);
-}
+std::string with_cells_of(double size) { return words::set("/mpm/cell_size", size); }
+
+std::string with_cells_below(double size) { return with_cells_of(words::rounded_down(size)); }
 
 bool as_strong(const Material& a, const Material& b) {
     if (&a == &b) return true;
@@ -91,9 +90,9 @@ void judge_fine_cells(const Scene& scene, Resolved& resolved) {
     resolved.flags.push_back(
         {"implausible", fault::Severity::warning,
          text_of(h) + " m fills the section with " + std::to_string(std::lround(cells)) +
-             " cells, and the time to compute grows with the third power of their number across: "
-             "cells of " +
-             rounded_down(std::sqrt(area / (0.1 * most_cells))) + " m have a tenth of that",
+             " cells, and the time to compute grows with the third power of their number across; a "
+             "tenth of them: " +
+             with_cells_below(std::sqrt(area / (0.1 * most_cells))),
          "/mpm/cell_size"});
 }
 
@@ -105,23 +104,22 @@ void judge_cells(const Scene& scene, Resolved& resolved) {
     const double number = coarsest->length / h;
     const std::string found = text_of(number) + " cells of " + text_of(h) + " m across " +
                               coarsest->what + ", " + text_of(coarsest->length) + " m";
-    const std::string fine = rounded_down(coarsest->length / cells_wanted) + " m";
+    const std::string fine = with_cells_below(coarsest->length / cells_wanted);
     const bool refused = number < least_cells;
     if (refused && !scene.mpm->allow_coarse_cells) {
         resolved.faults.push_back(
             {"/mpm/cell_size", "gives " + found + ": it could not shear within itself",
-             "take cells of at most " + rounded_down(coarsest->length / least_cells) + " m (" +
-                 fine + " for " + text_of(cells_wanted) +
-                 " across it), or for a quick look set /mpm/allow_coarse_cells to true: the result "
-                 "is then questionable"});
+             "write " + with_cells_below(coarsest->length / least_cells) + " or less (" + fine +
+                 " for " + text_of(cells_wanted) + " across it), or for a quick look " +
+                 words::set("/mpm/allow_coarse_cells", "true") + " (a questionable result)"});
         return;
     }
-    resolved.flags.push_back(
-        {"coarse_cells", refused ? fault::Severity::questionable : fault::Severity::warning,
-         "only " + found + " (" + text_of(cells_wanted) +
-             " are wanted): coarse cells shorten the runout; compare with cells of " + fine +
-             " before relying on it",
-         "/mpm/cell_size"});
+    resolved.flags.push_back({"coarse_cells",
+                              refused ? fault::Severity::questionable : fault::Severity::warning,
+                              "only " + found + " (" + text_of(cells_wanted) +
+                                  " are wanted): coarse cells shorten the runout; compare with " +
+                                  fine + " before relying on it",
+                              "/mpm/cell_size"});
 }
 
 /// At this normal stress [Pa].
@@ -152,8 +150,8 @@ void judge_weak_layers(const Scene& scene, Resolved& resolved) {
              "only " + text_of(*thickness / h) + " cells of " + text_of(h) + " m across region \"" +
                  layer.name + "\", " + text_of(*thickness) +
                  " m, which is weaker than the soil that it carries: slides along it are missed or "
-                 "too short; take cells of at most " +
-                 rounded_down(*thickness / least_cells) + " m",
+                 "too short; " +
+                 with_cells_below(*thickness / least_cells),
              "/mpm/cell_size"});
     }
 }
@@ -181,9 +179,8 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
         return;
     }
     const std::string found = "is " + text_of(cells) + " cells of " + text_of(mpm.cell_size) + " m";
-    const std::string wanted = "take cells of at most " +
-                               rounded_down(*soil.nonlocal_length / nonlocal_cells_wanted) +
-                               " m or a longer length";
+    const std::string wanted =
+        with_cells_below(*soil.nonlocal_length / nonlocal_cells_wanted) + ", or a longer length";
     if (cells < least_nonlocal_cells) {
         resolved.faults.push_back(
             {pointer, found + ": an average over so few nodes leaves the band to the lattice",
@@ -196,13 +193,17 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     }
 }
 
-void judge_lack_of_length(const Material& soil, Resolved& resolved) {
+void judge_lack_of_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     const materials::Softening* softening = materials::softening(soil.law);
     if (!softening || softening->epsilon_q_end > brittle_until) return;
     resolved.flags.push_back(
         {"local_softening", fault::Severity::warning,
          "softens without a length: its shear bands are as wide as a cell, and cells half as large "
-         "have changed runouts by up to 30 %; give it a nonlocal_length of two cells or more",
+         "have changed runouts by up to 30 %; give it a length of two cells: " +
+             words::set("/materials/" + soil.name + "/nonlocal_length", 2.0 * mpm.cell_size) +
+             (mpm.softening_length ? ""
+                                   : " " + words::set("/mpm/softening_length", mpm.cell_size) +
+                                         " (the cells that its softening strains are for)"),
          "/materials/" + soil.name});
 }
 
@@ -228,13 +229,19 @@ void judge_widest_band(const Scene& scene, const std::vector<Soil>& soils, Resol
         widest = {&soil, &region, *thickness};
     }
     if (!widest) return;
+    const std::string pointer = "/materials/" + widest->soil->name + "/nonlocal_length";
+    const double h = scene.mpm->cell_size;
+    const double length =
+        words::rounded_down(widest_band_share * widest->thickness / band_in_nonlocal_lengths);
     resolved.flags.push_back(
         {"wide_band", fault::Severity::warning,
          "bands of shear are " + text_of(band_width(*widest->soil, *scene.mpm)) +
              " m wide in region \"" + widest->region->name + "\" of " + text_of(widest->thickness) +
-             " m: it cannot break into blocks; a shorter nonlocal_length "
-             "needs smaller cells",
-         "/materials/" + widest->soil->name + "/nonlocal_length"});
+             " m: it cannot break into blocks; " + words::set(pointer, length) +
+             (length < nonlocal_cells_wanted * h
+                  ? " " + with_cells_below(length / nonlocal_cells_wanted)
+                  : ""),
+         pointer});
 }
 
 void judge_bands(const Scene& scene, Resolved& resolved) {
@@ -245,7 +252,7 @@ void judge_bands(const Scene& scene, Resolved& resolved) {
         if (soil.nonlocal_length)
             judge_length(soil, *scene.mpm, resolved);
         else
-            judge_lack_of_length(soil, resolved);
+            judge_lack_of_length(soil, *scene.mpm, resolved);
     }
     judge_widest_band(scene, soils, resolved);
 }
@@ -253,8 +260,8 @@ void judge_bands(const Scene& scene, Resolved& resolved) {
 /// Cell sizes that divide the height of a bed: just below and just above the scene's.
 std::string cells_dividing(const Mpm& mpm, double height) {
     const double rows = height / mpm.cell_size;
-    std::string sizes = words::text_of(height / std::ceil(rows)) + " m";
-    if (rows > 1.0) sizes += " or " + words::text_of(height / std::floor(rows)) + " m";
+    std::string sizes = with_cells_of(height / std::ceil(rows));
+    if (rows > 1.0) sizes += " or " + with_cells_of(height / std::floor(rows));
     return sizes;
 }
 
@@ -262,11 +269,10 @@ std::string cells_dividing(const Mpm& mpm, double height) {
 std::string floor_with_a_line_at(const Mpm& mpm, double level) {
     const double h = mpm.cell_size;
     const double floor = level - h * std::ceil(cells_up_to(mpm, level));
-    const double low = floor - (mpm.floor.level - mpm.domain_y[0]);
-    const double high = low + (mpm.domain_y[1] - mpm.domain_y[0]) + h;
-    return "set /mpm/floor/level to " + words::text_of(floor, 9) + " and /mpm/domain_y to [" +
-           words::text_of(low, 9) + ", " + words::text_of(high, 9) +
-           "], which moves a line of the grid there (the terrain carries the soil, not the floor)";
+    return words::set("/mpm/floor/level", floor) + " " +
+           words::set("/mpm/domain_y",
+                      std::array{std::min(floor, mpm.domain_y[0]), mpm.domain_y[1]}) +
+           " moves a line of the grid there (the terrain carries the soil, not the floor)";
 }
 
 struct CutBed {
@@ -290,12 +296,10 @@ std::optional<CutBed> cut_of(const Scene& scene, const Bed& bed) {
     const std::string how =
         at + text_of(rows - std::floor(rows)) + " of a cell above a line of the grid";
     if (!mpm.terrain.empty()) return CutBed{how, floor_with_a_line_at(mpm, *bed.level)};
-    return CutBed{how,
-                  "take cells that divide the " + text_of(*bed.level - mpm.floor.level) +
-                      " m from the floor up to it (" +
-                      cells_dividing(mpm, *bed.level - mpm.floor.level) +
-                      "; the domain's lengths are to be whole numbers of them), or move the floor "
-                      "and the domain"};
+    return CutBed{how, "take cells that divide the " + text_of(*bed.level - mpm.floor.level) +
+                           " m from the floor up to it (" +
+                           cells_dividing(mpm, *bed.level - mpm.floor.level) +
+                           "), or move the floor"};
 }
 
 /// Flags mobile soil on beds of firm soil.
@@ -327,13 +331,15 @@ void judge_elements(const Region& region, const std::string& pointer, Resolved& 
         divided ? any : elements_wanted * region.element_size, region.polygon);
     if (!thickness) return;
     const double number = divided ? std::min(along, up) : *thickness / region.element_size;
+    const std::string size = words::text_of(words::rounded_down(*thickness / elements_wanted));
     resolved.flags.push_back(
         {"coarse_elements", fault::Severity::warning,
          "region \"" + region.name + "\", " + text_of(*thickness) + " m thick, is " +
              text_of(number) +
-             " elements thick: it can hardly bend, and no band of failure can form within it; "
-             "take elements of at most " +
-             rounded_down(*thickness / elements_wanted) + " m",
+             " elements thick: it can hardly bend, and no band of failure can form within it; " +
+             (divided
+                  ? "take elements of at most " + size + " m"
+                  : words::set(pointer, R"({"type":"unstructured","element_size":)" + size + "}")),
          pointer});
 }
 

@@ -1,8 +1,10 @@
 #include "mpm_solver/measure/ending_flags.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/words/number.hpp"
+#include "core/words/remedy.hpp"
 
 namespace breach::mpm {
 
@@ -16,11 +18,11 @@ std::string three_digits(double value) { return words::text_of(value, 3); }
 Flag still_moving(const Ending& ending) {
     const char* bound = ending.until_rest ? "/mpm/longest_duration" : "/mpm/duration";
     const bool waves = ending.stood && ending.damping_ratio < usual_damping_ratio;
-    const std::string remedy =
-        waves ? "the soil stands, and its stress waves are not damped: write \"damping_ratio\": " +
-                    three_digits(usual_damping_ratio)
-        : ending.until_rest ? "raise /mpm/longest_duration"
-                            : "raise /mpm/duration or set it to until_rest (--until-rest)";
+    const std::string remedy = waves ? "the soil stands, and its stress waves are not damped: " +
+                                           words::set("/mpm/damping_ratio", usual_damping_ratio)
+                               : ending.until_rest
+                                   ? words::set(bound, 2.0 * ending.time)
+                                   : words::set(bound, "until_rest") + ", or a longer one";
     return {"still_moving", Severity::questionable,
             "still moving at " + three_digits(ending.time) + " s with " +
                 three_digits(100.0 * ending.kinetic_share) + " % of the released energy (" +
@@ -32,30 +34,49 @@ Flag still_moving(const Ending& ending) {
 /// size.
 std::string or_tension(const Ending& ending, const std::string& remedy) {
     if (ending.tension_share >= usual_tension_share) return remedy;
-    return "write \"tension_share\": " + three_digits(usual_tension_share) +
+    return words::set("/mpm/tension_share", usual_tension_share) +
            " where the soil has cohesion; else " + remedy;
 }
 
+/// Names at most half the cells: a deposit that flows farther on finer cells gets thinner.
 Flag thin_deposit(const Ending& ending) {
-    return {
-        "thin_deposit", Severity::warning,
-        "what lies beyond the toe is " + three_digits(ending.deposit_depth) +
-            " m deep on the mean, " + three_digits(ending.deposit_depth / ending.cell_size) +
-            " cells: on fewer than " + three_digits(deposit_cells_wanted) +
-            " a runout is likely too short, the unsafe side; a run with half the /mpm/cell_size "
-            "tells by how much",
-        "/mpm/cell_size"};
+    const double h = ending.cell_size;
+    const double enough = words::rounded_down(ending.deposit_depth / deposit_cells_wanted);
+    return {"thin_deposit", Severity::warning,
+            "what lies beyond the toe is " + three_digits(ending.deposit_depth) +
+                " m deep on the mean, " + three_digits(ending.deposit_depth / h) +
+                " cells: on fewer than " + three_digits(deposit_cells_wanted) +
+                " a runout is likely too short, the unsafe side; compare with " +
+                words::set("/mpm/cell_size", std::max(enough, 0.5 * h)) +
+                " until two cell sizes agree within 5 %",
+            "/mpm/cell_size"};
+}
+
+bool has_few_points(const Ending& ending) {
+    constexpr double almost = 0.9;  // cut cells and compression change the mean
+    return ending.points_per_cell < almost * usual_points_per_cell;
+}
+
+std::string with_more_points(const Ending& ending) {
+    return ending.filled ? words::set("/mpm/fill_points", std::sqrt(usual_points_per_cell))
+                         : words::set("/transfer/points_per_cell", usual_points_per_cell);
 }
 
 Flag overlap(const Ending& ending) {
     const bool trusted = ending.overlap <= largest_overlap;
+    std::string remedy;
+    if (ending.overlap_rate < usual_overlap_rate)
+        remedy = words::set("/mpm/overlap_correction/rate", usual_overlap_rate);
+    if (has_few_points(ending)) remedy += (remedy.empty() ? "" : " ") + with_more_points(ending);
     return {
         "overlap", trusted ? Severity::warning : Severity::questionable,
         three_digits(100.0 * ending.overlap) +
             " % of the mobile soil overlaps (from 1 % on a runout is too short, beyond 5 % it is "
             "unreliable): the deposit lacks this volume, mostly at its front; runouts with 1 to 7 "
-            "% were 3 to 17 % too short; set /mpm/overlap_correction/rate to 5 with 16 points per "
-            "cell, or take more points",
+            "% were 3 to 17 % too short; " +
+            (remedy.empty() ? "rate and points are those advised: compare with " +
+                                  words::set("/mpm/cell_size", 0.5 * ending.cell_size)
+                            : remedy),
         "/mpm/overlap_correction/rate"};
 }
 
@@ -65,8 +86,10 @@ Flag overlap_work(const Ending& ending) {
                 " % of the released energy (5 % can be trusted), and the rest of the scheme took " +
                 three_digits(100.0 * (ending.numerical_share + ending.correction_share)) +
                 " %: the two cancel in the energy, not in the runout, which may be a tenth too "
-                "long and depends on where the points lie; compare with 16 points per cell (4 per "
-                "direction)",
+                "long and depends on where the points lie; compare with " +
+                (has_few_points(ending)
+                     ? with_more_points(ending)
+                     : words::set("/mpm/overlap_correction/rate", 0.5 * ending.overlap_rate)),
             "/mpm/overlap_correction/rate"};
 }
 
@@ -90,8 +113,8 @@ std::vector<Flag> flags_of_ending(const Ending& ending) {
         flags.push_back({"high_mach", Severity::warning,
                          "the flow reached Mach " + words::text_of(ending.mach, 2) +
                              " in soil that is softer than the scene's (at most 0.1 can be "
-                             "trusted): the flow compresses it; give a larger "
-                             "/mpm/stiffness_scale",
+                             "trusted): the flow compresses it; " +
+                             words::set("/mpm/stiffness_scale", ending.scaled ? "auto" : "1"),
                          "/mpm/stiffness_scale"});
     if (ending.moving) flags.push_back(still_moving(ending));
     const bool much = !(std::abs(ending.numerical_share) <= largest_numerical_share);
@@ -115,9 +138,10 @@ std::vector<Flag> flags_of_ending(const Ending& ending) {
                          "the mobile soil has " + three_digits(ending.volume_ratio) +
                              " of its initial volume (0.8 to 1.3 can be trusted): depth and "
                              "length of the deposit are wrong; " +
-                             or_tension(ending,
-                                        "look for spray in the last frame, set /mpm/gap_room, "
-                                        "try smaller cells or a smaller /mpm/cfl"),
+                             or_tension(ending, "look for spray in the last frame, try " +
+                                                    words::set("/mpm/gap_room", "true") +
+                                                    ", "
+                                                    "try smaller cells or a smaller /mpm/cfl"),
                          "/mpm"});
     }
     if (!(ending.overlap <= told_overlap)) flags.push_back(overlap(ending));

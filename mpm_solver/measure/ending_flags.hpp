@@ -41,6 +41,10 @@ constexpr double deposit_cells_wanted = 5.0;
 constexpr double usual_tension_share = 0.03;
 constexpr double usual_damping_ratio = 0.1;
 
+/// Against overlap (docs/verification/mpm_convergence.md).
+constexpr double usual_overlap_rate = 5.0;
+constexpr double usual_points_per_cell = 16.0;
+
 /// Limit of the Mach number for soil softer than in the scene: beyond it the flow compresses the
 /// soil by 1 % and more, as in any weakly compressible method.
 constexpr double largest_mach = 0.1;
@@ -56,13 +60,17 @@ struct Ending {
     double correction_share;  ///< of the same, by the overlap correction [-]
     double volume_ratio;
     double overlap;
-    double deposit_depth;  ///< mean over the soil beyond the toe; 0: none there [m]
-    double cell_size;      ///< [m]
-    bool until_rest;       ///< the run should continue to rest, and reached its time limit
-    double tension_share;  ///< /mpm/tension_share
-    double damping_ratio;  ///< /mpm/damping_ratio
-    double mach;           ///< largest speed over the fastest wave [-]
-    bool softer;           ///< soil is softer than in the scene, for longer time steps
+    double deposit_depth;    ///< mean over the soil beyond the toe; 0: none there [m]
+    double cell_size;        ///< [m]
+    bool until_rest;         ///< the run should continue to rest, and reached its time limit
+    double tension_share;    ///< /mpm/tension_share
+    double damping_ratio;    ///< /mpm/damping_ratio
+    double overlap_rate;     ///< /mpm/overlap_correction/rate
+    double points_per_cell;  ///< mean at the start
+    bool filled;             ///< the points fill the section; false: from a transfer
+    bool scaled;             ///< /mpm/stiffness_scale is a number
+    double mach;             ///< largest speed over the fastest wave [-]
+    bool softer;             ///< soil is softer than in the scene, for longer time steps
 };
 
 std::vector<fault::Flag> flags_of_ending(const Ending& ending);

@@ -7,6 +7,7 @@
 
 #include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
+#include "core/words/remedy.hpp"
 #include "mpm_solver/body/terrain.hpp"
 
 namespace breach::mpm {
@@ -33,14 +34,15 @@ double rise_at(const FlowView& view, const Depths& depths, std::size_t k) {
 Flag pressed(const char* side, double x, double rise, const scene::Mpm& mpm) {
     const double length = mpm.domain_x[1] - mpm.domain_x[0];
     const bool right = x > mpm.domain_x[0];
-    const std::string low = text_of(mpm.domain_x[0] - (right ? 0.0 : length), 9);
-    const std::string high = text_of(mpm.domain_x[1] + (right ? length : 0.0), 9);
+    const std::array wider{mpm.domain_x[0] - (right ? 0.0 : length),
+                           mpm.domain_x[1] + (right ? length : 0.0)};
     return {"reached_wall", Severity::questionable,
             "soil came against the " + std::string(side) + " wall of the grid (x = " +
                 text_of(x, 9) + " m), where it stood up to " + text_of(rise) +
                 " m higher than before: no real slope has such a wall, and the runout is too short "
-                "(unsafe); write \"domain_x\": [" +
-                low + ", " + high + "], and draw ground, terrain and friction zones as far",
+                "(unsafe); " +
+                words::set("/mpm/domain_x", wider) +
+                ", and draw ground, terrain and friction zones as far",
             "/mpm/domain_x"};
 }
 

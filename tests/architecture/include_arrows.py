@@ -27,7 +27,7 @@ core = {
     "core/grid": {"core/materials"},
     "core/scene": {"core/fault", "core/geometry", "core/grid", "core/materials", "core/mechanics", "core/words"},
     "core/exchange": {"core/fault", "core/mechanics", "core/words"},
-    "core/motion": {"core/fault"},
+    "core/motion": {"core/fault", "core/words"},
     "core/check": {"core/criteria", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/scene", "core/telemetry", "core/words"},
     "core/process": {"core/check", "core/fault", "core/phases", "core/scene", "core/exchange", "core/telemetry", "core/version"},
 }

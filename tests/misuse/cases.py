@@ -149,7 +149,7 @@ cases = [
     Case("terrain through the dam", M, "refused", r"terrain", {"/mpm/terrain": [[-40.5, 10], [659.5, 10]]}, drops=["/mpm/floor/friction"]),
     Case("terrain 2 m below the dam", M, "warned", r"section lies up to 2 m above the terrain \(from x = -207\.5 to 280 m",
          {"/mpm/terrain": [[-212, -7], [280.5, -7], [281, 0], [692, 0]]}),
-    Case("a floor 1 m below the section", "slope", "warned", r"section lies up to 1 m above the floor.*\"level\": -5",
+    Case("a floor 1 m below the section", "slope", "warned", r"section lies up to 1 m above the floor.*/mpm/floor/level=-5",
          {"/mpm/domain_y": [-6, 15], "/mpm/floor/level": -6}),
     Case("friction that ends where the dam does", M, "warned", r"no zone covers x = 220 to 692 m",
          {"/mpm/floor/friction": [{"from": -208, "to": 220, "coefficient": 0.7}]}),

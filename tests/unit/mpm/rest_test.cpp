@@ -169,6 +169,10 @@ Ending sound() {
             .until_rest = false,
             .tension_share = usual_tension_share,
             .damping_ratio = usual_damping_ratio,
+            .overlap_rate = 0.0,
+            .points_per_cell = 4.0,
+            .filled = true,
+            .scaled = false,
             .mach = 0.5,
             .softer = false};
 }
@@ -193,7 +197,7 @@ TEST(EndingFlags, AreNoneOfASoundRunAndOneForEachLimitPassed) {
     EXPECT_EQ(codes(ending), Codes{"still_moving"});
     EXPECT_THAT(flags_of_ending(ending)[0].message,
                 HasSubstr("still moving at 12 s with 12 % of the released energy"));
-    EXPECT_THAT(flags_of_ending(ending)[0].message, HasSubstr("raise /mpm/duration"));
+    EXPECT_THAT(flags_of_ending(ending)[0].message, HasSubstr("--set /mpm/duration=until_rest"));
     ending.until_rest = true;
     EXPECT_EQ(flags_of_ending(ending)[0].pointer, "/mpm/longest_duration");
     for (const double share : {-0.21, 0.21, std::nan("")}) {

@@ -87,7 +87,8 @@ TEST(Beds, AnEdgeWithinACellIsReportedWithCellsThatFit) {
     const std::string told = shared_cells(document);
     EXPECT_NE(told.find("\"ground\" lies at 0 m, 0.333 of a cell above a line"), std::string::npos)
         << told;
-    EXPECT_NE(told.find("1 m or 2 m"), std::string::npos) << told;
+    EXPECT_NE(told.find("--set /mpm/cell_size=1 or --set /mpm/cell_size=2"), std::string::npos)
+        << told;
 }
 
 TEST(Beds, OnTerrainTheReportNamesAFloorThatFits) {
@@ -97,11 +98,11 @@ TEST(Beds, OnTerrainTheReportNamesAFloorThatFits) {
     document["mpm"]["floor"]["level"] = -5;
     document["mpm"]["terrain"] = json::parse("[[0,-2],[90,-2]]");
     const std::string told = shared_cells(document);
-    EXPECT_NE(told.find("/mpm/floor/level to -6 and /mpm/domain_y to [-6, 13.5]"),
+    EXPECT_NE(told.find("--set /mpm/floor/level=-6 --set '/mpm/domain_y=[-6,13]'"),
               std::string::npos)
         << told;
     document["mpm"]["floor"]["level"] = -6;
-    document["mpm"]["domain_y"] = {-6, 13.5};
+    document["mpm"]["domain_y"] = {-6, 13};
     EXPECT_EQ(shared_cells(document), "");
     EXPECT_EQ(scene::rows_below_bed(parsed(document), firm), 4);
 }

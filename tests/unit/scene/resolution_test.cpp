@@ -89,13 +89,11 @@ TEST(Cells, FewerThanTwoAreRefusedWithTheSizeThatWouldDoUnlessTheSceneSaysSo) {
         EXPECT_NE(error.faults()[0].remedy.find("allow_coarse_cells"), std::string::npos);
         // The remedy's size is accepted.
         const std::string& remedy = error.faults()[0].remedy;
-        const double enough = std::stod(remedy.substr(remedy.find("at most ") + 8));
+        const double enough = std::stod(remedy.substr(remedy.find("/mpm/cell_size=") + 15));
         EXPECT_NEAR(enough, 3.0, 0.15);
         const scene::Scene coarse = [&] {
             json smaller = dyke();
             smaller["mpm"]["cell_size"] = enough;
-            smaller["mpm"]["domain_x"] = {0, 40 * enough};
-            smaller["mpm"]["domain_y"] = {0, 10 * enough};
             return read(smaller);
         }();
         EXPECT_FALSE(fault::is_questionable(coarse.warnings));

@@ -122,6 +122,14 @@ TEST(LiquefiedZone, AWideWallAndTheZonesEndsStay) {
     EXPECT_EQ(closed.holds({11.0, 2.1}), wide.holds({11.0, 2.1}));
 }
 
+TEST(LiquefiedGaps, AreGoneWithTheWallThatTheFlagNames) {
+    const auto flag = flag_of(gaps_with(14.0, 15.0, 20.0), 0.4);
+    ASSERT_EQ(flag->severity, fault::Severity::questionable);
+    EXPECT_NE(flag->message.find("--set /transfer/liquefied/narrowest_wall=0.8"), std::string::npos)
+        << flag->message;
+    EXPECT_TRUE(zone_with(14.0, 15.0, 20.0, 0.8).gaps().empty());
+}
+
 TEST(LiquefiedGaps, NarrowerThanTwoCellsForbidToRelyOnARunout) {
     EXPECT_FALSE(flag_of({}, 2.5).has_value());
     const LiquefiedGap narrow{.from = 97.26, .to = 99.94, .level = 29.4, .beside = 13.28};
@@ -134,6 +142,7 @@ TEST(LiquefiedGaps, NarrowerThanTwoCellsForbidToRelyOnARunout) {
     const auto one = flag_of({wide}, 2.5);
     ASSERT_TRUE(one.has_value());
     EXPECT_EQ(one->severity, fault::Severity::warning);
+    EXPECT_EQ(one->message.find("--set"), std::string::npos) << "two cells do not close it";
     EXPECT_EQ(flag_of({narrow}, 1.25)->severity, fault::Severity::warning);
     EXPECT_EQ(flag_of({narrow}, 0.0)->severity, fault::Severity::warning) << "no runout";
 }

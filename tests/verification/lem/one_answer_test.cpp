@@ -274,8 +274,7 @@ TEST(TensionCrack, NeverMakesASlopeSafer) {
             ASSERT_EQ(flag != nullptr, is_raised);
             if (!is_raised) continue;
             EXPECT_NE(flag->message.find("open to 0.92"), std::string::npos) << flag->message;
-            const std::string remedy =
-                flag->message.substr(flag->message.find("Write \"depth\": ") + 15);
+            const std::string remedy = flag->message.substr(flag->message.find("/depth=") + 7);
             const Analysed mended =
                 analysed(cracked({{"depth", std::stod(remedy)}, {"filled", filled}}));
             EXPECT_EQ(mended.flag("deep_crack", "/lem/tension_crack"), nullptr) << remedy;
