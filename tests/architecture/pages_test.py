@@ -30,6 +30,10 @@ def main():
     for change, words in (({"key": "0"}, "has changed since"), ({"numerics": {"MPM": 1}}, "is of numerics"), ({"commit": "12345678+"}, "in no commit")):
         assert words in told({"measured": sound["measured"] | change}, measurements), change
 
+    raised = {phase: version + 1 for phase, version in write.numerics(programs).items()}
+    assert not write.holds_in(sound["measured"], raised)
+    assert write.holds_in(sound["measured"] | {"same_in": raised}, raised)
+
     with tempfile.TemporaryDirectory() as folder:
         keys, of_measurement = [], write.inputs_of
         for text in ("docs/stiff", "docs/verification/stiff", "docs/verification/other"):
