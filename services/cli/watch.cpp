@@ -49,7 +49,7 @@ class EventTail {
                                                                {"wait", caught_up_ ? "1" : "0"}}));
             const std::int64_t next = answer.at("next");
             caught_up_ = answer.at("events").empty() || next <= next_;
-            next_ = std::max(next, next_);
+            next_ = answer.value("reset", false) ? next : std::max(next, next_);
             for (json& event : answer["events"])
                 if (event.at("run") == run_) found.push_back(std::move(event));
         } while (!caught_up_ && found.empty());

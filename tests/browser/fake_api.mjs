@@ -538,10 +538,10 @@ export class FakeApi {
     async serve_events(url, response) {
         const after = Number(url.searchParams.get("after"));
         const until = Date.now() + 1000 * Number(url.searchParams.get("wait"));
-        while (this.events.length <= after && Date.now() < until && !response.destroyed) {
+        while (this.events.length === after && Date.now() < until && !response.destroyed) {
             await new Promise((resume) => setTimeout(resume, 50));
         }
-        json(response, { events: this.events.slice(after), next: this.events.length });
+        json(response, { events: this.events.slice(after), next: this.events.length, reset: after > this.events.length });
     }
 
     serve_task(id, rest, url, response) {

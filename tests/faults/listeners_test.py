@@ -82,7 +82,21 @@ class Listeners(unittest.TestCase):
         run = self.service.submit(study())
         waiting.join(20)
         self.assertEqual(got[0][2]["events"][0]["run"], run)
-        self.assertEqual(self.service.ask("/v1/events?after=999999&wait=1")[2]["events"], [])
+
+    def test_a_reader_beyond_the_newest_event_is_reset(self):
+        """As after a restored backup: the numbers that it knows will not come for long."""
+        newest = self.service.ask("/v1/events?after=0")[2]["next"]
+        for query, headers in ((b"?after=1000000", b""), (b"", b"Last-Event-ID: 1000000\r\n")):
+            stream = Stream(self.service, query, headers)
+            stream.read_until(b"\n\n")
+            self.assertEqual(stream.read_until(b"\n\n"), b"event: reset\nid: %d\ndata: {\"next\":%d}" % (newest, newest))
+            run = self.service.submit(study())
+            self.assertEqual(stream.event()["run"], run)
+            stream.close()
+            self.service.wait_for_end(run)
+            newest = self.service.ask("/v1/events?after=1000000&wait=30")[2]["next"]
+        self.assertEqual(self.service.ask("/v1/events?after=1000000&wait=30")[2],
+                         {"events": [], "next": newest, "reset": True})
 
     def test_two_hundred_are_served_and_the_next_must_come_again(self):
         streams = [Stream(self.service) for _ in range(200)]

@@ -49,8 +49,19 @@ bool wait_for_event(const Store& store, std::int64_t after, Clock::time_point un
     return store.last_event() > after;
 }
 
+/// The service never gave this number: its data folder was restored from a backup or made anew
+/// since. The client would wait for ever; it must go on after the newest event.
+bool is_beyond_newest(const Store& store, std::int64_t after) {
+    return after > store.last_event() &&
+           store.events_after(after - 1, 1).empty();  // not yet counted, but already readable
+}
+
 void long_poll(const Service& service, Call& call, const std::atomic<bool>& stopping) {
     const std::int64_t after = call.whole_number("after", 0, 0, largest_seq);
+    if (is_beyond_newest(service.store, after))
+        return reply(
+            call.response,
+            {{"events", json::array()}, {"next", service.store.last_event()}, {"reset", true}});
     const std::int64_t wait = call.whole_number("wait", 0, 0, longest_wait_seconds);
     if (wait > 0) {
         const Seat seat(waiters, most_waiters, call.response);
@@ -65,7 +76,7 @@ void long_poll(const Service& service, Call& call, const std::atomic<bool>& stop
         list.push_back(as_json(each));
         next = each.seq;
     }
-    reply(call.response, {{"events", list}, {"next", next}});
+    reply(call.response, {{"events", list}, {"next", next}, {"reset", false}});
 }
 
 /// First event of a stream: after Last-Event-ID, else the next.
@@ -81,6 +92,7 @@ struct Stream {
     Seat seat;
     std::int64_t after;
     std::optional<std::string> run;  ///< only its events; empty: of all runs
+    std::string greeting = "retry: 2000\n\n";
     Clock::time_point spoke = Clock::now();
 };
 
@@ -113,6 +125,11 @@ void server_sent(const Service& service, Call& call, const std::atomic<bool>& st
         // NOLINTNEXTLINE(modernize-make-shared)
         std::shared_ptr<Stream>(new Stream{Seat(streams, most_streams, call.response),
                                            stream_start(service, call), call.parameter("run")});
+    if (is_beyond_newest(service.store, stream->after)) {
+        stream->after = service.store.last_event();
+        const std::string newest = std::to_string(stream->after);
+        stream->greeting += "event: reset\nid: " + newest + "\ndata: {\"next\":" + newest + "}\n\n";
+    }
     call.response.set_header("Cache-Control", "no-store");
     call.response.set_header("X-Accel-Buffering", "no");  // nginx would buffer events
     call.response.set_chunked_content_provider(
@@ -120,7 +137,7 @@ void server_sent(const Service& service, Call& call, const std::atomic<bool>& st
                                  std::size_t, httplib::DataSink& sink) mutable {
             if (!greeted) {
                 greeted = true;
-                return write(sink, "retry: 2000\n\n");
+                return write(sink, stream->greeting);
             }
             try {
                 return continue_stream(service, *stream, sink, stopping);

@@ -235,7 +235,7 @@ export const read_glossary = () => get_json("static/glossary.json", { cache: "de
 
 const longest_wait = 20; // [s] limit of the server for a long poll
 
-/// Follows the server's events permanently. Calls tell.events(list) after events, tell.lost(seconds_to_retry) when the server does not
+/// Follows the server's events permanently. Calls tell.events(list) after events or a reset, tell.lost(seconds_to_retry) when the server does not
 /// answer, tell.found() when it answers again.
 export async function follow_events(tell) {
     let after = 0;
@@ -248,7 +248,7 @@ export async function follow_events(tell) {
             const answer = await get_json(`/v1/events?after=${after}&wait=${wait}`);
             tell.found();
             after = answer.next;
-            if (answer.events.length > 0) tell.events(answer.events);
+            if (answer.events.length > 0 || answer.reset) tell.events(answer.events);
             else wait = longest_wait;
             pause = 1;
         } catch (fault) {

@@ -110,6 +110,10 @@ class Breach(unittest.TestCase):
         self.assertEqual([each["run"] for each in lines[:-1]], [run_id])
         self.assertEqual(lines[-1]["run"]["state"], "succeeded")
 
+    def test_watch_follows_a_service_that_was_restored_from_a_backup(self):
+        lines = [json.loads(each) for each in call(self.serve(looks=6, restored=True), "watch", run_id, "--json").stdout.splitlines()]
+        self.assertEqual([each.get("seq") for each in lines[:-1]], [2, 2])
+
     def test_a_questionable_end_is_said_and_counts_when_asked_to(self):
         for words in (["watch", run_id], ["submit", self.study(), "--watch"], ["results", run_id]):
             for strict, code in (([], 0), (["--strict"], 70)):

@@ -25,12 +25,13 @@ class Service(http.server.ThreadingHTTPServer):
     """end: the state in which the run ends. token: what must be sent, if anything. lies: artifacts come altered."""
     daemon_threads = True
 
-    def __init__(self, end="succeeded", token=None, lies=False, looks=3):
+    def __init__(self, end="succeeded", token=None, lies=False, looks=3, restored=False):
         super().__init__(("127.0.0.1", 0), Handler)
         self.end, self.token, self.lies, self.looks_left = end, token, lies, looks
         self.posted, self.asked, self.removed = [], [], []
         self.files, self.uploads = {}, 0
         self.seq = 0
+        self.restored = restored  # from a backup, after the first two events
         threading.Thread(target=lambda: self.serve_forever(0.05), daemon=True).start()
 
     @property
@@ -176,10 +177,13 @@ class Handler(http.server.BaseHTTPRequestHandler):
             self.answer(200, {"lines": lines, "next": begin + len(lines)})
         elif parts == ["events"]:
             after, event = int(query["after"]), []
-            if after < 2:  # another run's event first, to be ignored
+            reset = server.restored and after == 2
+            if reset:
+                server.restored, after = False, 0
+            if after < 2 and not reset:  # another run's event first, to be ignored
                 event = [{"seq": after + 1, "time": "", "run": run_id if after else "other", "task": None,
                           "kind": "task", "detail": {}}]
-            self.answer(200, {"events": event, "next": after + len(event)})
+            self.answer(200, {"events": event, "next": after + len(event), "reset": reset})
         elif parts[:1] == ["tasks"] and len(parts) == 2:
             found = [each for each in server.tasks() if each["id"] == parts[1]]
             self.answer(200, found[0]) if found else self.refuse(404, "no such task")

@@ -325,6 +325,11 @@ TEST_F(Api, EventsAreContinuedFromWhereTheReaderWas) {
     const json none = service->get("/v1/events?after=" + std::to_string(after) + "&wait=1").body;
     EXPECT_TRUE(none.at("events").empty());
     EXPECT_EQ(none.at("next"), after);
+    EXPECT_EQ(none.at("reset"), false);
+    // a client that knows a later event than the service, e.g. after a backup was restored
+    const json beyond =
+        service->get("/v1/events?after=" + std::to_string(after + 1) + "&wait=30").body;
+    EXPECT_EQ(beyond, json({{"events", json::array()}, {"next", after}, {"reset", true}}));
 }
 
 TEST_F(Api, PlansAndSchemasAreAnswered) {
