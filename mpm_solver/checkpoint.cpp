@@ -28,6 +28,7 @@ void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& 
     visit("start_gravitational", start.energy.gravitational);
     visit("start_elastic", start.energy.elastic);
     visit("start_mobile_volume", start.mobile_volume);
+    visit("start_mobile_x", start.mobile_x);
     visit("plastic", tally.plastic), visit("friction", tally.friction);
     visit("viscous", tally.viscous), visit("pushed_in", tally.pushed_in);
     visit("shaking", tally.shaking);

@@ -7,7 +7,7 @@
 
 namespace breach::mpm {
 
-inline constexpr int checkpoint_version = 8;
+inline constexpr int checkpoint_version = 9;
 
 void save_checkpoint(const std::filesystem::path& file, const Simulation& simulation,
                      std::int64_t telemetry_lines, const exchange::Provenance& provenance);

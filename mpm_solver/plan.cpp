@@ -5,6 +5,7 @@
 #include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 #include "mpm_solver/body/choose.hpp"
+#include "mpm_solver/body/points.hpp"
 #include "mpm_solver/measure/overlap.hpp"
 #include "mpm_solver/run.hpp"
 
@@ -71,19 +72,41 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
     plan.push_back({"pore pressure", Use::left_out, "points carry total stress", "/materials"});
 }
 
-void plan_scheme(const scene::Mpm& mpm, Plan& plan) {
+/// The ratio in force, which the cells and the wave speed limit.
+process::PlanLine damping_line(const scene::Scene& scene) {
+    const scene::Mpm& mpm = *scene.mpm;
+    const auto line = [](Use use, std::string reason) {
+        return process::PlanLine{"damping of what does not yield", use, std::move(reason),
+                                 "/mpm/damping_ratio"};
+    };
+    if (mpm.damping_ratio == 0.0)
+        return line(Use::left_out, "0: stress waves in soil that stands go on");
+    double least = mpm.damping_ratio, largest = 0.0;
+    for (const scene::Soil& each : scene::soils_of(scene)) {
+        const scene::Material& soil = scene.materials[each.material];
+        if (!materials::is_for_particles(soil.law)) continue;
+        const double ratio = damping_of(scene, soil, scene::elasticity_in_runout(soil, mpm)).ratio;
+        least = std::min(least, ratio);
+        largest = std::max(largest, ratio);
+    }
+    const std::string where = " of critical at the mobile soil's height; what flows is not damped";
+    if (least > 0.999 * mpm.damping_ratio) return line(Use::on, text_of(mpm.damping_ratio) + where);
+    const std::string range =
+        text_of(least, 2) + (largest > 1.01 * least ? " to " + text_of(largest, 2) : "");
+    return line(Use::on, range + " instead of " + text_of(mpm.damping_ratio) + where +
+                             "; cells of " + text_of(mpm.cell_size) + " m" +
+                             (mpm.wave_speed_limit ? " and \"stiffness_scale\": \"auto\"" : "") +
+                             " allow no more");
+}
+
+void plan_scheme(const scene::Scene& scene, Plan& plan) {
+    const scene::Mpm& mpm = *scene.mpm;
     const SchemeDecisions decided = decide(mpm);
     plan.push_back(decided.kernel.line);
     plan.push_back(decided.order.line);
     plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
                     "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
-    plan.push_back({"damping of what does not yield",
-                    mpm.damping_ratio > 0.0 ? Use::on : Use::left_out,
-                    mpm.damping_ratio > 0.0
-                        ? text_of(mpm.damping_ratio) +
-                              " of critical at the mobile soil's height; what flows is not damped"
-                        : "0: stress waves in soil that stands go on",
-                    "/mpm/damping_ratio"});
+    plan.push_back(damping_line(scene));
     plan.push_back(decided.overlap.line);
     plan.push_back(decided.shaking.line);
     plan.push_back({"adaptive time step", mpm.time_step ? Use::left_out : Use::on,
@@ -201,7 +224,7 @@ Plan plan(const scene::Scene& scene) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     Plan plan;
     plan_laws(scene, plan);
-    plan_scheme(mpm, plan);
+    plan_scheme(scene, plan);
     plan.push_back(stiffness_line(scene));
     plan_beds(scene, plan);
     plan_gap_closure(scene, plan);

@@ -11,6 +11,7 @@
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
 #include "core/scene/words.hpp"
+#include "mpm_solver/measure/carried_slide.hpp"
 #include "mpm_solver/measure/ending_flags.hpp"
 #include "mpm_solver/measure/ends.hpp"
 
@@ -351,6 +352,15 @@ void write_results(Session& session, const Simulation& simulation, double speed)
     for (fault::Flag& each :
          flags_of_ends(session.scene(), simulation.view(), depths_of(simulation)))
         session.flag(std::move(each));
+    const Body& body = simulation.body();
+    const FlowView& view = simulation.view();
+    const Travel travel{
+        .start = simulation.start().energy,
+        .end = energy_of(body),
+        .mean = mean_x_of(body.points, view.mobile) - simulation.start().mobile_x,
+        .front = simulation.last_row().runout - simulation.records().history.front().runout};
+    if (auto flag = flag_of_carried_slide(session.scene(), body, view, travel))
+        session.flag(std::move(*flag));
     say(session, ending, simulation.last_row());
 }
 

@@ -25,7 +25,8 @@ Simulation::Simulation(const scene::Scene& scene, Body body, double transfer_tim
                        std::optional<GroundMotion> ground)
     : Simulation(scene, std::move(body), Clock{.transfer_time = transfer_time}, Start{}, {},
                  std::move(ground)) {
-    start_ = {energy_of(body_), volume_of(body_.points, view_.mobile)};
+    start_ = {energy_of(body_), volume_of(body_.points, view_.mobile),
+              mean_x_of(body_.points, view_.mobile)};
     limits_ = limits_of(body_, mpm_, start_.energy, swing_of(ground_));
 }
 

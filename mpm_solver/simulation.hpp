@@ -33,6 +33,7 @@ struct Clock {
 struct Start {
     Energy energy;
     double mobile_volume = 0.0;  ///< [m3]
+    double mobile_x = 0.0;       ///< mean over the mobile mass [m]
 };
 
 /// Records of a run.

@@ -16,29 +16,13 @@ namespace breach::mpm {
 
 namespace {
 
+constexpr double cells_of_damping = 0.55;  // larger ones reduce the time step
+
 /// A shear band is about a cell wide, or as wide as nonlocal softening makes it. Strains in inverse
 /// proportion make its dissipation independent of the cells.
 double softening_scale(const scene::Mpm& mpm, const scene::Material& soil) {
     if (!mpm.softening_length) return 1.0;
     return *mpm.softening_length / scene::band_width(soil, mpm);
-}
-
-/// Viscosity 2 xi G / omega: damps the fundamental shear wave of the mobile soil's height H, omega
-/// = pi c_s / (2 H), with the ratio xi; at most what does not reduce the time step (courant_step).
-/// If the wave speed is limited, c_s is near that limit and the bound is lower.
-double damping_of(const scene::Scene& scene, const scene::Material& soil,
-                  const mechanics::Elasticity& elasticity) {
-    const scene::Mpm& mpm = scene::mpm_of(scene);
-    if (mpm.damping_ratio == 0.0) return 0.0;
-    constexpr double cells = 0.55;
-    constexpr double cells_of_limited = 0.05;
-    const double impedance = std::sqrt(elasticity.shear_modulus() * soil.density);
-    double bound = cells * impedance;
-    if (mpm.wave_speed_limit)
-        bound = std::min(bound, cells_of_limited * soil.density * *mpm.wave_speed_limit);
-    return std::min(
-        4.0 / std::numbers::pi * mpm.damping_ratio * scene::mobile_height(scene, mpm) * impedance,
-        bound * mpm.cell_size);
 }
 
 materials::LawLanes lanes_of(const materials::Law& law, const scene::Material& soil) {
@@ -82,7 +66,7 @@ Zone zone_of(const scene::Scene& scene, const Points& points, std::size_t materi
               .volume_rule = decide(mpm, {soil.name, law, soil.viscosity}).volume_rule.value,
               .softening_scale = softening_scale(mpm, soil),
               .viscosity = soil.viscosity,
-              .damping = damping_of(scene, soil, materials::elasticity(law)),
+              .damping = damping_of(scene, soil, materials::elasticity(law)).viscosity,
               .nonlocal_length = scene::nonlocal_length_in_runout(soil, mpm).value_or(0.0),
               .walls_y = walls_of(scene, material),
               .begin = begin,
@@ -212,6 +196,26 @@ std::vector<Measures> measures_of(const scene::Scene& scene) {
 }
 
 }  // namespace
+
+double largest_free_viscosity(const mechanics::Elasticity& elasticity, double density,
+                              double cell_size) {
+    return cells_of_damping * std::sqrt(elasticity.shear_modulus() * density) * cell_size;
+}
+
+Damping damping_of(const scene::Scene& scene, const scene::Material& soil,
+                   const mechanics::Elasticity& elasticity) {
+    const scene::Mpm& mpm = scene::mpm_of(scene);
+    if (mpm.damping_ratio == 0.0) return {};
+    constexpr double cells_of_limited = 0.05;
+    const double impedance = std::sqrt(elasticity.shear_modulus() * soil.density);
+    double bound = cells_of_damping * impedance;
+    if (mpm.wave_speed_limit)
+        bound = std::min(bound, cells_of_limited * soil.density * *mpm.wave_speed_limit);
+    const double asked =
+        4.0 / std::numbers::pi * mpm.damping_ratio * scene::mobile_height(scene, mpm) * impedance;
+    const double viscosity = std::min(asked, bound * mpm.cell_size);
+    return {viscosity, asked > 0.0 ? mpm.damping_ratio * viscosity / asked : 0.0};
+}
 
 void Points::resize(std::size_t n) {
     for_each_real(*this, [n](const char*, std::vector<double>& values) { values.resize(n); });

@@ -67,6 +67,22 @@ struct Zone {
     double largest_specific_volume = 0.0;  ///< max V / m, for the wave speed [m3/kg]
 };
 
+/// Largest viscosity that does not reduce the time step of an elastic soil (courant_step) [Pa s].
+double largest_free_viscosity(const mechanics::Elasticity& elasticity, double density,
+                              double cell_size);
+
+/// Damping of soil that does not yield.
+struct Damping {
+    double viscosity = 0.0;  ///< [Pa s]
+    double ratio = 0.0;      ///< of critical, in force; /mpm/damping_ratio at most [-]
+};
+
+/// Viscosity 2 xi G / omega: damps the fundamental shear wave of the mobile soil's height H, omega
+/// = pi c_s / (2 H), with the ratio xi; at most largest_free_viscosity. If the wave speed is
+/// limited, c_s is near that limit and the bound is lower.
+Damping damping_of(const scene::Scene& scene, const scene::Material& soil,
+                   const mechanics::Elasticity& elasticity);
+
 struct ZonedPoints {
     Points points;
     std::vector<Zone> zones;

@@ -56,6 +56,15 @@ double mass_of(const Points& points, const std::vector<std::uint8_t>& counts) {
     return mass;
 }
 
+double mean_x_of(const Points& points, const std::vector<std::uint8_t>& counts) {
+    double moment = 0.0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        if (counts[points.region[p]]) moment += points.m[p] * points.x[p];
+    }
+    const double mass = mass_of(points, counts);
+    return mass > 0.0 ? moment / mass : 0.0;
+}
+
 double volume_of(const Points& points, const std::vector<std::uint8_t>& counts) {
     double volume = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {

@@ -33,6 +33,9 @@ double numerical_share(const Energy& start, const Energy& now);
 double kinetic_energy_of(const Points& points, const std::vector<std::uint8_t>& counts);
 double mass_of(const Points& points, const std::vector<std::uint8_t>& counts);
 
+/// Mean x of their mass [m]; 0 without mass.
+double mean_x_of(const Points& points, const std::vector<std::uint8_t>& counts);
+
 /// Volume of the soil of these regions, integrated from the strain increments [m3]; an empty list
 /// counts all.
 double volume_of(const Points& points, const std::vector<std::uint8_t>& counts);

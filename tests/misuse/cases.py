@@ -3,8 +3,10 @@ come of it: `refused` before anything has run, `warned` in the plan, or a result
 
 `text` must be found in the message: the thing that is wrong, and for slips of units the unit that was probably meant."""
 import copy
+import json
 import math
 from dataclasses import dataclass, field
+from pathlib import Path
 
 
 def at(document, pointer):
@@ -76,6 +78,9 @@ def drawn(change):
     polygons = [[[0, -5], [30, -5], [60, -5], [60, 0], [30, 0], [0, 0], [0, -5]], slope_polygon]
     return {f"/section/regions/{i}/polygon": [list(change(x, y)) for x, y in polygon] for i, polygon in enumerate(polygons)}
 
+
+block = json.loads((Path(__file__).parents[1] / "verification/mpm/block_near_critical.json").read_text())
+foot = block["section"]["regions"][0]["polygon"]
 
 cases = [
     # ------------------------------------------------ wrong units
@@ -225,6 +230,11 @@ cases = [
     Case("cells nearly as wide as the soil, allowed", "column", "flagged|warned", r"cells", {"/mpm/cell_size": 8, "/mpm/allow_coarse_cells": True,
                                                                               "/mpm/domain_x": [0, 64], "/mpm/duration": 0.5},
          run="mpm_solver", code="coarse_cells"),
+    Case("a block just able to stand, hardly damped", "column", "flagged", r"slid 1\.1 m as one body.*viscosity=17000",
+         {**{f"/{part}": block[part] for part in ("materials", "section", "mpm")},
+          "/fem": {"supports": [{"name": "base", "from": foot[0], "to": foot[1], "fixes": "xy"}], "crest": foot[3],
+                   "stages": [{"type": "static", "name": "gravity"}]}},
+         drops=["/transfer"], run="mpm_solver", code="carried_slide"),
     Case("cohesion in MPa", "slope", "warned|refused", r"c_kPa", {"/materials/slope_soil/law/c_kPa": 0.012,
                                                                   "/materials/slope_soil/law/softening/c_residual_kPa": 0.002}),
 ]

@@ -288,7 +288,7 @@ class ChangedCheckpoint : public testing::Test {
   protected:
     ChangedCheckpoint() : scene_(heap()) {
         save_checkpoint(file_, fresh(scene_), 0, provenance_);
-        archive_ = exchange::read_archive(file_, "mpm_checkpoint", 8);
+        archive_ = exchange::read_archive(file_, "mpm_checkpoint", checkpoint_version);
     }
 
     void expect_refused(const std::string& where) {
