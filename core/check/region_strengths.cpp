@@ -70,16 +70,17 @@ std::string at_material(const scene::Material& material, const std::string& belo
 }
 
 std::vector<scene::Vec2> spread_over(const geometry::Polygon& polygon) {
-    constexpr int columns = 24, rows = 6;  // rows: of the bounding box
+    constexpr int columns = 24, rows = 5;  // rows: on the mean height
     const geometry::Box box = geometry::bounding_box(polygon);
     const scene::Vec2 size = box.high - box.low;
+    const double mean_height = geometry::area(polygon) / size.x();
     std::vector<scene::Vec2> points;
     for (int i = 0; i < columns; ++i) {
         const double x = box.low.x() + size.x() * (i + 0.5) / columns;
         const std::vector<double> heights = geometry::crossings(polygon, x);
         for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {
             const double height = heights[k + 1] - heights[k];
-            const double count = std::max(1.0, std::round(rows * height / size.y()));
+            const double count = std::max(1.0, std::round(rows * height / mean_height));
             for (double j = 0.5; j < count; ++j)
                 points.emplace_back(x, heights[k] + height * j / count);
         }
@@ -123,17 +124,17 @@ bool RegionStrengths::lem_depends_on_water() const {
     return of_law && of_law->tan_phi > 0.0;
 }
 
-/// Friction of the MPM acts on the total stress. A friction angle that is reduced for the pore
-/// pressure on the region's base stands for more friction on the effective stress.
+/// Friction of the MPM acts on the total stress. Friction that is reduced below that of
+/// limit_strength, at most for the pore pressure on the region's base, stands for all of it.
 View RegionStrengths::points_view(const scene::Material& soil) const {
-    return {"MPM", at_material(soil, "/law"),
-            [&soil, r_u = r_u_](const Place& place) -> std::optional<Shear> {
-                materials::Strength strength = *materials::limit_strength(soil.law);
-                Shear shear = shear_of(strength, place);
-                strength.tan_phi /= 1.0 - r_u;
-                shear.high = shear_of(strength, place).high;
-                return shear;
-            }};
+    materials::Strength strength = *materials::limit_strength(soil.law);
+    if (own_.limit_strength) {
+        constexpr double rounding = 0.97;
+        const double drained = std::tan(own_.limit_strength->phi);
+        if (strength.tan_phi >= rounding * (1.0 - r_u_) * drained)
+            strength.tan_phi = std::max(strength.tan_phi, drained);
+    }
+    return view_of("MPM", at_material(soil, "/law"), strength);
 }
 
 std::vector<View> RegionStrengths::peaks() const {

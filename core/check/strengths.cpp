@@ -38,7 +38,6 @@ std::optional<Means> means_of(const View& a, const View& b, const std::vector<Pl
         const auto one = a.at(place);
         const auto other = b.at(place);
         if (!one || !other || one->undrained != other->undrained) continue;
-        means.a.undrained = means.b.undrained = one->undrained;
         means.a.low += one->low, means.a.high += one->high;
         means.b.low += other->low, means.b.high += other->high;
         ++n;
@@ -67,7 +66,6 @@ bool differ(const Shear& a, const Shear& b) {
 
 std::string kilopascals(const Shear& shear) {
     const std::string high = kilopascals(shear.high), low = kilopascals(shear.low);
-    if (!shear.undrained) return low;
     return low == high ? high : high + ", falling to " + low;
 }
 

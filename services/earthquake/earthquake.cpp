@@ -86,8 +86,9 @@ Json transfer_of(const Section& section) {
     Json transfer{{"points_per_cell", 16}, {"mapping", mapping}};
     transfer["phreatic_line"] = points(section.phreatic);
     if (names.empty()) return transfer;
+    // Half a layer: the mean strength of a layer is then that of the stability analysis.
     const double step =
-        rounded(section.layer_thickness * (section.density - water_density) * g / 1e3);
+        0.5 * rounded(section.layer_thickness * (section.density - water_density) * g / 1e3);
     Json layers = Json::array();
     for (double from = 0.0; from < section.largest_sigma_v0_kPa || layers.empty(); from += step)
         layers.push_back({{"sigma_v0_kPa", {rounded(from), rounded(from + step)}}});

@@ -262,10 +262,12 @@ Json section_of(const Context& all) {
 earthquake::Section shaken_of(const Context& all) {
     const Values& values = all.values;
     std::map<std::string, std::string> runouts;
+    const Overburden above{all.outline.ground, all.outline.phreatic, all.wet.density};
     double largest = 0.0;
     for (const Region& each : all.regions) {
         runouts[each.material] = each.material + "_runout";
-        largest = std::max(largest, each.sigma_v0_kPa);
+        if (each.layer > 0)
+            largest = std::max(largest, earthquake::largest_sigma_v0(each.polygon, above));
     }
     return {.regions = all.regions,
             .runouts = runouts,

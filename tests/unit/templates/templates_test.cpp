@@ -174,6 +174,11 @@ TEST(Templates, RaiseNoUnsafeWarningAsTheyAre) {
                                     {{"valley_slope", 0.03}, {"ground_slope", 0.02}},
                                     {{"with_fem", true}},
                                     {{"with_fem", true}, {"drain", false}},
+                                    {{"with_fem", true},
+                                     {"height", 20},
+                                     {"raises", 1},
+                                     {"layer_thickness", 5},
+                                     {"cell_size", 2}},
                                     {{"with_fem", true}, {"rockfill_starter", true}},
                                     {{"water_depth", 0}},
                                     {{"water_height", 25}}};
