@@ -22,7 +22,7 @@ struct ServeSettings {
     SlurmSettings slurm;
     DispatchSettings dispatch;
     RetentionSettings retention;
-    std::size_t largest_file_mb = 256;                                  ///< of an upload
+    std::size_t largest_file_mb = 256;                                  ///< sent or named
     std::optional<std::vector<std::filesystem::path>> allowed_folders;  ///< SentFiles::allowed
     HttpSettings http;
 };

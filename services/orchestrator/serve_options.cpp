@@ -153,7 +153,7 @@ void ServeOptions::add_retention(CLI::App& serving) {
 void ServeOptions::add_files(CLI::App& serving) {
     serving
         .add_option("--largest-file", settings_.largest_file_mb,
-                    "MB that a motion or a mesh which is sent may have")
+                    "MB that a motion or a mesh may have, sent or named by its path")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();
 }

@@ -62,6 +62,7 @@ class FullDisk(unittest.TestCase):
                     acknowledged.append(body["id"])
                 else:
                     self.assertEqual((status, body["type"]), (503, "/problems/storage"), body)
+                    self.assertIn("the disk of the data folder is full", body["detail"])
                     refused += 1
             self.assertGreater(refused, 0)
             self.assertEqual(service.ask("/healthz")[0], 200)
@@ -74,6 +75,8 @@ class FullDisk(unittest.TestCase):
                 if end["state"] in ("failed", "partial"):  # a phase that found the disk full reported it; a later request may retry it
                     faults = [each["fault"] for each in end["tasks"] if each["state"] == "failed"]
                     self.assertEqual({each["exit_code"] for each in faults}, {74}, faults)
+                    for each in faults:
+                        self.assertRegex(each["summary"], "disk of .* is full|No space left on device", faults)
                     self.assertEqual(service.ask(f"/v1/runs/{run}/retry", {})[0], 202)
                     until(lambda: service.ask(f"/v1/runs/{run}")[2]["state"] == "succeeded", 60)
                 else:
@@ -85,7 +88,7 @@ class FullDisk(unittest.TestCase):
             run = service.submit(study())
             end = service.wait_for_end(run)
             self.assertEqual(end["state"], "failed")
-            self.assertTrue(end["message"])
+            self.assertRegex(end["message"], "disk of .* is full|No space left on device")
             disk.free()
             self.assertEqual(service.ask(f"/v1/runs/{run}/retry", {})[0], 202)
             until(lambda: service.ask(f"/v1/runs/{run}")[2]["state"] == "succeeded", 60)

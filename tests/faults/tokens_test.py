@@ -1,6 +1,7 @@
 """Named tokens: each has the rights that it was given, gets an answer that names the missing right, is stored with its requests, and
 may be created and removed while the service runs."""
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -149,6 +150,24 @@ class Tokens(unittest.TestCase):
         with Service(self.here) as service:
             self.secrets["submit-ter"] = ""
             self.assertFalse([each for each in asked(service, self.here / "record.txt") if "may not" in each])
+
+    def test_6_named_files_are_as_limited_as_sent_ones(self):
+        with (self.here / "large.csv").open("wb") as large:
+            large.truncate(3 << 30)
+        os.mkfifo(self.here / "pipe")
+        (self.here / "link.msh").symlink_to(self.here / "large.csv")
+        refused = {"large.csv": "has 3221225472 bytes, and this service reads files of at most 1048576", "link.msh": "has 3221225472 bytes",
+                   "pipe": "is no ordinary file", "/dev/zero": "is no ordinary file", "/proc/self/status": "is empty"}
+        with Service(self.here, "--largest-file", "1") as service:
+            for name, cause in refused.items():
+                for entry in ("/fem/motion/file", "/fem/msh_file"):
+                    change = f"{entry}={self.here / name}"
+                    for wanted in ({"overrides": [change]}, {"variants": [{"name": "v", "overrides": [change]}]}):
+                        faults = service.ask("/v1/runs", {**study(), **wanted})[2]["faults"]
+                        self.assertTrue([each for each in faults if cause in each["cause"]], faults)
+            status = pathlib.Path(f"/proc/{service.process.pid}/status").read_text()
+            peak_kB = int(next(line for line in status.splitlines() if line.startswith("VmHWM")).split()[1])
+            self.assertLess(peak_kB, 1 << 20)
 
 
 if __name__ == "__main__":

@@ -97,6 +97,7 @@ TaskFault fault_of(const LiveAttempt& live, const ExitRecord& record, const Data
     std::string summary;
     if (said.is_object() && said.value("exit_code", 0) == *record.exit_code)
         summary = said.value("summary", "");
+    if (summary.empty() && *record.exit_code != 0) summary = record.disk;
     if (summary.empty()) summary = last_line_of(live.folder.log());
     if (!summary.empty()) fault.summary = summary;
     return fault;

@@ -74,6 +74,7 @@ void write_exit_record(const AttemptFolder& folder, const ExitRecord& record) {
                   {"cpu_seconds", record.cpu_seconds}};
     if (record.exit_code) document["exit_code"] = *record.exit_code;
     if (record.signal) document["signal"] = *record.signal;
+    if (!record.disk.empty()) document["disk"] = record.disk;
     if (record.stopped) document["stopped"] = words::name_of(*record.stopped);
     exchange::publish_text(folder.exit_record(), document.dump(2) + "\n");
 }
@@ -87,7 +88,8 @@ std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
                       .signal = {},
                       .stopped = words::find<StopReason>(document.value("stopped", "")),
                       .wall_seconds = document.at("wall_seconds"),
-                      .cpu_seconds = document.at("cpu_seconds")};
+                      .cpu_seconds = document.at("cpu_seconds"),
+                      .disk = document.value("disk", "")};
     if (document.contains("exit_code")) record.exit_code = document["exit_code"].get<int>();
     if (document.contains("signal")) record.signal = document["signal"].get<int>();
     return record;

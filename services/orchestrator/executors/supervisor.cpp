@@ -34,6 +34,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int cannot_execute = 127;
 constexpr auto pause = std::chrono::milliseconds(20);
 constexpr auto heartbeat_interval = std::chrono::seconds(2);
+constexpr std::uintmax_t least_free_bytes = 1 << 16;  // a phase stops with less
 
 /// Every process of the attempt inherits the lock and holds it until the last one ends.
 FileLock held_by_all_below(FileLock lock) {
@@ -194,17 +195,22 @@ class Supervision {
         }
     }
 
-    /// A full disk must not lose the exit record: retries with the lock held. A deleted folder gets
-    /// no record.
+    /// A full disk must not lose the exit record: retries with the lock held. The record keeps the
+    /// cause, which the log cannot hold: its last line is cut off. A deleted folder gets no record.
     void record_exit() {
         record_.attempt = order_.attempt;
         record_.wall_seconds = std::chrono::duration<double>(Clock::now() - began_).count();
+        std::error_code error;
+        const auto space = std::filesystem::space(folder_.root, error);
+        if (!error && space.available < least_free_bytes)
+            record_.disk = "the disk of " + folder_.root.string() + " is full";
         while (std::filesystem::exists(folder_.root)) {
             try {
                 write_exit_record(folder_, record_);
                 return;
-            } catch (const fault::IoError& error) {
-                std::cerr << "supervise: " << error.what() << "; trying again\n";
+            } catch (const fault::IoError& failure) {
+                record_.disk = failure.what();
+                std::cerr << "supervise: " << failure.what() << "; trying again\n";
                 std::this_thread::sleep_for(std::chrono::seconds(1));
             }
         }

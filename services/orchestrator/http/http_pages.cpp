@@ -161,7 +161,7 @@ void ready(const Service& service, Call& call) {
     std::error_code error;
     const auto space = std::filesystem::space(service.data.scratch(), error);
     if (error || space.available < least_free_bytes) {
-        throw Problem{503, "/problems/storage", "Not ready", "the disk of the data folder is full"};
+        throw disk_is_full("Not ready");
     }
     service.store.runs(1);
     reply(call.response, {{"status", "ready"}});

@@ -68,6 +68,12 @@ Problem bad_request(const std::string& detail) {
     return {400, "/problems/bad-request", "Bad request", detail};
 }
 
+Problem disk_is_full(const std::string& title) {
+    return {503, "/problems/storage", title,
+            "the disk of the data folder is full, so nothing is stored: free some space, then "
+            "repeat the request"};
+}
+
 void refuse(httplib::Response& response, const Problem& problem) {
     json body{{"type", problem.type},
               {"title", problem.title},
@@ -190,6 +196,10 @@ void Router::answer_uncounted(Call& call) const {
     } catch (const fault::BadInput& error) {
         refuse(response, {422, "/problems/bad-input", "Bad input",
                           error.file() + ": " + error.count(), error.faults()});
+    } catch (const DiskFull& error) {
+        spdlog::error("{} {}: {}", request.method, request.path, error.what());
+        response.set_header("Retry-After", "5");
+        refuse(response, disk_is_full("The disk is full"));
     } catch (const StoreError& error) {
         spdlog::error("{} {}: {}", request.method, request.path, error.what());
         response.set_header("Retry-After", "5");

@@ -30,6 +30,7 @@ struct Problem {
 
 Problem not_found(const std::string& what);
 Problem bad_request(const std::string& detail);
+Problem disk_is_full(const std::string& title);
 
 void refuse(httplib::Response& response, const Problem& problem);
 void reply(httplib::Response& response, const nlohmann::json& body, int status = 200);

@@ -60,7 +60,7 @@ std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
 }
 
 SentFiles files_of(const Service& service) {
-    return {service.data.root(), service.allowed_folders};
+    return {service.data.root(), service.allowed_folders, service.largest_file};
 }
 
 bool is_study_document(const json& document) { return is_a("study", document, "scene"); }

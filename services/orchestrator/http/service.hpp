@@ -46,7 +46,7 @@ struct Service {
     Numerics numerics;                ///< versions of their numerics, as they report them
     std::filesystem::path web;        ///< the dashboard's files
     std::filesystem::path workflows;  ///< the shipped studies and their scenes
-    std::size_t largest_file = std::size_t{256} << 20;  ///< largest accepted upload [bytes]
+    std::size_t largest_file = std::size_t{256} << 20;  ///< limit of sent and named files [bytes]
     /// SentFiles::allowed
     std::optional<std::vector<std::filesystem::path>> allowed_folders = {};
 };

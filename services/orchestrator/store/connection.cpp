@@ -183,8 +183,13 @@ Row& Connection::prepared(const std::string& sql, const std::vector<Value>& valu
 }
 
 void Connection::refuse(const std::string& what) const {
-    throw StoreError("database: " + std::string(sqlite3_errmsg(database_.get())) + " (" + what +
-                     ")");
+    const std::string text =
+        "database: " + std::string(sqlite3_errmsg(database_.get())) + " (" + what + ")";
+    const int code = sqlite3_errcode(database_.get()) & 0xFF;  // without its extension
+    const int cause = sqlite3_system_errno(database_.get());
+    if (code == SQLITE_FULL || (code == SQLITE_IOERR && (cause == ENOSPC || cause == EDQUOT)))
+        throw DiskFull(text);
+    throw StoreError(text);
 }
 
 }  // namespace breach::orchestrator

@@ -26,6 +26,12 @@ class StoreError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// The change was undone because the disk is full.
+class DiskFull : public StoreError {
+  public:
+    using StoreError::StoreError;
+};
+
 using Value = std::variant<std::nullptr_t, std::int64_t, double, std::string>;
 
 template <class T>

@@ -25,6 +25,24 @@ bool lies_in(const std::vector<fs::path>& folders, const std::string& file) {
     });
 }
 
+/// Fault of a file that must not be read, because its size is unknown or above the limit. Nothing
+/// for a missing file and a folder, which the checks of the scene report.
+std::optional<Fault> fault_of_size(const std::string& pointer, const fs::path& file,
+                                   std::uintmax_t largest) {
+    std::error_code error;
+    if (!fs::exists(file, error) || fs::is_directory(file, error)) return std::nullopt;
+    const bool regular = fs::is_regular_file(file, error);
+    const std::uintmax_t size = regular ? fs::file_size(file, error) : 0;
+    if (error || size == 0)  // the size of devices, pipes and files in /proc; they may not end
+        return Fault{pointer, file.string() + (regular ? ": is empty" : ": is no ordinary file"),
+                     "give a file with a motion or mesh"};
+    if (size <= largest) return std::nullopt;
+    return Fault{pointer,
+                 file.string() + ": has " + std::to_string(size) +
+                     " bytes, and this service reads files of at most " + std::to_string(largest),
+                 "thin it or cut it, or start the service with a higher --largest-file (MB)"};
+}
+
 /// Faults of the files that the scene, with these overrides, names but may not.
 std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& overrides,
                                    const SentFiles& files) {
@@ -34,8 +52,9 @@ std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& o
         const json::json_pointer at(key);
         if (!scene.contains(at) || !scene[at].is_string()) continue;
         const auto& file = scene[at].get_ref<const std::string&>();
-        if (scene::file_reference(file)) continue;
-        if (!file.starts_with('/')) {
+        if (scene::file_reference(file)) {
+            // sent, perhaps when the limit was higher
+        } else if (!file.starts_with('/')) {
             faults.push_back(
                 {key, "the path is relative, but a scene sent to the service has no folder",
                  "send the file (POST /v1/files; breach submit does it) and give the "
@@ -46,6 +65,9 @@ std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& o
                               "reference of the answer, or have its folder allowed: serve "
                               "--allow-folder FOLDER"});
         }
+        if (!faults.empty() && faults.back().pointer == key) continue;
+        if (auto size = fault_of_size(key, scene::file_at(files.folder, file), files.largest))
+            faults.push_back(std::move(*size));
     }
     return faults;
 }
