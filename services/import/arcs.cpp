@@ -6,6 +6,16 @@
 
 namespace breach::importing {
 
+std::vector<Corner> corners_of_arc(const Vec2& centre, double radius, double from, double angle) {
+    const auto on_circle = [&](double at) {
+        return Vec2(centre + radius * Vec2(std::cos(at), std::sin(at)));
+    };
+    const double bulge = std::tan(0.125 * angle);
+    return {{on_circle(from), 0.0, bulge},
+            {on_circle(from + 0.5 * angle), 0.0, bulge},
+            {on_circle(from + angle)}};
+}
+
 std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, double sagitta) {
     const Vec2 chord = to - from;
     const double length = chord.norm();

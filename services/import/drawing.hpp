@@ -26,6 +26,7 @@ struct Outline {
     std::vector<Vec2> points;  ///< [m]; a closed one does not repeat the first
     bool closed;
     Origin origin;
+    bool fills = false;  ///< an area (HATCH, SOLID): may repeat an outline of its layer
 };
 
 /// A layer without a meaning, and the first place on it.

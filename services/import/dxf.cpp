@@ -7,6 +7,7 @@
 
 #include "services/import/arcs.hpp"
 #include "services/import/dxf_records.hpp"
+#include "services/import/hatch.hpp"
 
 namespace breach::importing {
 
@@ -15,29 +16,15 @@ namespace {
 constexpr double flatten_meanwhile = 0.05;  // m: for drawing arcs that are refused
 constexpr std::array<std::string_view, 6> shapes{"LWPOLYLINE", "POLYLINE", "LINE",
                                                  "ARC",        "CIRCLE",   "INSERT"};
-constexpr std::array<std::string_view, 22> writing{"TEXT",      "MTEXT",
-                                                   "DIMENSION", "HATCH",
-                                                   "POINT",     "LEADER",
-                                                   "MLEADER",   "MULTILEADER",
-                                                   "ATTDEF",    "ATTRIB",
-                                                   "VIEWPORT",  "IMAGE",
-                                                   "WIPEOUT",   "SOLID",
-                                                   "TRACE",     "ACAD_TABLE",
-                                                   "SEQEND",    "VERTEX",
-                                                   "TOLERANCE", "SHAPE",
-                                                   "OLE2FRAME", "ACAD_PROXY_ENTITY"};
+constexpr std::array<std::string_view, 19> writing{
+    "TEXT",   "MTEXT",      "DIMENSION", "POINT",     "LEADER",           "MLEADER", "MULTILEADER",
+    "ATTDEF", "ATTRIB",     "VIEWPORT",  "IMAGE",     "WIPEOUT",          "SEQEND",  "VERTEX",
+    "SHAPE",  "ACAD_TABLE", "TOLERANCE", "OLE2FRAME", "ACAD_PROXY_ENTITY"};
 
 template <class Words>
 bool is_one_of(std::string_view word, const Words& words) {
     return std::ranges::find(words, word) != words.end();
 }
-
-struct Corner {
-    Vec2 at = Vec2::Zero();  ///< drawing units
-    double z = 0.0;
-    double bulge = 0.0;
-    std::size_t line = 0;
-};
 
 class DxfReader {
   public:
@@ -50,6 +37,7 @@ class DxfReader {
         finish_polyline();
         for (const Fault& each : records_.faults()) drawing_.faults.push_back(each);
         settle_unit();
+        refuse_bare_layers();
         tell_passed_over();
         return std::move(drawing_);
     }
@@ -135,7 +123,8 @@ class DxfReader {
         } else if (record.type == "ENDBLK") {
             block_.clear();
         } else if (!block_.empty() && !is_one_of(record.type, writing)) {
-            if (layers_.meaning_of(layer_of(record)).role != Role::unknown)
+            const Role role = layers_.meaning_of(layer_of(record)).role;
+            if (is_area(record.type) ? role == Role::soil : role != Role::unknown)
                 meaningful_blocks_.insert(lower(block_));
         }
     }
@@ -179,27 +168,53 @@ class DxfReader {
         finish_polyline();
         if (record.type == "SEQEND") return;
         const std::string layer = layer_of(record);
-        if (is_one_of(record.type, writing)) {
-            ++passed_over_[std::string(record.type)];
-            return;
-        }
         if (value_of(record, 67, 0.0) == 1.0) {
             ++passed_over_["entities of paper space"];
             return;
         }
         const Meaning meaning = layers_.meaning_of(layer);
+        const bool area = is_area(record.type);
+        if (is_one_of(record.type, writing) || (area && meaning.role != Role::soil))
+            return pass_over(record, layer, meaning);
         if (hidden_.contains(lower(layer)) && !meaning.told) {
             ++hidden_entities_[layer];
             return;
         }
         drawing_.layers.insert(layer);
+        drawn_.insert(lower(layer));
         if (record.type == "INSERT") return take_insert(record, layer, meaning);
         if (meaning.role == Role::none) return;
         if (meaning.role == Role::unknown) return take_unknown(record, layer);
-        if (!is_one_of(record.type, shapes)) return refuse_entity(record, layer);
+        if (!area && !is_one_of(record.type, shapes)) return refuse_entity(record, layer);
         if (drawing_.outlines.size() >= most_outlines || points_ >= most_points)
             return refuse_amount(record);
-        take_shape(record, layer);
+        area ? take_area(record, layer) : take_shape(record, layer);
+    }
+
+    void pass_over(const Record& record, const std::string& layer, const Meaning& meaning) {
+        ++passed_over_[std::string(record.type)];
+        if (meaning.role == Role::unknown || meaning.role == Role::none) return;
+        UnknownLayer& bare = bare_[layer];
+        if (bare.entities++ > 0) return;
+        bare.first = first_point(record);
+        bare.origin = {record.line, entity_of(record)};
+    }
+
+    /// A layer with a meaning, and nothing on it that could have it.
+    void refuse_bare_layers() {
+        for (const auto& [layer, bare] : bare_) {
+            if (drawn_.contains(lower(layer))) continue;
+            const bool soil = layers_.meaning_of(layer).role == Role::soil;
+            drawing_.layers.insert(layer);
+            drawing_.faults.push_back(
+                {at_line(bare.origin.line),
+                 "layer " + layer + (soil ? " has a material and no outline" : " has no line") +
+                     ", only " + bare.origin.entity + " at " + text(bare.first) +
+                     (bare.entities == 1 ? ""
+                                         : " and " + std::to_string(bare.entities - 1) + " more"),
+                 std::string("draw a ") + (soil ? "closed polyline" : "polyline") +
+                     " on it, or map " + layer + "=none"});
+        }
     }
 
     void take_unknown(const Record& record, const std::string& layer) {
@@ -269,6 +284,28 @@ class DxfReader {
         finish(record.type != "LINE");
     }
 
+    void take_area(const Record& record, const std::string& layer) {
+        const auto value = [&](const Group& group) { return number(group); };
+        for (Boundary& each : boundaries_of(record, value)) {
+            begin(record, layer, false);
+            current_.closed = current_.fills = true;
+            corners_ = std::move(each.corners);
+            if (corners_.size() >= 3 || is_round(corners_)) {
+                finish(record.type != "3DFACE");
+                continue;
+            }
+            const Vec2 at = corners_.empty() ? each.at : corners_.front().at;
+            drawing_.faults.push_back(
+                {at_line(record.line),
+                 named(current_) + " at " + text(scaled(at)) + " " + each.cause,
+                 "draw its outline as a closed polyline"});
+        }
+    }
+
+    static bool is_round(const std::vector<Corner>& corners) {
+        return corners.size() == 2 && (corners[0].bulge != 0.0 || corners[1].bulge != 0.0);
+    }
+
     void take_light_polyline(const Record& record) {
         for (const Group& each : record.groups) {
             if (each.code == 10) corners_.push_back({{number(each), 0.0}, 0.0, 0.0, each.line});
@@ -282,23 +319,17 @@ class DxfReader {
     void take_arc(const Record& record) {
         const Vec2 centre(value_of(record, 10, 0.0), value_of(record, 20, 0.0));
         const double radius = std::abs(value_of(record, 40, 0.0));
-        const auto on_circle = [&](double angle) {
-            return Vec2(centre + radius * Vec2(std::cos(angle), std::sin(angle)));
-        };
         constexpr double pi = std::numbers::pi;
         if (record.type == "CIRCLE") {
-            corners_ = {{on_circle(0.0), 0.0, 1.0}, {on_circle(pi), 0.0, 1.0}};
+            corners_ = corners_of_arc(centre, radius, 0.0, 2.0 * pi);
+            corners_.pop_back();
             current_.closed = true;
             return;
         }
         const double from = value_of(record, 50, 0.0) * pi / 180.0;
         const double angle =
             std::fmod(value_of(record, 51, 0.0) * pi / 180.0 - from + 8.0 * pi, 2.0 * pi);
-        // Two halves, because the bulge of a nearly full circle is nearly infinite.
-        const double bulge = std::tan(0.125 * angle);
-        corners_ = {{on_circle(from), 0.0, bulge},
-                    {on_circle(from + 0.5 * angle), 0.0, bulge},
-                    {on_circle(from + angle)}};
+        corners_ = corners_of_arc(centre, radius, from, angle);
     }
 
     long flags_of(const Record& record) {
@@ -332,7 +363,7 @@ class DxfReader {
         current_ = {layer, {}, false, {record.line, entity_of(record)}};
         corners_.clear();
         in_polyline_ = in_polyline;
-        solid_ = record.type == "LINE";
+        solid_ = record.type == "LINE" || record.type == "3DFACE";
         mirrored_ = false;
         if (const double z = value_of(record, 230, 1.0); z != 1.0) mirrored_ = z == -1.0;
         const double aside =
@@ -394,7 +425,8 @@ class DxfReader {
         if (!list.empty()) drawing_.remarks.push_back("passed over: " + list);
         for (const auto& [layer, count] : hidden_entities_)
             drawing_.remarks.push_back("layer " + layer + " is frozen or off: its " +
-                                       std::to_string(count) + " entities were left out");
+                                       std::to_string(count) +
+                                       " entities were left out; to take them, map the layer");
     }
 
     Records records_;
@@ -409,6 +441,8 @@ class DxfReader {
     std::set<std::string> hidden_;
     std::map<std::string, std::size_t> hidden_entities_;
     std::map<std::string, std::size_t> passed_over_;
+    std::map<std::string, UnknownLayer> bare_;  ///< layers with a meaning: what was passed over
+    std::set<std::string> drawn_;               ///< lower-case layers of all other entities
     std::string block_;
     std::set<std::string> meaningful_blocks_;
     std::size_t points_ = 0;

@@ -1,5 +1,6 @@
 // Reads the polylines of a DXF drawing: LWPOLYLINE, POLYLINE, LINE, ARC and CIRCLE of model space,
-// in metres. Other entities on a layer with a meaning are faults; texts are reported as skipped.
+// in metres, and filled areas on layers with a material. Other entities on a layer with a meaning
+// are faults, and so is such a layer with texts alone; other texts are reported as skipped.
 // Does not check whether outlines close or touch.
 #pragma once
 

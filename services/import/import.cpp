@@ -189,7 +189,14 @@ class Import {
         }
         for (const std::string& layer : order) {
             const Meaning meaning = map_.meaning_of(layer);
-            std::vector<Outline> whole = joined(std::move(by_layer[layer]), request_.tolerance);
+            std::vector<Outline>& pieces = by_layer[layer];
+            const auto areas = std::ranges::stable_partition(
+                pieces, [](const Outline& each) { return !each.fills; });
+            std::vector<Outline> fills(std::make_move_iterator(areas.begin()),
+                                       std::make_move_iterator(areas.end()));
+            pieces.erase(areas.begin(), areas.end());
+            std::vector<Outline> whole = joined(std::move(pieces), request_.tolerance);
+            take_areas(std::move(fills), whole);
             if (meaning.role == Role::soil) {
                 take_soils(std::move(whole), layer, meaning.material);
             } else {
@@ -201,6 +208,38 @@ class Import {
                    "there is no closed polyline on a layer with a material; the layers are " +
                        listed(drawing_.layers),
                    "map a layer to a material, or name layers as the materials are named");
+    }
+
+    /// Adds areas to the outlines of their layer, except those that lie in one: a hatch repeats it.
+    void take_areas(std::vector<Outline> areas, std::vector<Outline>& whole) {
+        std::ranges::stable_sort(areas, std::ranges::greater(), [](const Outline& each) {
+            return std::abs(geometry::signed_area(each.points));
+        });
+        for (Outline& each : areas) {
+            const auto around = std::ranges::find_if(whole, [&](const Outline& outline) {
+                return outline.closed && lies_in(each.points, outline.points);
+            });
+            if (around == whole.end()) {
+                whole.push_back(std::move(each));
+            } else if (around->fills && around->origin.line == each.origin.line) {
+                refuse(at_line(each.origin.line),
+                       named(each) + " has an island at " + text(each.points.front()),
+                       "a region has no holes: draw its parts around the island as closed "
+                       "polylines");
+            }
+        }
+    }
+
+    /// Whether corners and middles of the sides lie in the polygon.
+    bool lies_in(const std::vector<Vec2>& inner, const std::vector<Vec2>& outer) const {
+        const double off = request_.tolerance + request_.flatten.value_or(0.0);
+        for (std::size_t i = 0; i < inner.size(); ++i) {
+            const Vec2 middle = 0.5 * (inner[i] + inner[(i + 1) % inner.size()]);
+            if (!geometry::contains(outer, inner[i], off) ||
+                !geometry::contains(outer, middle, off))
+                return false;
+        }
+        return true;
     }
 
     void take_lines() {

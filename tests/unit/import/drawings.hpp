@@ -67,6 +67,29 @@ inline std::string sides(const std::string& layer, const Line& ring) {
     return text;
 }
 
+inline std::string place(int code, const Vec2& at) {
+    return group(code, at.x()) + group(code + 10, at.y());
+}
+
+/// HATCH of these boundary paths, with a seed point.
+inline std::string hatch(const std::string& layer, const std::vector<std::string>& paths) {
+    std::string text = group(0, "HATCH") + group(5, "7B") + group(8, layer) + place(10, {0, 0}) +
+                       group(2, "SOLID") + group(91, std::to_string(paths.size()));
+    for (const std::string& each : paths) text += each;
+    return text + group(75, "0") + group(98, "1") + place(10, {9, 9});
+}
+
+/// Boundary path of a hatch.
+inline std::string path(const Line& line, const std::map<std::size_t, double>& bulges = {}) {
+    std::string text = group(92, "2") + group(72, bulges.empty() ? "0" : "1") + group(73, "1") +
+                       group(93, std::to_string(line.size()));
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        text += place(10, line[i]);
+        if (!bulges.empty()) text += group(42, bulges.contains(i) ? bulges.at(i) : 0.0);
+    }
+    return text + group(97, "0");
+}
+
 inline std::string dxf(const std::string& entities, std::optional<int> insunits = 6,
                        const std::string& version = "AC1015", const std::string& tables = "") {
     return header(version, insunits) + tables + group(0, "SECTION") + group(2, "ENTITIES") +

@@ -15,8 +15,11 @@ namespace {
 
 using test::dxf;
 using test::group;
+using test::hatch;
 using test::light;
 using test::Line;
+using test::path;
+using test::place;
 
 Drawing read(const std::string& text, const DxfOptions& request = {},
              const std::vector<std::string>& map = {}) {
@@ -111,6 +114,104 @@ TEST(Dxf, WhatIsNoPolylineIsRefusedAtItsPlaceAndWritingIsPassedOver) {
     EXPECT_NE(drawing.faults[1].remedy.find("explode"), std::string::npos);
     EXPECT_NE(drawing.faults[2].cause.find("plane of the drawing"), std::string::npos);
     EXPECT_EQ(drawing.remarks, (std::vector<std::string>{"passed over: 1 TEXT"}));
+}
+
+std::string line_edge(const Vec2& from, const Vec2& to) {
+    return group(72, "1") + place(10, from) + place(11, to);
+}
+
+std::string edges(const std::vector<std::string>& all) {
+    std::string text = group(92, "1") + group(93, std::to_string(all.size()));
+    for (const std::string& each : all) text += each;
+    return text + group(97, "0");
+}
+
+TEST(Dxf, BoundariesOfHatchesAreRead) {
+    // The second edge is drawn the other way round; the second path is another area.
+    const std::string lines = edges({line_edge({0, 0}, {4, 0}), line_edge({4, 4}, {4, 0}),
+                                     line_edge({4, 4}, {0, 4}), line_edge({0, 4}, {0, 0})});
+    const Drawing drawing = read(dxf(hatch("CLAY", {path(square), lines})));
+    EXPECT_EQ(test::told(drawing.faults), "");
+    ASSERT_EQ(drawing.outlines.size(), 2u);
+    for (const Outline& each : drawing.outlines) {
+        EXPECT_EQ(each.points, square);
+        EXPECT_TRUE(each.closed && each.fills);
+    }
+    EXPECT_EQ(read(dxf(hatch("CLAY", {path(square)}), 4)).outlines.at(0).points[1], Vec2(4e-3, 0));
+}
+
+TEST(Dxf, ArcsOfHatchesFollowTheRulesOfOtherArcs) {
+    // A half disc of radius 2: by a bulge, by an arc that runs on, and by one that runs back.
+    const auto arc = [](double from, double to, const char* direction) {
+        return group(72, "2") + place(10, {0, 0}) + group(40, 2.0) + group(50, from) +
+               group(51, to) + group(73, direction);
+    };
+    const std::string chord = line_edge({0, 2}, {0, -2});
+    const std::vector<std::string> discs{
+        path({{0, -2}, {0, 2}}, {{0, 1.0}}), edges({chord, arc(270, 450, "1")}),
+        edges({chord, arc(-90, 90, "1")}), edges({arc(-90, 90, "0"), chord})};
+    for (const std::string& each : discs) {
+        const Drawing flat = read(dxf(hatch("CLAY", {each})), {.flatten = 1e-4});
+        EXPECT_EQ(test::told(flat.faults), "");
+        EXPECT_NEAR(std::abs(geometry::signed_area(flat.outlines.at(0).points)),
+                    2.0 * std::numbers::pi, 1e-3);
+        double farthest = 0.0;
+        for (const Vec2& corner : flat.outlines[0].points)
+            farthest = std::max(farthest, corner.x());
+        EXPECT_NEAR(farthest, 2.0, 1e-3);
+        const Drawing refused = read(dxf(hatch("CLAY", {each})));
+        ASSERT_EQ(refused.faults.size(), 1u);
+        EXPECT_NE(refused.faults[0].cause.find("HATCH 7B on layer CLAY has an arc at"),
+                  std::string::npos)
+            << refused.faults[0].cause;
+    }
+}
+
+TEST(Dxf, SolidsTracesAndFacesAreAreas) {
+    const auto corners = [](const char* type, const Line& line) {
+        std::string text = group(0, type) + group(8, "CLAY");
+        for (int i = 0; i < 4; ++i) text += place(10 + i, line[i]) + group(30 + i, 0.0);
+        return text;
+    };
+    const Line crossed{{0, 0}, {4, 0}, {0, 4}, {4, 4}}, triangle{{0, 0}, {4, 0}, {4, 4}, {4, 4}};
+    const Drawing drawing = read(dxf(corners("SOLID", crossed) + corners("TRACE", crossed) +
+                                     corners("3DFACE", square) + corners("SOLID", triangle)));
+    EXPECT_EQ(test::told(drawing.faults), "");
+    ASSERT_EQ(drawing.outlines.size(), 4u);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(drawing.outlines[i].points, square);
+    EXPECT_EQ(drawing.outlines[3].points, (Line{{0, 0}, {4, 0}, {4, 4}}));
+}
+
+TEST(Dxf, NoLayerWithAMeaningIsLeftOutInSilence) {
+    const auto at = [](const char* type, const std::string& layer) {
+        return group(0, type) + group(8, layer) + place(10, {3, 7});
+    };
+    const std::string ellipse = edges({group(72, "3") + place(10, {3, 7}) + place(11, {1, 0})});
+    const std::string open = edges({line_edge({3, 7}, {4, 0}), line_edge({4, 0}, {4, 4})});
+    for (const char* type : {"SPLINE", "REGION", "MLINE", "BODY", "INSERT", "TEXT", "POINT",
+                             "ACAD_PROXY_ENTITY", "3DSOLID", "ELLIPSE"}) {
+        for (const std::string layer : {"CLAY", "PHREATIC", "ground"}) {
+            const Drawing drawing = read(dxf(at(type, layer) + light("ROCK", square)));
+            ASSERT_EQ(drawing.faults.size(), 1u) << type;
+            const std::string& cause = drawing.faults[0].cause;
+            EXPECT_NE(cause.find("layer " + layer), std::string::npos) << cause;
+            EXPECT_NE(cause.find("at (3, 7)"), std::string::npos) << cause;
+            EXPECT_NE(cause.find(type), std::string::npos) << cause;
+        }
+    }
+    for (const std::string& each : {ellipse, open, edges({line_edge({3, 7}, {3, 7})})}) {
+        const Drawing drawing = read(dxf(hatch("CLAY", {each})));
+        ASSERT_EQ(drawing.faults.size(), 1u);
+        EXPECT_TRUE(drawing.faults[0].cause.starts_with("HATCH 7B on layer CLAY at ("))
+            << drawing.faults[0].cause;
+    }
+    // A hatch of water is no line; beside the line it is passed over.
+    EXPECT_EQ(read(dxf(hatch("PHREATIC", {path(square)}))).faults.size(), 1u);
+    const Drawing water =
+        read(dxf(hatch("PHREATIC", {path(square)}) + light("PHREATIC", {{0, 1}, {4, 1}}, false)));
+    EXPECT_EQ(test::told(water.faults), "");
+    EXPECT_EQ(water.remarks, (std::vector<std::string>{"passed over: 1 HATCH"}));
+    EXPECT_EQ(test::told(read(dxf(hatch("CLAY", {path(square)})), {}, {"CLAY=none"}).faults), "");
 }
 
 TEST(Dxf, LayersWithoutMeaningAreReportedOnceAndFrozenOnesAreLeftOut) {

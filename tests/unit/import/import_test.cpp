@@ -78,6 +78,45 @@ TEST(Import, ADrawingBecomesASceneWithItsWaterAndGuessedSearch) {
     EXPECT_EQ(test::told(read.faults), "");
 }
 
+TEST(Import, ARegionDrawnAsAHatchIsARegion) {
+    const std::string rest = light("ROCK", test::rock) + light("CLAY", test::clay) + water;
+    const auto scene = [&](const std::string& tailings) {
+        const Imported imported = import_section(test::request(dxf(rest + tailings)));
+        EXPECT_EQ(test::told(imported.faults), "");
+        return imported.scene;
+    };
+    EXPECT_EQ(scene(test::hatch("TAILINGS", {test::path(test::tailings)})),
+              scene(light("TAILINGS", test::tailings)));
+}
+
+TEST(Import, AHatchInAnOutlineOfItsLayerRepeatsIt) {
+    Line turned(test::clay.rbegin(), test::clay.rend());
+    const Line strip{{30, 0}, {40, 0}, {42, 3}, {31, 2}};
+    const json plain = import_section(test::request(dxf(section() + water))).scene;
+    const std::string hatched = test::hatch("CLAY", {test::path(turned), test::path(strip)}) +
+                                test::hatch("CLAY", {test::path(strip)});
+    EXPECT_EQ(import_section(test::request(dxf(section() + hatched + water))).scene, plain);
+    // Also where single lines are the outline, and where one hatch lies on another.
+    const std::string rest = light("ROCK", test::rock) + light("TAILINGS", test::tailings) + water;
+    const std::string twice =
+        test::hatch("CLAY", {test::path(strip)}) + test::hatch("CLAY", {test::path(turned)});
+    for (const std::string& clay : {test::sides("CLAY", test::clay) + hatched, twice}) {
+        const Imported imported = import_section(test::request(dxf(rest + clay)));
+        ASSERT_EQ(test::told(imported.faults), "");
+        EXPECT_NEAR(area_of(region(imported.scene, "CLAY")), area_of(region(plain, "CLAY")), 1e-9);
+    }
+}
+
+TEST(Import, AHatchWithAnIslandIsRefused) {
+    const Line lens{{45, 4}, {55, 4}, {52, 8}};
+    const std::string rest = light("ROCK", test::rock) + light("TAILINGS", test::tailings);
+    const Imported imported = import_section(
+        test::request(dxf(rest + test::hatch("CLAY", {test::path(test::clay), test::path(lens)}))));
+    ASSERT_EQ(imported.faults.size(), 1u) << test::told(imported.faults);
+    EXPECT_NE(imported.faults[0].cause.find("on layer CLAY has an island at (45, 4)"),
+              std::string::npos);
+}
+
 TEST(Import, ASlopeThatFallsToTheLeftIsSearchedThere) {
     const Line mirrored{{-80, 0}, {-20, 0}, {-50, 12}, {-55, 12}};
     const Imported imported = import_section(test::request(dxf(light("CLAY", mirrored))));
