@@ -37,7 +37,7 @@ struct ExitRecord {
     std::optional<StopReason> stopped;
     double wall_seconds = 0.0;
     double cpu_seconds = 0.0;
-    std::string disk;  ///< why files could not be written at the end; empty: they could
+    std::string disk = {};  ///< why files could not be written at the end; empty: they could
 };
 
 /// A supervisor's report about its phase while it runs, every two seconds.
