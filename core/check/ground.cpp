@@ -167,9 +167,9 @@ void check_flow_sections(const scene::Scene& scene, Findings& findings) {
         warn(findings, "section_upstream", "/mpm/sections/" + std::to_string(i) + "/x",
              "is " + metres(x) + ", upstream of the crest at x = " + metres(crest) + ": \"" +
                  mpm.sections[i].name +
-                 "\" records what moves within the pond, not what leaves the dam; write \"x\": " +
-                 text(std::max(crest, std::min(mpm.runout.toe.x(), mpm.domain_x[1]))) +
-                 " for the toe");
+                 "\" records what moves within the pond, not what leaves the dam; for the toe " +
+                 words::set("/mpm/sections/" + std::to_string(i) + "/x",
+                            std::max(crest, std::min(mpm.runout.toe.x(), mpm.domain_x[1]))));
     }
 }
 
@@ -184,10 +184,9 @@ void check_duration(const scene::Scene& scene, Findings& findings) {
     warn(findings, "short_runout", mpm.until_rest ? "/mpm/longest_duration" : "/mpm/duration",
          "is " + text(mpm.duration) + " s, and soil needs " + words::text_of(fall, 2) +
              " s to fall " + words::text_of(H, 3) + " m" +
-             " freely: the run ends before the soil has collapsed, and its runout is too short; "
-             "write \"duration\": \"until_rest\"" +
-             (mpm.until_rest ? " without longest_duration" : "") + ", or at least " + text(least) +
-             " s");
+             " freely: the run ends before the soil has collapsed, and its runout is too short; " +
+             (mpm.until_rest ? words::set("/mpm/longest_duration", least)
+                             : words::set("/mpm/duration", "until_rest")));
 }
 
 }  // namespace

@@ -104,10 +104,11 @@ void check_rest(const scene::Fem& fem, const motion::Series& series, Findings& f
     warn(findings, "beyond_motion", "/fem/stages/" + std::to_string(last - 1) + "/duration",
          "the dynamic stages end at " + text(end) + " s, and the motion at " + text(length) +
              " s: the rest is computed without shaking, which costs time and strains the mesh; " +
-             (before < length
-                  ? "write \"duration\": " + text(length - before) + ", or up to " +
-                        text(most * length - before) + " if the soil fails after the shaking"
-                  : std::string("delete this stage")) +
+             (before < length ? words::set("/fem/stages/" + std::to_string(last - 1) + "/duration",
+                                           length - before) +
+                                    ", or up to " + text(most * length - before) +
+                                    " if the soil fails after the shaking"
+                              : std::string("delete this stage")) +
              ", or give the whole record");
 }
 

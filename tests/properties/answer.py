@@ -147,6 +147,13 @@ def verdict(study, scenes, rows, without):
     return "with_remarks" if any(each.get("flags") for each in rows) or same_results(study, rows) else "yes"
 
 
+def with_warnings(usable, warnings):
+    """The verdict with the warnings of the submission."""
+    from_best = ["yes", "with_remarks", "in_part", "questionable", "no"]
+    worth = ["no" if each["code"] == "implausible" else "with_remarks" for each in warnings]
+    return max([usable, *worth], key=from_best.index)
+
+
 def breaks_down(scene):
     return "fem" in scene and known.fem(scene)[1] == "breakdown"
 
@@ -261,9 +268,10 @@ def differences(wanted, run, results, extended=False):
         found.append(f"same_results is {results['same_results']} for {wanted['same_results']}")
     if run["state"] != wanted["state"]:
         found.append(f"the run is {run['state']} for {wanted['state']}")
-    if results["verdict"]["usable"] != wanted["verdict"]:
+    usable = with_warnings(wanted["verdict"], run["warnings"])
+    if results["verdict"]["usable"] != usable:
         found.append(
-            f"the verdict is {results['verdict']['usable']} for {wanted['verdict']}: "
+            f"the verdict is {results['verdict']['usable']} for {usable}: "
             f"{[reason['text'] for reason in results['verdict']['reasons']]}"
         )
     return found

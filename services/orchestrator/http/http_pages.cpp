@@ -135,7 +135,6 @@ std::string api_description(const Router& router) {
     auto document = Description::parse(openapi_text());
     Description& schemas = document["components"]["schemas"];
     for (auto& each : schemas) extend(schemas, each);
-    schemas.erase("Sweep");  // only a base for "extends"
     for (auto& [path, operations] : document["paths"].items()) {
         for (auto& [method, operation] : operations.items()) {
             for (auto& response : operation["responses"]) name_media_type(response);
