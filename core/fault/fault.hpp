@@ -27,7 +27,7 @@ struct Fault {
     std::string remedy;
 };
 
-/// Limit of a refusal: nobody corrects more faults at once, and a hostile document has millions.
+/// Limit of a refusal: users do not correct more at once, and a hostile document has millions.
 inline constexpr std::size_t most_faults = 100;
 
 /// Collects the first faults of a document and counts the others.

@@ -50,7 +50,7 @@ bool wait_for_event(const Store& store, std::int64_t after, Clock::time_point un
 }
 
 /// The service never gave this number: its data folder was restored from a backup or made anew
-/// since. The client would wait for ever; it must go on after the newest event.
+/// since. The client would wait permanently; it must go on after the newest event.
 bool is_beyond_newest(const Store& store, std::int64_t after) {
     return after > store.last_event() &&
            store.events_after(after - 1, 1).empty();  // not yet counted, but already readable
