@@ -250,7 +250,7 @@ Run read_run(const fs::path& folder) {
             if (const json at = about.value("finished", json()); at.is_string()) run.finished = at;
             if (!about.value("title", "").empty()) run.title = about.at("title");
         }
-        // Phases run by hand: nobody has checked the whole scene.
+        // Phases run by hand: the whole scene was not checked before.
         run.warnings =
             about.is_object() && about.contains("warnings")
                 ? about.at("warnings")
