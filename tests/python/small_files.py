@@ -34,7 +34,7 @@ class Files(unittest.TestCase):
         folder = self.here / name
         task = folder / "tasks/mpm_0.5"
         task.mkdir(parents=True)
-        (folder / "run.json").write_text(json.dumps({"id": name, "name": "column", "state": "succeeded", "verdict": {"usable": "yes", "words": "usable", "reasons": []}}))
+        (folder / "run.json").write_text(json.dumps({"id": name, "name": "column", "state": "succeeded", "headline": {"outcome": "not_known", "text": ""}, "verdict": {"usable": "yes", "words": "usable", "reasons": []}}))
         (folder / "study.json").write_text(json.dumps({"scene": {"name": "column"}}))
         (folder / "results.json").write_text(json.dumps({"columns": COLUMNS, "rows": table}))
         (task / "task.json").write_text(json.dumps(

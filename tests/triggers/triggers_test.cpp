@@ -526,6 +526,8 @@ printf '{"phase":"lem_tool","safety":1.2,"critical_depth":%s}' "$depth" > "$out/
 json of_two_depths(const json& triggers) {
     json made = with_triggers(triggers);
     made["stability"] = true;
+    made["scene"]["lem"]["pore_pressure_ratios"] =
+        json::array({{{"region", "slope"}, {"r_u", 0.01}}});
     made["scene"]["lem"]["liquefaction"] =
         json::array({{{"region", "slope"}, {"residual_strength_kPa", 1}}});
     made["variants"] = {

@@ -64,7 +64,7 @@ class Service(http.server.ThreadingHTTPServer):
                 "tasks_total": 3, "tasks_done": 3 if over else 1,
                 "tasks_failed": 1 if over and self.end == "failed" else 0,
                 "questionable": 1 if over and self.end == "questionable" else 0,
-                "verdict": self.verdict(), "message": message if over and self.end == "questionable" else ""}
+                "headline": {"outcome": "not_known", "text": ""}, "warnings": [], "verdict": self.verdict(), "message": message if over and self.end == "questionable" else ""}
 
     def verdict(self):
         usable = "questionable" if self.looks_left <= 0 and self.end == "questionable" else "yes"

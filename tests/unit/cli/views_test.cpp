@@ -32,6 +32,8 @@ json run_with(const json& task) {
             {"tasks_done", 1},
             {"tasks_failed", 1},
             {"message", "why"},
+            {"headline", {{"text", ""}}},
+            {"verdict", {{"usable", "no"}, {"words", "not usable"}, {"reasons", json::array()}}},
             {"tasks", json::array({task})}};
 }
 

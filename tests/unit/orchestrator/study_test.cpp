@@ -345,6 +345,8 @@ TEST(Graph, EveryVariantHasAStabilityAnalysisThatItsRowsKnow) {
 
 TEST(Graph, VariantsShareAFemThatATriggerWatchesForItsCriticalDepthOnlyWhereTheDepthIsTheSame) {
     json study = slope_study();
+    study["scene"]["lem"]["pore_pressure_ratios"] =
+        json::array({{{"region", "slope"}, {"r_u", 0.01}}});
     study["scene"]["lem"]["liquefaction"] =
         json::array({{{"region", "slope"}, {"residual_strength_kPa", 10}}});
     study["variants"] = {
