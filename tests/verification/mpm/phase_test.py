@@ -124,11 +124,12 @@ def test_outputs_and_resume(scratch):
     # 2 s are too short, which is reported
     assert result["at_rest"] is False and result["ended"] == "duration" and result["end_time"] == 2.0, result
     assert 0.05 < result["kinetic_share"] < 0.5 and result["rest"]["moving"], result
-    assert result["questionable"] is True and [each["code"] for each in result["flags"]] == ["still_moving", "overlap", "upstream_wall"], result["flags"]
-    message = result["flags"][0]["message"]
+    assert result["questionable"] is True
+    assert [each["code"] for each in result["flags"]] == ["short_runout", "still_moving", "overlap", "upstream_wall"], result["flags"]
+    message = result["flags"][1]["message"]
     assert f"still moving at 2 s with {100 * result['kinetic_share']:.3g} % of the released energy" in message, message
     for words in (f"runout {result['runout']:.2f} m", f"beyond the toe {result['runout_beyond_toe']:.2f} m", "STILL MOVING", "volume ratio",
-                  "numerical share", "overlap", "flags: still_moving (questionable)"):
+                  "numerical share", "overlap", "flags: short_runout (warning), still_moving (questionable)"):
         assert words in first.stderr, (words, first.stderr)
     check_frames(whole)
     assert series(whole) == [(t, f"particles_{t:.6f}.vtkhdf") for t in (0.0, 0.5, 1.0, 1.5, 2.0)], series(whole)
