@@ -84,12 +84,12 @@ test("what a person entered stays when the template changes; what cannot stay is
     await open_dialog();
     await page.selectOption("#template-choice", "upstream_dam");
     await sound("the dam");
-    await (await field_of(page, "/scene/materials/embankment/density")).fill("1777");
+    await (await field_of(page, "/scene/materials/foundation/density")).fill("1777");
     await (await field_of(page, "/scene/mpm/runout/toe")).fill("5");
     await go_to_step(page, "Section");
     await page.getByLabel("raises", { exact: true }).fill("2");
     await until("two raises", async () => !(await scene()).section.regions.some(({ name }) => name === "raise_3"));
-    assert.equal((await scene()).materials.embankment.density, 1777);
+    assert.equal((await scene()).materials.foundation.density, 1777);
     assert.deepEqual((await scene()).mpm.runout.toe, [5, 0]);
     const polygon = (await scene()).section.regions[0].polygon;
     await page.evaluate(([x, y]) => { // as if a vertex were moved by hand
