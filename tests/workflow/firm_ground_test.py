@@ -36,7 +36,7 @@ def main(folder):
     check("the plan names the ground", "base_soil at 0 m" in plan.stdout + plan.stderr, plan.stdout + plan.stderr)
     shared = run("mpm_solver", SLOPE, folder / "shared", "--check", "--set", "/mpm/cell_size=0.8")
     said = shared.stdout + shared.stderr
-    check("a top within a cell is told with cells that fit", "0.25 of a cell above a line" in said and "0.714286 m or 0.833333 m" in said, said)
+    check("a top within a cell is told with cells that fit", "0.25 of a cell above a line" in said and "--set /mpm/cell_size=0.714285714 or --set /mpm/cell_size=0.833333333" in said, said)
 
 
 with tempfile.TemporaryDirectory() as scratch:
