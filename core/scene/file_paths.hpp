@@ -24,10 +24,6 @@ struct FileReference {
 };
 inline constexpr const char* folder_of_references = "files";
 
-/// Prefix of a study's "scene" for a scene stored by the service: "scene:NAME", "scene:NAME@3",
-/// "scene:sha256/<64 hex digits>".
-inline constexpr std::string_view stored_scene = "scene:";
-
 /// None if the text is a path.
 std::optional<FileReference> file_reference(std::string_view text);
 /// The reference to a file name in that folder.

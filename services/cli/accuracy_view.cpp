@@ -107,26 +107,4 @@ std::string as_accuracy_table(const json& answer) {
     return text + "\n" + cell(answer, "recommendation") + "\n";
 }
 
-std::string as_check_table(const json& answer) {
-    std::vector<Cells> rows;
-    for (const json& mean : answer.at("means")) {
-        std::string draws;
-        for (const json& each : mean.at("variants"))
-            draws += (draws.empty() ? "" : " ") + cell(each);
-        std::string note = cell(mean, "reason");
-        if (mean.at("questionable").get<bool>()) note += note.empty() ? "?" : " ?";
-        rows.push_back({draws, cell(mean, "value"), percent_of(mean.at("error")),
-                        mean.at("kept").get<bool>() ? "yes" : "no", note});
-    }
-    std::string quantity = cell(answer, "quantity");
-    if (answer.at("unit") != "1") quantity += " [" + cell(answer, "unit") + "]";
-    return as_table({{"repeats", Align::left},
-                     {quantity, Align::right},
-                     {"error", Align::right},
-                     {"within " + percent_of(answer.at("asked_error")), Align::left},
-                     {"", Align::left}},
-                    rows) +
-           "\n" + cell(answer, "verdict") + "\n";
-}
-
 }  // namespace breach::cli

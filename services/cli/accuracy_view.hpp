@@ -9,7 +9,4 @@ namespace breach::cli {
 /// answer: of GET /v1/runs/{id}/accuracy
 std::string as_accuracy_table(const nlohmann::json& answer);
 
-/// answer: of GET /v1/runs/{id}/accuracy/check
-std::string as_check_table(const nlohmann::json& answer);
-
 }  // namespace breach::cli

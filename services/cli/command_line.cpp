@@ -20,7 +20,6 @@
 #include "services/cli/machinery.hpp"
 #include "services/cli/motion.hpp"
 #include "services/cli/new_scene.hpp"
-#include "services/cli/scenes.hpp"
 #include "services/cli/stored.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/verify.hpp"
@@ -52,10 +51,9 @@ struct Arguments {
     bool watch = false;
     bool dry_run = false;
     std::size_t samples = 0;  ///< in all; 0: not given
-    std::string budget;       ///< CPU seconds or "none"; empty: not given
     bool strict = false;
     ResultsOptions results;
-    CheckOptions check;
+    std::string asked_error;  ///< of accuracy; empty: the study's
     UncertaintyOptions uncertainty;
     std::int64_t priority = 0;
     std::string title;
@@ -71,9 +69,7 @@ struct Arguments {
     VerifyOptions verify;
     NewOptions make;
     ImportOptions import;
-    ScenesOptions scenes;
     TransfersOptions transfers;
-    std::string sha256;
 };
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
@@ -112,9 +108,7 @@ class CommandLine {
             "RUN: an id, its beginning, a name (the newest run of it), or `latest`. Exit codes: 0 "
             "done, 2 usage, 65 refused, 70 the run failed "
             "(with\n"
-            "--strict: or is questionable), 74 file fault, 75 the server does not answer, or the "
-            "budget "
-            "of the run that was watched is spent.");
+            "--strict: or is questionable), 74 file fault, 75 the server does not answer.");
         add_run_commands();
         add_sweep_commands();
         add_accuracy_command();
@@ -127,7 +121,6 @@ class CommandLine {
         add_verify();
         add_import();
         add_storage_commands();
-        add_scenes();
         add_machinery();
         add_completion();
     }
@@ -297,14 +290,13 @@ class CommandLine {
 
     /// Prints the table of an existing run, or submits and watches a run for it.
     ExitCode accuracy(Server& server, const Console& console) {
-        if (!a_.id.empty() && a_.check.repeats.empty()) {
+        if (!a_.id.empty()) {
             const ExitCode end =
                 a_.watch ? watch(server, a_.id, questionable(), console) : ExitCode::done;
-            show_accuracy(server, a_.id, a_.check.asked_error, console);
+            show_accuracy(server, a_.id, a_.asked_error, console);
             return end;
         }
-        const std::string run = a_.id.empty() ? submit(server, a_.submit, console)
-                                              : check_accuracy(server, a_.id, a_.check, console);
+        const std::string run = submit(server, a_.submit, console);
         if (!a_.watch) return ExitCode::done;
         const ExitCode end = watch(server, run, questionable(), console);
         show_accuracy(server, run, "", console);
@@ -318,12 +310,12 @@ class CommandLine {
         CLI::Option_group* what = sub->add_option_group("what");
         take_study_file(what);
         CLI::Option* of = what->add_option(
-            "--of", a_.id, "instead: the run of an accuracy study or of a check, as far as it is");
+            "--of", a_.id, "instead: the run of an accuracy study, as far as it is");
         what->require_option(1);
         take_changes(sub);
         for (const char* of_a_new_run : {"--set", "--key", "--send-files"})
             sub->get_option(of_a_new_run)->excludes(of);
-        take_check(sub, of);
+        take_asked_error(sub, of);
         take_strict(sub);
     }
 
@@ -349,29 +341,10 @@ class CommandLine {
         take_strict(sub);
     }
 
-    void take_check(CLI::App* sub, CLI::Option* of) {
-        CheckOptions& options = a_.check;
-        sub->add_option("--within", options.asked_error,
-                        "required error instead of the study's: 0.1")
+    void take_asked_error(CLI::App* sub, CLI::Option* of) {
+        sub->add_option("--within", a_.asked_error, "required error instead of the study's: 0.1")
             ->check(CLI::Range(0.0, 1.0))
             ->needs(of);
-        CLI::Option* check =
-            sub->add_option("--check", options.repeats,
-                            "test the recommended setting on this many new lattices (or means of "
-                            "lattices, if it recommends means)")
-                ->check(CLI::Range(1, 100))
-                ->needs(of);
-        sub->add_option("--rung", options.rung, "check this rung instead, LADDER:STEP: cells:2")
-            ->check([](const std::string& rung) {
-                return rung.rfind(':') == std::string::npos
-                           ? rung + " is no ladder with its step, such as cells:2"
-                           : "";
-            })
-            ->needs(check);
-        sub->add_option("--mean-of", options.mean_of,
-                        "number of repeats per mean, instead of the recommended one")
-            ->check(CLI::Range(1, 20))
-            ->needs(check);
     }
 
     void add_sweep_commands() {
@@ -381,11 +354,8 @@ class CommandLine {
                            return submit_and_watch(s, c);
                        }));
         CLI::App* extend_ =
-            add("extend",
-                "more transfer times, more samples or a larger budget; what was computed stays",
-                "latest --times 0.75,1.25\n  breach extend latest --budget 7200",
-                [this](Server& s, const Console& c) {
-                    if (!a_.budget.empty()) return extend_budget(s, a_.id, a_.budget, c);
+            add("extend", "more transfer times, or more samples; what was computed stays",
+                "latest --times 0.75,1.25", [this](Server& s, const Console& c) {
                     return a_.samples > 0 ? extend_samples(s, a_.id, a_.samples, c)
                                           : extend(s, a_.id, a_.submit.transfer_times, c);
                 });
@@ -397,14 +367,6 @@ class CommandLine {
         more->add_option("--samples", a_.samples,
                          "new total of samples of an uncertainty study; the first ones stay")
             ->check(CLI::Range(1, 10000));
-        more->add_option("--budget", a_.budget,
-                         "CPU seconds that the run may spend in all, or none: no limit")
-            ->check([](const std::string& budget) {
-                double seconds = 0.0;
-                const bool sound = budget == "none" ||
-                                   (CLI::detail::lexical_cast(budget, seconds) && seconds > 0.0);
-                return sound ? "" : budget + " is neither a number of seconds above 0 nor none";
-            });
         more->require_option(1);
     }
 
@@ -464,8 +426,6 @@ class CommandLine {
         add_order("pause", "start no more tasks of a run; running tasks finish");
         add_order("resume", "continue a paused run");
         add_order("retry", "try what failed, was skipped or cancelled once more");
-        add_order("pin", "protect a run from removal");
-        add_order("unpin", "let a pinned run be removed again");
         CLI::App* rename_ =
             add("rename", "give a run another title", "latest \"Weak beach, second try\"",
                 [this](Server& s, const Console& c) { return rename(s, a_.id, a_.title, c); });
@@ -537,7 +497,7 @@ class CommandLine {
 
     void add_file_commands() {
         CLI::App* export_ =
-            add("export", "a run as a folder: results, study, logs, verified artifacts, provenance",
+            add("export", "a run as a folder: results, study, logs, verified artifacts",
                 "latest slope-run/",
                 [this](Server& s, const Console& c) { return export_run(s, a_.id, a_.folder, c); });
         take_run(export_);
@@ -680,24 +640,6 @@ class CommandLine {
                      [this](Server& s, const Console& c) { return open_page(s, a_.id, c); }));
     }
 
-    void add_scenes() {
-        CLI::App* sub = app_.add_subcommand(
-            "scenes", "scenes that the server keeps; a study refers to one as \"scene:NAME\"");
-        sub->footer(
-            "Example:\n  breach scenes add scene.json --name dam\nThen in a study: \"scene\": "
-            "\"scene:dam\" (the newest version when it is submitted), \"scene:dam@2\" or "
-            "\"scene:sha256/<64 digits>\".");
-        const auto choose = [this](ScenesCommand command) {
-            command_ = [this, command](Server& s, const Console& c) {
-                return command(s, a_.scenes, c);
-            };
-        };
-        take_scene_words(*sub, a_.scenes, choose);
-        sub->callback([sub, choose] {
-            if (sub->get_subcommands().empty()) choose(list_scenes);
-        });
-    }
-
     void add_machinery() {
         add("workers", "what runs where, and the queue", "--json",
             [](Server& s, const Console& c) { return workers(s, c); });
@@ -713,14 +655,6 @@ class CommandLine {
         transfers_->add_option("-n,--most", a_.transfers.most, "how many")
             ->check(CLI::Range(1, 500))
             ->capture_default_str();
-        CLI::App* provenance_ =
-            add("provenance",
-                "how a file came to be: tasks, programs, inputs, up to scene and study; --json: "
-                "PROV-JSON",
-                "SHA256 --json > provenance.json",
-                [this](Server& s, const Console& c) { return provenance(s, a_.sha256, c); });
-        provenance_->add_option("SHA256", a_.sha256, "of an artifact; `show TASK` lists them")
-            ->required();
     }
 
     void add_completion() {

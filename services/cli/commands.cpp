@@ -139,14 +139,6 @@ ExitCode extend_samples(Server& server, const std::string& run, std::size_t samp
     return ExitCode::done;
 }
 
-ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
-                       const Console& console) {
-    const json wanted = budget == "none" ? json(nullptr) : json{{"cpu_seconds", std::stod(budget)}};
-    return show_order(
-        server.post(path_of({"sweeps", run_named(server, run), "extend"}), {{"budget", wanted}}),
-        console);
-}
-
 ExitCode list_runs(Server& server, std::size_t most, const Console& console) {
     const json runs =
         server.get("/v1/runs" + query_of({{"limit", std::to_string(most)}})).at("runs");
@@ -194,10 +186,6 @@ ExitCode rename(Server& server, const std::string& run, const std::string& title
 
 ExitCode code_of_end(const json& run, Questionable questionable, const Console& console) {
     if (end_of(run) == RunEnd::bad) return ExitCode::breakdown;
-    if (end_of(run) == RunEnd::short_of_budget) {
-        console.notes << cell(run, "message") << "\n";
-        return ExitCode::try_again;
-    }
     if (!is_doubtful(run)) return ExitCode::done;
     console.notes << warning_of(run) << " (`breach results " << cell(run, "id")
                   << "` says what to do)\n";
@@ -233,14 +221,12 @@ ExitCode results(Server& server, const ResultsOptions& options, const Console& c
 ExitCode show_accuracy(Server& server, const std::string& run, const std::string& asked_error,
                        const Console& console) {
     const std::string id = run_named(server, run);
-    const bool check = server.get(path_of({"runs", id})).at("study").contains("check");
-    const json answer = check ? server.get(path_of({"runs", id, "accuracy", "check"}))
-                              : server.get(path_of({"runs", id, "accuracy"}) +
-                                           query_of({{"asked_error", asked_error}}));
+    const json answer =
+        server.get(path_of({"runs", id, "accuracy"}) + query_of({{"asked_error", asked_error}}));
     if (console.style == Style::json) {
         show_json(answer, console);
     } else {
-        console.out << (check ? as_check_table(answer) : as_accuracy_table(answer));
+        console.out << as_accuracy_table(answer);
     }
     return ExitCode::done;
 }
@@ -259,25 +245,6 @@ ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
         console.out << as_uncertainty_view(answer);
     }
     return ExitCode::done;
-}
-
-std::string check_accuracy(Server& server, const std::string& run, const CheckOptions& options,
-                           const Console& console) {
-    const std::size_t colon = options.rung.rfind(':');
-    const json made = server.post(
-        path_of({"runs", run_named(server, run), "accuracy", "check"}) +
-            query_of({{"repeats", options.repeats},
-                      {"ladder", options.rung.substr(0, colon)},
-                      {"step", colon == std::string::npos ? "" : options.rung.substr(colon + 1)},
-                      {"mean_of", options.mean_of},
-                      {"asked_error", options.asked_error}}),
-        json::object());
-    if (console.style == Style::json) {
-        show_json(made, console);
-    } else {
-        console.out << cell(made, "id") << std::endl;
-    }
-    return made.at("id");
 }
 
 ExitCode telemetry(Server& server, const TelemetryOptions& options, const Console& console) {

@@ -39,10 +39,6 @@ fault::ExitCode extend_samples(Server& server, const std::string& run, std::size
 fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
                        const Console& console);
 
-/// Sets the CPU seconds that all attempts of a run may spend: "600", or "none" for no limit.
-fault::ExitCode extend_budget(Server& server, const std::string& run, const std::string& budget,
-                              const Console& console);
-
 fault::ExitCode list_runs(Server& server, std::size_t most, const Console& console);
 /// `id`: of a run or of a task
 fault::ExitCode show(Server& server, const std::string& id, const Console& console);
@@ -58,8 +54,7 @@ fault::ExitCode set_priority(Server& server, const std::string& run, std::int64_
 enum class Questionable { accepted, fails };
 
 /// breakdown (70) when the ended run failed, was cancelled, or has a questionable result and
-/// `questionable` is fails; try_again (75) when its budget is spent. Prints the reason to the
-/// notes.
+/// `questionable` is fails. Prints the reason to the notes.
 fault::ExitCode code_of_end(const nlohmann::json& run, Questionable questionable,
                             const Console& console);
 
@@ -74,8 +69,7 @@ struct ResultsOptions {
 /// Returns code_of_end.
 fault::ExitCode results(Server& server, const ResultsOptions& options, const Console& console);
 
-/// The table of an accuracy study, its ladders and its recommendation; for a blind check, its
-/// means. asked_error: instead of the study's; empty: the study's.
+/// The table of an accuracy study, its ladders and its recommendation. asked_error: instead of the study's; empty: the study's.
 fault::ExitCode show_accuracy(Server& server, const std::string& run,
                               const std::string& asked_error, const Console& console);
 
@@ -86,17 +80,6 @@ struct UncertaintyOptions {
 /// Results of an uncertainty study's samples, also while its run goes on; as CSV the samples.
 fault::ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
                                  const Console& console);
-
-struct CheckOptions {
-    std::string repeats;  ///< number of means of new repeats; empty: no check
-    std::string rung;     ///< "cells:2"; empty: the recommended setting
-    std::string mean_of;  ///< repeats in a mean; empty: as recommended
-    std::string asked_error;
-};
-
-/// Starts a run that repeats a setting of an accuracy study on new lattices; prints its id.
-std::string check_accuracy(Server& server, const std::string& run, const CheckOptions& options,
-                           const Console& console);
 
 struct TelemetryOptions {
     std::string run;

@@ -5,7 +5,6 @@
 #include "core/exchange/provenance.hpp"
 #include "core/exchange/publish.hpp"
 #include "core/scene/file_paths.hpp"
-#include "services/cli/crate.hpp"
 #include "services/cli/logs.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/views.hpp"
@@ -67,32 +66,25 @@ class Export {
         for (const json& each : run.value("files", json::array())) sent_file(each);
         run.erase("tasks");
         run.erase("study");
-        keep_json("run.json", run, "the run");
-        keep_json("study.json", study, "the study as it was submitted, completed");
+        keep_json("run.json", run);
+        keep_json("study.json", study);
         const std::string results = path_of({"runs", id, "results"});
         const json answer = server_.get(results);
-        keep_json("results.json", answer, "one row per transfer time");
+        keep_json("results.json", answer);
         if (!answer.value("means", json::array()).empty())
-            keep_text("means.csv", server_.get_text(results + "?format=csv&table=means").body,
-                      "means over the repeats");
-        keep_text("results.csv", server_.get_text(results + "?format=csv").body,
-                  "one row per transfer time");
+            keep_text("means.csv", server_.get_text(results + "?format=csv&table=means").body);
+        keep_text("results.csv", server_.get_text(results + "?format=csv").body);
         if (study.contains("accuracy"))
-            keep_json("accuracy.json", server_.get(path_of({"runs", id, "accuracy"})),
-                      "error against run time of each setting");
+            keep_json("accuracy.json", server_.get(path_of({"runs", id, "accuracy"})));
         if (study.contains("uncertainty")) {
             const std::string found = path_of({"runs", id, "uncertainty"});
-            keep_json("uncertainty.json", server_.get(found),
-                      "what the samples say of the results");
-            keep_text("samples.csv", server_.get_text(found + "?format=csv").body,
-                      "one row per sample: values and results");
+            keep_json("uncertainty.json", server_.get(found));
+            keep_text("samples.csv", server_.get_text(found + "?format=csv").body);
         }
         keep_motions(path_of({"runs", id, "motions"}), tasks);
         for (const json& each : tasks) task(each.at("id"));
         if (study.contains("uncertainty"))
-            keep_json("envelopes.json", server_.get(path_of({"runs", id, "envelopes"})),
-                      "depth, velocity and arrival along x over the samples");
-        write_json(folder_ / "ro-crate-metadata.json", crate_.metadata(run));
+            keep_json("envelopes.json", server_.get(path_of({"runs", id, "envelopes"})));
         console_.notes << bar(1.0) << "  " << kept_ << " artifacts, " << fetched_
                        << " of them fetched, all verified\n";
         console_.out << folder_.string() << "\n";
@@ -104,7 +96,7 @@ class Export {
         const auto is_fem = [](const json& each) { return each.at("phase") == "fem_solver"; };
         if (std::ranges::count_if(tasks, is_fem) < 2) return;
         try {
-            keep_json("motions.json", server_.get(path), "what the motions say of the results");
+            keep_json("motions.json", server_.get(path));
         } catch (const Refused& none) {
             if (none.status() != 404) throw;
         }
@@ -117,65 +109,39 @@ class Export {
         const std::string name = std::string(scene::folder_of_references) + "/" + reference->name;
         if (fetch(server_, "files", reference->sha256, path_below(folder_, name))) ++fetched_;
         ++kept_;
-        note(name, file.at("kind").get<std::string>() + " " + file.at("name").get<std::string>());
     }
 
     void task(const std::string& id) {
         const json task = server_.get(path_of({"tasks", id}));
         const std::string name = "tasks/" + task.at("label").get<std::string>() + "/";
         make_folder(path_below(folder_, name + "task.json").parent_path());
-        keep_json(name + "task.json", task, name_of_task(task));
+        keep_json(name + "task.json", task);
         for (const json& attempt : task.at("attempts")) {
             const std::int64_t number = attempt.at("number");
             keep_text(name + "log." + std::to_string(number) + ".txt",
-                      read_log(server_, id, number), "log of " + name_of_task(task));
+                      read_log(server_, id, number));
         }
-        std::vector<std::string> outputs;
         for (const json& artifact : task.at("artifacts")) {
             const std::string file = name + artifact.at("name").get<std::string>();
             if (fetch(server_, "artifacts", artifact.at("sha256"), path_below(folder_, file)))
                 ++fetched_;
             ++kept_;
-            crate_.add_file({.path = file,
-                             .description = "",
-                             .bytes = artifact.at("bytes"),
-                             .sha256 = artifact.at("sha256")});
-            outputs.push_back(file);
         }
-        console_.notes << name_of_task(task) << "  " << outputs.size() << " artifacts\n";
-        crate_.add_action(task, provenance_in(path_below(folder_, name + "result.json")), outputs);
+        console_.notes << name_of_task(task) << "  " << task.at("artifacts").size()
+                       << " artifacts\n";
     }
 
-    /// Null when the task has no result.
-    static json provenance_in(const fs::path& result) {
-        std::ifstream stream(result);
-        const json content = json::parse(stream, nullptr, false);
-        return content.is_object() ? content.value("provenance", json()) : json();
-    }
-
-    void keep_json(const std::string& name, const json& content, const std::string& description) {
+    void keep_json(const std::string& name, const json& content) {
         write_json(path_below(folder_, name), content);
-        note(name, description);
     }
 
-    void keep_text(const std::string& name, const std::string& text,
-                   const std::string& description) {
+    void keep_text(const std::string& name, const std::string& text) {
         exchange::publish_text(path_below(folder_, name), text);
-        note(name, description);
-    }
-
-    void note(const std::string& name, const std::string& description) {
-        const fs::path file = path_below(folder_, name);
-        crate_.add_file({.path = name,
-                         .description = description,
-                         .bytes = static_cast<std::int64_t>(fs::file_size(file)),
-                         .sha256 = exchange::sha256_of_file(file)});
     }
 
     Server& server_;
     fs::path folder_;
     const Console& console_;
-    Crate crate_;
     std::size_t kept_ = 0;
     std::size_t fetched_ = 0;
 };

@@ -1,6 +1,5 @@
 #include "services/cli/machinery.hpp"
 
-#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -110,85 +109,6 @@ ExitCode transfers(Server& server, const TransfersOptions& options, const Consol
                                  {"state", Align::left},
                                  {"runout [m]", Align::left}},
                                 rows);
-    return ExitCode::done;
-}
-
-namespace {
-
-/// A parsed PROV-JSON document: which activity made which file, from which files.
-class Told {
-  public:
-    explicit Told(const json& document) : document_(document) {
-        for (const auto& [id, each] : all("wasGeneratedBy"))
-            maker_[each.at("prov:entity")] = each.at("prov:activity");
-        for (const auto& [id, each] : all("used"))
-            used_[each.at("prov:activity")].push_back(each.at("prov:entity"));
-        for (const auto& [id, each] : all("wasAssociatedWith"))
-            agent_[each.at("prov:activity")] = each.at("prov:agent");
-        for (const auto& [id, each] : all("wasDerivedFrom"))
-            if (!each.contains("prov:activity"))
-                source_[each.at("prov:generatedEntity")].push_back(each.at("prov:usedEntity"));
-    }
-
-    std::string lines_from(const std::string& entity, std::size_t depth = 0) {
-        const std::string indent(2 * depth, ' ');
-        std::string text = indent + named(entity) + "\n";
-        const auto maker = maker_.find(entity);
-        if (maker == maker_.end()) {
-            if (!seen_.insert(entity).second) return text;
-            for (const std::string& each : source_[entity])
-                text += indent + "  from " + named(each) + "\n";
-            return text;
-        }
-        text += indent + "  made by " + activity(maker->second) + "\n";
-        if (!seen_.insert(maker->second).second) return text + indent + "    (as above)\n";
-        for (const std::string& each : used_[maker->second]) text += lines_from(each, depth + 2);
-        return text;
-    }
-
-  private:
-    std::map<std::string, json> all(const char* relation) const {
-        return document_.value(relation, std::map<std::string, json>{});
-    }
-
-    std::string named(const std::string& entity) const {
-        const json& about = document_.at("entity").at(entity);
-        std::string text = cell(about, "prov:type") + " " + cell(about, "prov:label");
-        if (about.contains("breach:sha256")) text += "  SHA-256 " + cell(about, "breach:sha256");
-        return text;
-    }
-
-    std::string activity(const std::string& id) const {
-        const json& about = document_.at("activity").at(id);
-        std::string text = cell(about, "breach:task") + ", " + cell(about, "prov:label");
-        if (const auto agent = agent_.find(id); agent != agent_.end()) {
-            const json& program = document_.at("agent").at(agent->second);
-            text += ", " + cell(program, "prov:label");
-            if (program.contains("breach:version")) text += " " + cell(program, "breach:version");
-        }
-        if (about.contains("breach:host")) text += ", on " + cell(about, "breach:host");
-        if (about.contains("prov:startTime"))
-            text += ", " + cell(about, "prov:startTime") + " to " + cell(about, "prov:endTime");
-        if (about.contains("breach:note")) text += ", " + cell(about, "breach:note");
-        return text;
-    }
-
-    const json& document_;
-    std::map<std::string, std::string> maker_;
-    std::map<std::string, std::vector<std::string>> used_;
-    std::map<std::string, std::vector<std::string>> source_;  ///< without an activity between
-    std::map<std::string, std::string> agent_;
-    std::set<std::string> seen_;  ///< each is printed once
-};
-
-}  // namespace
-
-ExitCode provenance(Server& server, const std::string& sha256, const Console& console) {
-    const json document = server.get(path_of({"artifacts", sha256, "provenance"}));
-    if (console.style == Style::json)
-        show_json(document, console);
-    else
-        console.out << Told(document).lines_from("breach:file/" + sha256);
     return ExitCode::done;
 }
 

@@ -1,4 +1,4 @@
-// Commands about workers, transfers and the provenance of files.
+// Commands about workers and transfers.
 #pragma once
 
 #include <string>
@@ -17,8 +17,5 @@ struct TransfersOptions {
 };
 /// For each transfer why it was made, how long it waited and its runouts; newest first.
 fault::ExitCode transfers(Server& server, const TransfersOptions& options, const Console& console);
-
-/// From a file up to scene and study, one line per step; as JSON: PROV-JSON.
-fault::ExitCode provenance(Server& server, const std::string& sha256, const Console& console);
 
 }  // namespace breach::cli

@@ -107,15 +107,13 @@ ExitCode disk_use(Server& server, const Console& console) {
     std::vector<Cells> rows;
     for (const json& run : storage.at("runs"))
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), bytes(run, "bytes"),
-                        bytes(run, "shared_bytes"), bytes(run, "freed_bytes"),
-                        run.at("pinned").get<bool>() ? "pinned" : ""});
+                        bytes(run, "shared_bytes"), bytes(run, "freed_bytes")});
     console.out << as_table({{"run", Align::left},
                              {"name", Align::left},
                              {"state", Align::left},
                              {"holds", Align::right},
                              {"shared", Align::right},
-                             {"rm frees", Align::right},
-                             {"", Align::left}},
+                             {"rm frees", Align::right}},
                             rows);
     console.out << "\nruns " << bytes(storage, "runs_bytes") << ", files that were sent "
                 << bytes(storage, "files_bytes") << ", database "
@@ -125,10 +123,9 @@ ExitCode disk_use(Server& server, const Console& console) {
         console.out << cell(storage, "removing") << " removed runs are still being deleted\n";
     if (storage.at("keep_days").is_number())
         console.out << "runs are removed " << cell(storage, "keep_days")
-                    << " days after their end, unless pinned\n";
+                    << " days after their end\n";
     if (storage.at("keep_GB").is_number())
-        console.out << "the oldest runs are removed beyond " << cell(storage, "keep_GB")
-                    << " GB, unless pinned\n";
+        console.out << "the oldest runs are removed beyond " << cell(storage, "keep_GB") << " GB\n";
     return ExitCode::done;
 }
 

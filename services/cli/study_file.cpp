@@ -51,10 +51,7 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
     json study = read_json(file);
     if (!study.is_object()) return study;
     std::filesystem::path scene_folder = file.parent_path();
-    const bool named = study.contains("scene") && study["scene"].is_string();
-    if (named && study["scene"].get_ref<const std::string&>().starts_with(scene::stored_scene)) {
-        // A stored scene: the server has it.
-    } else if (named) {
+    if (study.contains("scene") && study["scene"].is_string()) {
         const auto scene = file.parent_path() / study["scene"].get<std::string>();
         scene_folder = scene.parent_path();
         study["scene"] = read_scene_document(scene);

@@ -22,7 +22,7 @@ nlohmann::json study_around(const std::filesystem::path& scene,
 /// Whether the file is a study: it contains or names a scene. Throws like read_study.
 bool names_a_scene(const std::filesystem::path& file);
 
-/// A study's scene with the overrides for all variants. Throws BadInput for a stored scene.
+/// A study's scene with the overrides for all variants.
 nlohmann::json scene_of_study(const std::filesystem::path& file);
 
 /// A scene with its mesh's path resolved.

@@ -160,7 +160,6 @@ RunEnd end_of(const json& run) {
     const std::string state = state_of(run);
     if (is_one_of(state, {"succeeded", "questionable", "partial"})) return RunEnd::good;
     if (is_one_of(state, {"failed", "cancelled"})) return RunEnd::bad;
-    if (state == "budget_exhausted") return RunEnd::short_of_budget;
     return RunEnd::not_yet;
 }
 
@@ -223,9 +222,6 @@ std::string as_run_page(const json& run) {
     text += "created   " + moment(run, "created") + (by == "-" ? "" : " by " + by) + "\n";
     text += "started   " + moment(run, "started") + "\n";
     text += "finished  " + moment(run, "finished") + "\n";
-    if (const json budget = run.value("budget_cpu_seconds", json()); budget.is_number())
-        text += "budget    " + cell(run, "spent_cpu_seconds") + " of " + cell(budget) +
-                " CPU s spent\n";
     if (!run.value("message", "").empty()) text += "message   " + cell(run, "message") + "\n";
     text += "\n" + as_verdict(run.at("headline"), run.at("verdict"), run.at("tasks")) +
             as_task_table(run.at("tasks"));

@@ -8,9 +8,8 @@ namespace breach::cli {
 
 enum class RunEnd {
     not_yet,
-    good,             ///< succeeded, perhaps questionable, or partial
-    bad,              ///< failed or cancelled
-    short_of_budget,  ///< its budget is spent
+    good,  ///< succeeded, perhaps questionable, or partial
+    bad,   ///< failed or cancelled
 };
 
 RunEnd end_of(const nlohmann::json& run);

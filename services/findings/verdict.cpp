@@ -31,8 +31,7 @@ static constexpr auto words_of(Usable) {
 namespace {
 
 bool is_over(const std::string& state) {
-    static const std::set<std::string> open{"queued", "running", "budget_exhausted", "planning",
-                                            "refining"};
+    static const std::set<std::string> open{"queued", "running", "planning", "refining"};
     return !open.contains(state);
 }
 

@@ -210,7 +210,7 @@ class FakeRun {
                  created: new Date(this.began).toISOString(), started: new Date(this.began).toISOString(),
                  finished: over ? new Date(Math.min(Date.now(), this.began + 1000 * this.pace)).toISOString() : null,
                  progress: clamp(this.age() / this.pace), tasks_total: states.length, tasks_done: count("succeeded"),
-                 tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused), pinned: Boolean(this.pinned),
+                 tasks_failed: count("failed"), questionable, flag_counts, paused: Boolean(this.paused),
                  verdict: this.run_verdict(questionable, flag_counts, verdicts.flatMap(({ flags }) => flags ?? [])), message: moving ? `${moving} of ${this.rows().length} runouts still moving: lower bounds` : "",
                  seconds_left: over || this.paused ? null : this.pace - this.age() };
     }
@@ -414,7 +414,7 @@ export class FakeApi {
         const [, kind, id, ...rest] = parts;
         if (kind === "artifacts") return this.serve_artifact(id, response);
         if (kind === "storage") {
-            return json(response, { runs: this.runs.map((run) => ({ id: run.id, freed_bytes: 12.3e6, shared_bytes: run.pinned ? 0 : 4e6 })) });
+            return json(response, { runs: this.runs.map((run) => ({ id: run.id, freed_bytes: 12.3e6, shared_bytes: 4e6 })) });
         }
         if (kind === "events") return this.serve_events(url, response);
         if (kind === "workers") return json(response, this.workers);
@@ -438,7 +438,7 @@ export class FakeApi {
             this.tell(run.id, "remove");
             return json(response, { id: run.id, freed_bytes: 1000 }, 202);
         }
-        if (["cancel", "pause", "resume", "retry", "pin", "unpin"].includes(rest[0])) return this.command(run, rest[0], response);
+        if (["cancel", "pause", "resume", "retry"].includes(rest[0])) return this.command(run, rest[0], response);
         if (rest[0] === "title") return this.rename(run, request, response);
         if (rest[0] === "triggers") return json(response, { run: run.id, triggers: run.triggers() });
         if (rest[0] === "transfers") return json(response, { transfers: run.transfers(), next: null });
@@ -478,7 +478,6 @@ export class FakeApi {
     command(run, order, response) {
         if (order === "cancel") run.cancelled_at ??= Date.now();
         if (order === "pause") run.paused = true;
-        if (order.endsWith("pin")) run.pinned = order === "pin";
         if (order === "resume") run.paused = false;
         if (order === "retry") Object.assign(run, { began: Date.now(), pace: 600, cancelled_at: null });
         this.tell(run.id, order);

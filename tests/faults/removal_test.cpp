@@ -99,11 +99,6 @@ TEST(Removal, IsRefusedWhileTheRunGoesOnOrIsPinned) {
               std::string::npos);
     service.post("/v1/runs/" + run + "/cancel", "");
     EXPECT_EQ(service.wait_for_end(run).at("state"), "cancelled");
-    EXPECT_EQ(service.post("/v1/runs/" + run + "/pin", "").body.at("pinned"), true);
-    const Answer pinned = remove(service, run);
-    EXPECT_EQ(pinned.status, 409);
-    EXPECT_EQ(pinned.body.at("type"), "/problems/pinned");
-    EXPECT_EQ(service.post("/v1/runs/" + run + "/unpin", "").body.at("pinned"), false);
     EXPECT_EQ(remove(service, run).status, 202);
     EXPECT_EQ(remove(service, "nobody").status, 404);
     EXPECT_EQ(service.get("/v1/runs").body.at("runs").size(), 0u);
@@ -131,7 +126,7 @@ TEST(Removal, AListenerGetsTheEventAndTheKeyIsFreeAgain) {
     EXPECT_EQ(service.wait_for_end(again.body.at("id")).at("state"), "succeeded");
 }
 
-TEST(Removal, KeepsTheNewestAndThePinnedWithinWhatTheServiceMayKeep) {
+TEST(Removal, TakesTheOldestBeyondWhatTheServiceMayKeep) {
     const Sandbox sandbox;
     std::vector<std::string> runs;
     {
@@ -142,7 +137,6 @@ TEST(Removal, KeepsTheNewestAndThePinnedWithinWhatTheServiceMayKeep) {
             runs.push_back(service.submit(wanted));
             service.wait_for_end(runs.back());
         }
-        service.post("/v1/runs/" + runs[0] + "/pin", "");
     }
     {
         Service service(sandbox, {"--keep-days", "1", "--keep-gb", "100"});
@@ -150,19 +144,16 @@ TEST(Removal, KeepsTheNewestAndThePinnedWithinWhatTheServiceMayKeep) {
         EXPECT_EQ(service.get("/v1/runs").body.at("runs").size(), 3u);
         const json held = service.get("/v1/storage").body;
         EXPECT_EQ(held.at("keep_days"), 1);
-        // One run less fits, as the database counts too.
     }
-    {
-        Service service(sandbox, {"--keep-gb", "0.0000001"});
-        EXPECT_TRUE(
-            eventually([&] { return service.get("/v1/runs").body.at("runs").size() == 1; }));
-        EXPECT_EQ(service.get("/v1/runs/" + runs[0]).status, 200) << "pinned";
-        ASSERT_TRUE(nothing_is_being_removed(service));
-        EXPECT_FALSE(fs::exists(folder_of(sandbox, runs[1])));
-        service.post("/v1/runs/" + runs[0] + "/unpin", "");
-    }
-    Service service(sandbox, {"--keep-days", "0"});
+    Service service(sandbox, {"--keep-gb", "0.0000001"});  // less than the database alone
     EXPECT_TRUE(eventually([&] { return service.get("/v1/runs").body.at("runs").empty(); }));
+    std::vector<std::string> removed;
+    const json events = service.get("/v1/events?after=0&wait=0").body.at("events");
+    for (const json& each : events)
+        if (each.at("detail").value("event", "") == "remove") removed.push_back(each.at("run"));
+    EXPECT_EQ(removed, runs) << "the one that ended first goes first";
+    ASSERT_TRUE(nothing_is_being_removed(service));
+    EXPECT_FALSE(fs::exists(folder_of(sandbox, runs[0])));
 }
 
 /// A service that waits at `place` until the file is removed.

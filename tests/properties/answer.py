@@ -27,9 +27,9 @@ def scene_of(study, variant):
 
 def variants_of(study):
     """(own variant, name, number of the repeat) in the order of the rows."""
-    draws, first = study.get("draws", 1), study.get("first_draw", 0)
+    draws = study.get("draws", 1)
     for own in study.get("variants") or [{"name": ""}]:
-        for number in range(first, first + draws):
+        for number in range(draws):
             name = own["name"]
             if number > 0 and draws > 1 or not name and draws > 1:
                 name = f"{name}_d{number + 1}" if name else f"d{number + 1}"

@@ -29,7 +29,7 @@ def journey(bench, case):
     if on & {"extend", "extend_at_once"} and uncertainty.get("first_block", 99) < uncertainty.get("samples", 0):
         piecewise, rest = True, {"samples": uncertainty["samples"]}
         first = dict(study, uncertainty={**uncertainty, "samples": uncertainty["first_block"]})
-    run = bench.submit({**first, "budget": {"cpu_seconds": 0.001}} if "budget" in on else first)
+    run = bench.submit(first)
     if "remove" in on and "warm" in on:  # while the next one takes its files
         assert bench.delete(f"/v1/runs/{earlier}") in (200, 202, 204)
     runs = [(study, run)]
@@ -49,10 +49,8 @@ def journey(bench, case):
         ok(bench.post(f"/v1/runs/{run}/cancel"))
         bench.wait(run)
         ok(bench.post(f"/v1/runs/{run}/retry"))
-    if piecewise and "extend_at_once" not in on or "budget" in on:
+    if piecewise and "extend_at_once" not in on:
         bench.wait(run)
-    if "budget" in on:
-        ok(bench.post(f"/v1/sweeps/{run}/extend", {"budget": None}))
     if piecewise:
         ok(bench.post(f"/v1/sweeps/{run}/extend", rest))
     for _, each in runs:

@@ -7,7 +7,7 @@ def features(case):
     """Features of a case, by name."""
     study = case["study"]
     found = set(case.get("disturbances", []))
-    found |= {key for key in ("variants", "draws", "first_draw", "priority", "known_failure", "accuracy") if study.get(key)}
+    found |= {key for key in ("variants", "draws", "priority", "known_failure", "accuracy") if study.get(key)}
     found |= {f"trigger: {each['kind']}" for each in study.get("triggers", [])}
     found |= {"hold" for each in study.get("triggers", []) if "hold_s" in each}
     found |= {"static"} if "fem" not in study["scene"] else set()

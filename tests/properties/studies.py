@@ -41,7 +41,7 @@ changes = {
     "all": ["/materials/base_soil/density=2100", "/gravity=9.7"],
 }
 
-disturbances = ["extend", "extend_at_once", "twin", "warm", "remove", "pause", "cancel", "kill", "budget", "retry", "rename"]
+disturbances = ["extend", "extend_at_once", "twin", "warm", "remove", "pause", "cancel", "kill", "retry", "rename"]
 
 
 def scene(has_fem=True, salt=0):
@@ -81,8 +81,6 @@ def sweeps(draw):
         study["draws"] = draws
         if has_fem and draw(st.booleans()):
             study["draws_of"] = "fem"
-        if draw(st.booleans()):
-            study["first_draw"] = draw(st.integers(1, 2))
     for key, value in (("reuse", False), ("stability", False), ("known_failure", True), ("priority", 7)):
         if draw(st.integers(0, 3)) == 0:
             study[key] = value
@@ -123,7 +121,7 @@ def cases(draw, studies=None):
     study = draw(studies if studies is not None else sweeps())
     any_of_them = st.lists(st.sampled_from(disturbances), max_size=5, unique=True)
     chosen = draw(any_of_them | any_of_them | any_of_them | st.just(["extend", "warm"]))
-    apt = "retry" if without_memory in str(study) else "extend" if study.keys() & {"uncertainty", "first_draw"} else None
+    apt = "retry" if without_memory in str(study) else "extend" if "uncertainty" in study else None
     if apt and draw(st.booleans()):
         chosen = [*chosen, apt]
     return {

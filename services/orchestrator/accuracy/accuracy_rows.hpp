@@ -1,5 +1,5 @@
 // The table of an accuracy study as plain data (value, error and cost of each rung, error of each
-// ladder, recommended setting), and the result of a blind check.
+// ladder, recommended setting).
 #pragma once
 
 #include <optional>
@@ -72,22 +72,5 @@ inline bool can_be_offered(const AccuracyTable& table, const AccuracyRow& row) {
     return row.error_of_a_run && row.cost && row.has_all_draws() && !row.questionable &&
            !table.ladders[row.setting.ladder].reference_is_questionable;
 }
-
-struct BlindMean {
-    std::vector<std::string> variants;  ///< one per repeat
-    std::optional<double> value = {};   ///< nothing: a repeat has none
-    std::optional<double> error = {};   ///< relative to the reference
-    bool kept = false;                  ///< the error is at most the requested one
-    bool questionable = false;          ///< a repeat has a flag that makes it unreliable
-    std::string reason = {};            ///< why there is no value
-};
-
-struct BlindCheck {
-    BlindCheckPlan plan;
-    std::vector<BlindMean> means;
-    std::size_t judged = 0;  ///< means that have a value
-    std::size_t kept = 0;
-    std::optional<double> furthest;  ///< largest error of a mean
-};
 
 }  // namespace breach::orchestrator

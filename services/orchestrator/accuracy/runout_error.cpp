@@ -166,7 +166,7 @@ class Scatter {
   public:
     Scatter(const Store& store, const std::string& run, const AllRows& all_rows) {
         const json study = store.study_of(run).value_or(json::object());
-        if (study.value("draws", 1) < 2 && study.value("first_draw", 0) == 0) return;
+        if (study.value("draws", 1) < 2) return;
         if (redrawn_named(study.value("draws_of", "")) == Redrawn::fem) noise_ = noise_of_fem;
         for (const json& each : study.at("variants"))
             repeated_.emplace(each.at("name"), repeated_variant(each));

@@ -213,21 +213,4 @@ std::string recommendation_in_words(const AccuracyTable& table) {
     return words + run_in_words(table, *best) + ")." + shares_of(table, *best);
 }
 
-std::string verdict_in_words(const BlindCheck& check) {
-    const BlindCheckPlan& plan = check.plan;
-    const std::string of = plan.mean_of == 1
-                               ? "new repeats"
-                               : "means of " + std::to_string(plan.mean_of) + " new repeats";
-    std::string words = std::to_string(check.kept) + " of " + std::to_string(check.judged) + " " +
-                        of + (check.judged == 1 ? " is" : " are") + " within " +
-                        percent(plan.asked_error) + " of " +
-                        with_unit(plan.reference, plan.quantity);
-    if (check.furthest) words += "; the furthest is off by " + percent(*check.furthest);
-    if (const std::size_t missing = check.means.size() - check.judged; missing > 0)
-        words += "; " + std::to_string(missing) + " not judged: a repeat has no value";
-    const auto doubtful = std::ranges::count_if(check.means, &BlindMean::questionable);
-    if (doubtful > 0) words += "; " + std::to_string(doubtful) + " with a questionable repeat";
-    return words + ".";
-}
-
 }  // namespace breach::orchestrator

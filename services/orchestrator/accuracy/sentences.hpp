@@ -14,7 +14,5 @@ std::string course_in_words(const statistics::Convergence& convergence, const Ac
 std::string reference_in_words(const Reference& reference);
 /// The recommended setting, or why there is none.
 std::string recommendation_in_words(const AccuracyTable& table);
-/// "9 of 10 means of 4 new draws are within 5 % of 31.7 m; the furthest is off by 6.1 %."
-std::string verdict_in_words(const BlindCheck& check);
 
 }  // namespace breach::orchestrator

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "core/fault/fault.hpp"
-#include "services/orchestrator/audit/history.hpp"
 #include "services/orchestrator/store/schema.hpp"
 
 namespace breach::orchestrator {
@@ -32,7 +31,6 @@ class Auditor {
     Audit audit() && {
         look_at_database();
         if (refusal_of(audit_.version)) return std::move(audit_);
-        look_at_history();
         look_at_counts();
         look_at_outputs();
         look_at_files();
@@ -64,28 +62,6 @@ class Auditor {
                 *counted = database_.integer(std::string("SELECT count(*) FROM ") + table).value();
     }
 
-    void look_at_history() {
-        History history;
-        database_.query(
-            "SELECT seq, time, run, task, kind, detail FROM events ORDER BY seq", {},
-            [&](const Row& row) {
-                history.take({row.integer("seq"), row.text("time"), row.text("run"),
-                              row.optional_text("task"), row.text("kind"),
-                              nlohmann::json::parse(row.text("detail"), nullptr, false)});
-            });
-        const std::string remedy = "report it with the database: a program wrote what it must not";
-        for (const std::string& each : history.violations())
-            find({"history", "events", each, remedy});
-        database_.query("SELECT id, state FROM tasks", {}, [&](const Row& row) {
-            const auto told = history.state_of(row.text("id"));
-            const std::string state = row.text("state");
-            if (told && name_of(*told) != state)
-                find({"history", "task " + row.text("id"),
-                      "is " + state + ", its last event says " + std::string(name_of(*told)),
-                      remedy});
-        });
-    }
-
     void look_at_counts() {
         for (const std::string& run : database_.texts(R"(SELECT run
 FROM (SELECT run, count(*) AS total, count(finished) AS ended,
@@ -95,14 +71,6 @@ WHERE (now.total, now.ended, now.reached, now.cancelled) <>
     (kept.total, kept.ended, kept.reached, kept.cancelled))"))
             find({"counts", "run " + run, "its counts are not those of its tasks",
                   "--repair counts them anew", true});
-        for (const std::string& run : database_.texts(R"(SELECT run
-FROM (SELECT run, total(attempts.cpu_seconds) AS now,
-      (SELECT cpu_seconds FROM spendings WHERE spendings.run=tasks.run) AS kept
-      FROM tasks LEFT JOIN attempts ON attempts.task=tasks.id GROUP BY run)
-WHERE abs(now - coalesce(kept, 0)) > 1e-6 * max(1, now))"))
-            find({"counts", "run " + run,
-                  "the CPU time that it has spent is not that of its attempts",
-                  "--repair counts it anew", true});
     }
 
     void look_at_outputs() {
@@ -212,9 +180,6 @@ void mend(const DataFolder& data, const std::vector<Finding>& findings) {
         "sum(phase='mpm_solver' AND state IN ('succeeded', 'cached')) FROM tasks WHERE "
         "tasks.run=run_counts.run) WHERE EXISTS (SELECT 1 FROM tasks WHERE "
         "tasks.run=run_counts.run)");
-    database.script(
-        "DELETE FROM spendings; INSERT INTO spendings SELECT run, sum(cpu_seconds) FROM attempts "
-        "JOIN tasks ON tasks.id=task WHERE cpu_seconds IS NOT NULL GROUP BY run");
 }
 
 }  // namespace breach::orchestrator

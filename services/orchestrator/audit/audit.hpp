@@ -1,4 +1,4 @@
-// Checks that the database, its history and the files agree. `audited` reads everything and changes
+// Checks that the database and the files agree. `audited` reads everything and changes
 // nothing; `mend` repairs faults that can be repaired without loss.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace breach::orchestrator {
 
 /// One inconsistency.
 struct Finding {
-    std::string part;    ///< "database", "history", "counts", "output", "file", "stray"
+    std::string part;    ///< "database", "counts", "output", "file", "stray"
     std::string where;   ///< a path, or a name in the database
     std::string cause;   ///< "is missing"
     std::string remedy;  ///< what a person can do

@@ -45,8 +45,8 @@ void print_json(const Audit& audit) {
 }  // namespace
 
 CLI::App* CheckOptions::add_to(CLI::App& program) {
-    CLI::App* checking = program.add_subcommand(
-        "check", "whether database, history and files of a data folder say the same");
+    CLI::App* checking =
+        program.add_subcommand("check", "whether database and files of a data folder say the same");
     checking->add_option("--data", data, "the service's data folder")->required();
     checking->add_flag(
         "--repair", repair,

@@ -86,7 +86,7 @@ void Retention::remove_folders(const std::stop_token& stop) {
 bool Retention::remove(const Run& run, const std::string& why) {
     const Removal outcome =
         store_.write([&](Transaction& transaction) { return transaction.remove_run(run.id, why); });
-    if (outcome != Removal::done) return false;  // pinned or retried
+    if (outcome != Removal::done) return false;  // retried
     spdlog::info("{} ({}): is removed, {}", run.id, run.name, why);
     return true;
 }
@@ -115,8 +115,8 @@ void Retention::remove_for_room() {
     const bool full = held() > most;
     if (full && !said_full_)
         spdlog::warn(
-            "the data folder has {:.2f} GB, more than --keep-gb {}: what is left runs, is "
-            "pinned, or is the database",
+            "the data folder has {:.2f} GB, more than --keep-gb {}: what is left runs, or "
+            "is the database",
             1e-9 * held(), *settings_.keep_gb);
     said_full_ = full;
 }

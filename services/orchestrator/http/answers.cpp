@@ -84,8 +84,7 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
         progress = (static_cast<double>(run.tasks_ended) + fractions) /
                    static_cast<double>(run.tasks_total);
     }
-    const bool goes_on =
-        run.started && !run.finished && !run.paused && run.state != "budget_exhausted";
+    const bool goes_on = run.started && !run.finished && !run.paused;
     std::optional<double> left;
     if (goes_on) left = time_left(store.left_of(run.id), fractions);
     return {{"id", run.id},
@@ -100,9 +99,6 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"tasks_done", run.tasks_done},
             {"tasks_failed", run.tasks_failed},
             {"paused", run.paused},
-            {"pinned", run.pinned},
-            {"budget_cpu_seconds", or_null(run.budget)},
-            {"spent_cpu_seconds", run.spent},
             {"submitted_by", or_null(run.submitted_by)},
             {"seconds_left", or_null(left)},
             {"questionable", run.questionable},

@@ -227,8 +227,7 @@ void remove_file(Service& service, Call& call) {
     });
     if (outcome == Removal::needed)
         throw Problem{409, "/problems/needed", "Needed",
-                      "runs or stored scenes name this file (GET /v1/files, or: breach files): "
-                      "remove them first"};
+                      "runs name this file (GET /v1/files, or: breach files): remove them first"};
     if (outcome == Removal::unknown) throw not_found("file " + sha256);
     reply(call.response, {{"id", sha256}, {"freed_bytes", file->bytes}}, 202);
 }

@@ -20,8 +20,6 @@ void add_all_routes(Router& router, Service& service, const std::atomic<bool>& s
     add_outflow_routes(router, service);
     add_storage_routes(router, service);
     add_file_routes(router, service);
-    add_scene_routes(router, service);
-    add_provenance_routes(router, service);
     add_transfer_routes(router, service);
     add_worker_routes(router, service);
     add_event_routes(router, service, stopping);

@@ -44,14 +44,8 @@ void add_page_routes(Router& router, Service& service);
 void add_file_routes(Router& router, Service& service);
 /// Stores a generated motion like an uploaded one; returns the reference for scenes.
 std::string keep_motion(Service& service, const std::string& name, const std::string& text);
-/// Stored scenes, by name and by hash.
-void add_scene_routes(Router& router, Service& service);
-/// The stored scene from which the run was made, or null.
-nlohmann::json scene_source_json(const Service& service, const std::string& run);
 /// Transfers of one run or all, with their triggers.
 void add_transfer_routes(Router& router, Service& service);
-/// Provenance of a file: PROV-JSON.
-void add_provenance_routes(Router& router, Service& service);
 /// Running tasks and workers.
 void add_worker_routes(Router& router, Service& service);
 

@@ -17,7 +17,6 @@
 #include "services/orchestrator/http/results_file.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/records/same_results.hpp"
-#include "services/orchestrator/study/budget.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
 
 namespace breach::orchestrator {
@@ -52,8 +51,8 @@ void submit(Service& service, Call& call) {
     reply(call.response, run_json(service, wanted_run(service, id)), 202);
 }
 
-constexpr std::array run_states{"queued",       "running", "budget_exhausted", "succeeded",
-                                "questionable", "partial", "failed",           "cancelled"};
+constexpr std::array run_states{"queued",  "running", "succeeded", "questionable",
+                                "partial", "failed",  "cancelled"};
 constexpr std::array sweep_states{"planning", "refining"};  // in addition to those of runs
 
 void list_runs(const Service& service, Call& call, Ask ask) {
@@ -68,10 +67,9 @@ void list_runs(const Service& service, Call& call, Ask ask) {
         return std::ranges::find(states, *filter.state) != states.end();
     };
     if (filter.state && !is_one_of(run_states) && !(filter.sweeps_only && is_one_of(sweep_states)))
-        throw bad_request(
-            std::string("state must be queued, ") +
-            (filter.sweeps_only ? "planning, refining, " : "") +
-            "running, budget_exhausted, succeeded, questionable, partial, failed or cancelled");
+        throw bad_request(std::string("state must be queued, ") +
+                          (filter.sweeps_only ? "planning, refining, " : "") +
+                          "running, succeeded, questionable, partial, failed or cancelled");
     if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
     std::vector<Run> runs = service.store.runs(filter, length + 1);
     const json next =
@@ -132,7 +130,6 @@ void show_run(const Service& service, Call& call) {
     body["study"] = still(service.store.study_of(id));
     body["study"]["scene"] = json::parse(still(service.store.scene_of(id)));
     body["files"] = files_json(service, id);
-    body["scene_from"] = scene_source_json(service, id);
     std::tie(body["computing_seconds"], body["idle_seconds"]) =
         service.store.computing_and_idle(run);
     if (!with_tasks) return reply(call.response, body);
@@ -327,22 +324,6 @@ void submit_sweep(Service& service, Call& call) {
     reply(call.response, sweep_json(service, wanted_sweep(service, id)), 202);
 }
 
-/// Sets another budget, or none (null). Refuses a budget that is already spent.
-void change_budget(Service& service, const Call& call, const Run& run, const json& wanted) {
-    std::optional<double> budget;
-    if (!wanted.is_null()) {
-        budget = checked_budget(wanted);
-        if (*budget <= run.spent)
-            throw fault::BadInput(
-                "budget",
-                {{"/budget/cpu_seconds", words::text_of(run.spent) + " CPU s are spent already",
-                  "give more than that, or null for no limit"}});
-    }
-    service.store.write(call.caller.name,
-                        [&](Transaction& transaction) { transaction.set_budget(run.id, budget); });
-    service.dispatcher.wake();
-}
-
 /// Adds transfer times; 202 when they are stored. Computed results stay.
 void extend_sweep(Service& service, Call& call) {
     call.allow_parameters({});
@@ -353,18 +334,9 @@ void extend_sweep(Service& service, Call& call) {
                       "the sweep was cancelled; retry it first, or submit another"};
     const json body = json::parse(call.json_body(), nullptr, false);
     const bool samples = body.is_object() && body.contains("samples");
-    const bool budget = body.is_object() && body.contains("budget");
-    if (!body.is_object() || body.size() != 1 ||
-        !(samples || budget || body.contains("transfer_times")))
+    if (!body.is_object() || body.size() != 1 || !(samples || body.contains("transfer_times")))
         throw bad_request(
-            "the body must be {\"transfer_times\": [...] or {from, to, step}}, {\"samples\": N} or "
-            "{\"budget\": {\"cpu_seconds\": N} or null}");
-    if (budget) {
-        change_budget(service, call, run, body["budget"]);
-        json answer = sweep_json(service, wanted_sweep(service, id));
-        answer["added"] = answer["added_samples"] = json::array();
-        return reply(call.response, answer, 202);
-    }
+            "the body must be {\"transfer_times\": [...] or {from, to, step}} or {\"samples\": N}");
     if (samples && (!body["samples"].is_number_unsigned() || body["samples"] < 1))
         throw bad_request("samples, the new total, must be a whole number above 0");
     const RunSoFar so_far{.study = still(service.store.study_of(id)),
@@ -438,12 +410,6 @@ void add_run_routes(Router& router, Service& service) {
                 [&](Call& call) { command_run(service, call, &Transaction::pause_run); });
     router.post("/v1/runs/{id}/resume",
                 [&](Call& call) { command_run(service, call, &Transaction::resume_run); });
-    router.post(
-        "/v1/runs/{id}/pin", [&](Call& call) { command_run(service, call, &Transaction::pin_run); },
-        Right::admin);
-    router.post(
-        "/v1/runs/{id}/unpin",
-        [&](Call& call) { command_run(service, call, &Transaction::unpin_run); }, Right::admin);
     router.post("/v1/runs/{id}/retry", [&](Call& call) {
         command_run(service, call, [](Transaction& transaction, const std::string& run) {
             return transaction.retry_run(run).has_value();

@@ -25,10 +25,6 @@ void remove_run(Service& service, Call& call) {
                           "the run is " + run.state + ": cancel it first (POST /v1/runs/" + id +
                               "/cancel, or: breach cancel " + id +
                               ") and remove it when it has ended"};
-        case Removal::pinned:
-            throw Problem{409, "/problems/pinned", "Pinned",
-                          "the run is pinned: unpin it first (POST /v1/runs/" + id +
-                              "/unpin, or: breach unpin " + id + ")"};
         case Removal::done:
             break;
         default:
@@ -44,7 +40,6 @@ json use_of(const Run& run, const RunUse& use) {
             {"state", run.state},
             {"created", run.created},
             {"finished", or_null(run.finished)},
-            {"pinned", run.pinned},
             {"bytes", use.own + use.shared},
             {"shared_bytes", use.shared},
             {"freed_bytes", use.own},

@@ -8,7 +8,6 @@
 #include "core/scene/file_paths.hpp"
 #include "services/orchestrator/ensemble/batch_watch.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
-#include "services/orchestrator/http/stored_scene.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/graph.hpp"
 
@@ -65,16 +64,12 @@ NewRun run_from(const Study& study, const Numerics& numerics) {
             .warnings = study.warnings,
             .priority = study.priority,
             .sweep = study.variants.size() * states > 1,
-            .budget = study.budget,
             .files = std::move(files)};
 }
 
 std::string stored(Service& service, const Call& call, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    ResolvedStudy sent = resolved_study(service.store, body);
-    const Study study = sent_study(sent.text, service);
-    NewRun run = run_from(study, service.numerics);
-    run.made_of = std::move(sent.made_of);
+    NewRun run = run_from(sent_study(body, service), service.numerics);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write(call.caller.name, [&](Transaction& transaction) {
         transaction.add_run(run);
@@ -114,10 +109,6 @@ std::string accept_study(Service& service, Call& call, Ask ask) {
     return stored(service, call, body, ask, [&](Transaction& transaction, const std::string& run) {
         transaction.keep_idempotency_key(*key, hash, run);
     });
-}
-
-std::string accept_made_study(Service& service, const Call& call, const json& study) {
-    return stored(service, call, study.dump(), Ask::run, [](Transaction&, const std::string&) {});
 }
 
 }  // namespace breach::orchestrator

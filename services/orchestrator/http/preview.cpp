@@ -10,8 +10,6 @@
 #include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
-#include "services/orchestrator/http/stored_scene.hpp"
-#include "services/orchestrator/study/budget.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/graph.hpp"
 #include "services/report/section/mesh_question.hpp"
@@ -28,7 +26,7 @@ struct Sent {
 };
 
 Sent sent(const Service& service, const std::string& body) {
-    json document = scene::parse_json(resolved_study(service.store, body).text, "document");
+    json document = scene::parse_json(body, "document");
     if (is_study_document(document) && !document.value("scene", json()).is_object())
         sent_study(document, service);  // throws its faults
     report::BaseScene base = report::base_scene_of(document);
@@ -92,23 +90,6 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     return repeats;
 }
 
-/// Compares the expected cost with the study's budget.
-void hold_against(double budget, json& cost) {
-    const double low = cost["cpu_seconds"][0];
-    const double high = cost["cpu_seconds"][1];
-    const std::string exceeds = low > budget ? "yes" : high > budget ? "perhaps" : "no";
-    std::string line = "Budget: " + words::text_of(budget) + " CPU s";
-    if (exceeds == "no")
-        line += ", enough for all of it";
-    else
-        line +=
-            std::string(exceeds == "yes" ? " will not" : " may not") +
-            " be enough: the run would stop unfinished with the state budget_exhausted (`breach "
-            "extend RUN --budget N` goes on)";
-    cost["budget"] = {{"cpu_seconds", budget}, {"exceeded", exceeds}};
-    cost["lines"].push_back(line);
-}
-
 report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) {
     constexpr double most_elements = 2e5;  // larger meshes take gmsh too long for a request
     for (const estimate::PhaseCost& each : estimate::cost_of(draft.scene))
@@ -147,8 +128,6 @@ json cost_of(const Service& service, const std::string& body) {
     if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or throws its faults
     if (!draft.faults.empty()) throw refusal_of(draft, {});
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
-    if (document.is_object() && document.contains("budget"))
-        hold_against(checked_budget(document["budget"]), cost);
     cost["warnings"] = findings::as_json(warnings);
     return cost;
 }

@@ -58,43 +58,6 @@ void from_json(const nlohmann::json& json, TaskPlan& task);
 /// "fem", "transfer_0.500000_soft": its phase, its transfer time and its variant.
 std::string label_of(const TaskPlan& task);
 
-/// The stored scene from which a run was made.
-struct SceneSource {
-    std::string sha256;
-    std::optional<std::string> name;      ///< by which the study referred to it
-    std::optional<std::int64_t> version;  ///< the name's version at that time
-};
-
-/// A scene to be stored.
-struct NewScene {
-    std::string sha256;              ///< of the document
-    std::string document;            ///< completed, JSON
-    std::vector<std::string> files;  ///< SHA-256 of stored files that it names
-};
-
-struct SceneName {
-    std::string name;
-    std::int64_t version;  ///< from 1; the name refers to the highest
-    std::string created;
-    std::string sha256;
-};
-
-struct StoredScene {
-    std::string sha256;
-    std::string document;  ///< left out in lists
-    std::int64_t bytes = 0;
-    std::string created = {};
-    std::vector<SceneName> names = {};
-    std::vector<std::string> runs = {};  ///< made from it
-};
-
-/// Filter for a list of scenes: newest first, after the place where the last page ended.
-struct SceneFilter {
-    std::optional<std::string> name = {};
-    std::optional<std::string> search = {};  ///< a part of a name or of the SHA-256
-    std::optional<std::pair<std::string, std::string>> before = {};  ///< (created, sha256)
-};
-
 struct NewRun {
     std::string id;
     std::string name;
@@ -109,8 +72,6 @@ struct NewRun {
     std::vector<fault::Flag> warnings = {};   ///< of the study
     std::int64_t priority = 0;                ///< higher goes first
     bool sweep = false;                       ///< several points, or requested as a sweep
-    std::optional<SceneSource> made_of = {};  ///< a stored scene
-    std::optional<double> budget = {};        ///< no task is started once so much is spent [CPU s]
     std::vector<std::string> files = {};      ///< SHA-256 of stored files that its scenes name
 };
 
@@ -163,15 +124,12 @@ struct Run {
     std::optional<std::string> started;
     std::optional<std::string> finished;
     std::int64_t tasks_total = 0;
-    std::int64_t tasks_done = 0;        ///< succeeded or cached
-    std::int64_t tasks_ended = 0;       ///< in a final state, good or bad
-    std::int64_t tasks_failed = 0;      ///< failed or skipped
-    std::string message;                ///< why it is not an unqualified success
-    bool paused = false;                ///< no new task of it is started
-    std::int64_t questionable = 0;      ///< number of unreliable results
-    bool pinned = false;                ///< not to be removed
-    std::optional<double> budget = {};  ///< [CPU s]
-    double spent = 0.0;                 ///< by all attempts that have ended [CPU s]
+    std::int64_t tasks_done = 0;    ///< succeeded or cached
+    std::int64_t tasks_ended = 0;   ///< in a final state, good or bad
+    std::int64_t tasks_failed = 0;  ///< failed or skipped
+    std::string message;            ///< why it is not an unqualified success
+    bool paused = false;            ///< no new task of it is started
+    std::int64_t questionable = 0;  ///< number of unreliable results
     /// The token's name; nothing: the service needed none.
     std::optional<std::string> submitted_by = {};
     findings::Facts facts = {};  ///< the basis of its verdict
@@ -295,7 +253,7 @@ struct StoredFile {
 };
 
 /// Result of a request to remove a run or a file.
-enum class Removal { done, unknown, going_on, pinned, needed };
+enum class Removal { done, unknown, going_on, needed };
 
 /// A firing, and delays since the telemetry line that met its trigger [ms].
 struct FiringRow {

@@ -16,8 +16,7 @@ using nlohmann::json;
 namespace {
 
 bool is_open_state(const std::string& state) {
-    return state == "queued" || state == "running" || state == "budget_exhausted" ||
-           state == "planning" || state == "refining";
+    return state == "queued" || state == "running" || state == "planning" || state == "refining";
 }
 
 /// Bisections refine once their seeds are placed, uncertainty studies once samples are added.
@@ -37,8 +36,7 @@ std::string sweep_state() {
 std::string selected_runs(const std::string& state = "r.state") {
     return "SELECT " + state +
            R"( AS shown, r.id, r.name, r.title, r.created, r.started, r.finished,
-    r.tasks_total, r.tasks_done, r.tasks_ended, r.tasks_failed, r.paused, r.questionable, r.pinned,
-    r.budget_cpu_seconds, r.spent_cpu_seconds, r.warnings,
+    r.tasks_total, r.tasks_done, r.tasks_ended, r.tasks_failed, r.paused, r.questionable, r.warnings,
     coalesce((SELECT t.label || ': ' || t.fault_summary FROM tasks t INDEXED BY tasks_with_faults
         WHERE t.run = r.id AND t.fault_summary IS NOT NULL ORDER BY t.not_reached, t.id LIMIT 1), '')
         AS message,
@@ -62,9 +60,6 @@ Run run_from(const Row& row) {
             .message = row.text("message"),
             .paused = row.yes("paused"),
             .questionable = row.integer("questionable"),
-            .pinned = row.yes("pinned"),
-            .budget = row.optional_real("budget_cpu_seconds"),
-            .spent = row.real("spent_cpu_seconds"),
             .submitted_by = row.optional_text("submitted_by"),
             .facts = {.state = row.text("shown"),
                       .submitted = findings::flags_in(row.document("warnings"))}};
@@ -144,12 +139,11 @@ std::vector<Run> Store::whole_runs(const std::string& sql, const std::vector<Val
     const Reader database = reader();
     std::vector<Run> found = database->select(sql, values, run_from);
     gather_facts(*database, found);
-    tell_what_is_missing(*database, found);
     return found;
 }
 
 std::vector<Run> Store::runs_that_may_go() const {
-    return reader()->select(selected_runs() + R"(WHERE r.finished IS NOT NULL AND r.pinned=0
+    return reader()->select(selected_runs() + R"(WHERE r.finished IS NOT NULL
 ORDER BY r.finished, r.id)",
                             {}, run_from);
 }
@@ -235,8 +229,7 @@ std::vector<Task> Store::tasks_to_start(const std::vector<std::string>& full_que
                                         std::size_t most) const {
     return reader()->select(selected_tasks + R"(INDEXED BY tasks_to_start WHERE state='ready'
     AND phase NOT IN (SELECT value FROM json_each(?))
-    AND run NOT IN (SELECT id FROM runs WHERE paused=1 UNION ALL SELECT id FROM runs
-        JOIN spendings ON spendings.run=id WHERE spendings.cpu_seconds>=budget_cpu_seconds)
+    AND run NOT IN (SELECT id FROM runs WHERE paused=1)
 ORDER BY priority DESC, id LIMIT ?)",
                             {json(full_queues).dump(), as_value(most)}, task_from);
 }

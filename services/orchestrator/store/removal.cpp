@@ -24,9 +24,7 @@ constexpr std::array rows_of_run{
     "UPDATE tasks SET same_as=NULL WHERE same_as IN (SELECT id FROM tasks WHERE run=?)",
     "DELETE FROM tasks WHERE run=?",
     "DELETE FROM run_counts WHERE run=?",
-    "DELETE FROM spendings WHERE run=?",
     "DELETE FROM files_of_runs WHERE run=?",
-    "DELETE FROM scenes_of_runs WHERE run=?",
     "DELETE FROM runs WHERE id=?",
 };
 
@@ -34,8 +32,6 @@ constexpr std::array rows_of_run{
 
 Removal Transaction::remove_run(const std::string& run, const std::string& why) {
     if (!database_.finds("SELECT 1 FROM runs WHERE id=?", {run})) return Removal::unknown;
-    if (database_.finds("SELECT 1 FROM runs WHERE id=? AND pinned=1", {run}))
-        return Removal::pinned;
     const bool goes_on =
         database_.finds("SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", {run}) ||
         database_.finds(
@@ -78,8 +74,7 @@ StoredFile file_from(const Row& row) {
 }
 
 const std::string unneeded =
-    R"(NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256)
-    AND NOT EXISTS (SELECT 1 FROM files_of_scenes WHERE files_of_scenes.sha256=files.sha256))";
+    "NOT EXISTS (SELECT 1 FROM files_of_runs WHERE files_of_runs.sha256=files.sha256)";
 
 }  // namespace
 
@@ -109,9 +104,7 @@ void Transaction::touch_file(const std::string& sha256) {
 
 Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
     if (!database_.finds("SELECT 1 FROM files WHERE sha256=?", {sha256})) return Removal::unknown;
-    if (database_.finds(R"(SELECT 1 FROM files_of_runs WHERE sha256=?1
-UNION ALL SELECT 1 FROM files_of_scenes WHERE sha256=?1 LIMIT 1)",
-                        {sha256}))
+    if (database_.finds("SELECT 1 FROM files_of_runs WHERE sha256=? LIMIT 1", {sha256}))
         return Removal::needed;
     database_.change("DELETE FROM files WHERE sha256=?", {sha256});
     erase();

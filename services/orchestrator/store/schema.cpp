@@ -17,7 +17,7 @@ CREATE TABLE recipes (
     part TEXT NOT NULL CHECK (json_valid(part))
 ) STRICT;
 
--- warnings: flags of the submission. budget_cpu_seconds: what the run may spend. last_task: the largest task number that was given.
+-- warnings: flags of the submission. last_task: the largest task number that was given.
 CREATE TABLE runs (
     id TEXT PRIMARY KEY,
     name TEXT NOT NULL,
@@ -28,15 +28,12 @@ CREATE TABLE runs (
     warnings TEXT NOT NULL DEFAULT '[]' CHECK (json_valid(warnings)),
     paused INTEGER NOT NULL DEFAULT 0 CHECK (paused IN (0, 1)),
     sweep INTEGER NOT NULL DEFAULT 0 CHECK (sweep IN (0, 1)),
-    last_task INTEGER NOT NULL DEFAULT 0,
-    pinned INTEGER NOT NULL DEFAULT 0 CHECK (pinned IN (0, 1)),
-    budget_cpu_seconds REAL CHECK (budget_cpu_seconds > 0)
+    last_task INTEGER NOT NULL DEFAULT 0
 ) STRICT;
 CREATE INDEX runs_paused ON runs(id) WHERE paused = 1;
 CREATE INDEX runs_by_time ON runs(created, id);
 CREATE INDEX runs_by_name ON runs(name, created, id);
 CREATE INDEX runs_with_accuracy ON runs(id) WHERE json_type(study, '$.accuracy')='object';
-CREATE INDEX runs_with_budget ON runs(id, budget_cpu_seconds) WHERE budget_cpu_seconds IS NOT NULL;
 
 -- The CHECKs repeat what lifecycle.cpp promises, so that a slip shows as an error.
 CREATE TABLE tasks (
@@ -153,12 +150,6 @@ CREATE TABLE run_counts (
     runouts INTEGER NOT NULL
 ) STRICT;
 
--- CPU seconds of every attempt that has ended, however it ended.
-CREATE TABLE spendings (
-    run TEXT PRIMARY KEY REFERENCES runs(id),
-    cpu_seconds REAL NOT NULL
-) STRICT;
-
 -- Filled from tasks.result by the trigger gather_flags.
 CREATE TABLE flags (
     task TEXT NOT NULL REFERENCES tasks(id),
@@ -233,38 +224,6 @@ CREATE TABLE files_of_runs (
 ) STRICT;
 CREATE INDEX runs_of_file ON files_of_runs(sha256);
 
--- Stored scenes by content, and their names: a name stands for its newest version.
-CREATE TABLE scenes (
-    sha256 TEXT PRIMARY KEY CHECK (length(sha256) = 64),
-    document TEXT NOT NULL,
-    created TEXT NOT NULL
-) STRICT;
-CREATE INDEX scenes_by_age ON scenes(created, sha256);
-
-CREATE TABLE scene_names (
-    name TEXT NOT NULL,
-    version INTEGER NOT NULL,
-    sha256 TEXT NOT NULL REFERENCES scenes(sha256),
-    created TEXT NOT NULL,
-    PRIMARY KEY (name, version)
-) STRICT;
-CREATE INDEX names_of_scene ON scene_names(sha256);
-
-CREATE TABLE scenes_of_runs (
-    run TEXT PRIMARY KEY REFERENCES runs(id),
-    sha256 TEXT NOT NULL REFERENCES scenes(sha256),
-    name TEXT,
-    version INTEGER
-) STRICT;
-CREATE INDEX runs_of_scene ON scenes_of_runs(sha256, name);
-
-CREATE TABLE files_of_scenes (
-    scene TEXT NOT NULL REFERENCES scenes(sha256),
-    sha256 TEXT NOT NULL REFERENCES files(sha256),
-    PRIMARY KEY (scene, sha256)
-) STRICT;
-CREATE INDEX scenes_of_file ON files_of_scenes(sha256);
-
 CREATE TRIGGER count_new_task AFTER INSERT ON tasks BEGIN
     INSERT INTO run_counts VALUES (NEW.run, NEW.started, NEW.finished, 1, NEW.finished IS NOT NULL,
         NEW.state IN ('succeeded', 'cached'), NEW.state IN ('failed', 'skipped'), NEW.state = 'cancelled',
@@ -295,19 +254,11 @@ CREATE TRIGGER count_moved_task AFTER UPDATE OF state ON tasks WHEN OLD.state <>
 END;
 CREATE TRIGGER order_variants AFTER INSERT ON runs BEGIN
     INSERT OR IGNORE INTO variants SELECT NEW.id, json_extract(value, '$.name'), key,
-        CASE WHEN NOT repeated THEN NULL
+        CASE WHEN coalesce(json_extract(NEW.study, '$.draws'), 1) < 2 THEN NULL
              WHEN coalesce(json_extract(value, '$.made_by'), '') <> 'draws' THEN json_extract(value, '$.name')
              ELSE substr(json_extract(value, '$.name'), 1,
                  max(0, length(rtrim(json_extract(value, '$.name'), '0123456789')) - 2)) END
-        FROM (SELECT coalesce(json_extract(NEW.study, '$.draws'), 1) > 1
-                OR coalesce(json_extract(NEW.study, '$.first_draw'), 0) > 0 AS repeated),
-            json_each(NEW.study, '$.variants') WHERE json_extract(value, '$.name') IS NOT NULL;
-END;
-CREATE TRIGGER count_cpu_seconds AFTER UPDATE OF cpu_seconds ON attempts
-    WHEN NEW.cpu_seconds IS NOT OLD.cpu_seconds BEGIN
-    INSERT INTO spendings SELECT run, coalesce(NEW.cpu_seconds, 0) - coalesce(OLD.cpu_seconds, 0)
-        FROM tasks WHERE id = NEW.task
-    ON CONFLICT (run) DO UPDATE SET cpu_seconds = cpu_seconds + excluded.cpu_seconds;
+        FROM json_each(NEW.study, '$.variants') WHERE json_extract(value, '$.name') IS NOT NULL;
 END;)sql";
 
 }  // namespace

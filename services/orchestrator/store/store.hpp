@@ -158,7 +158,7 @@ class Store {
 
     /// Runs with deleted rows and folders that may still exist.
     std::vector<std::string> removals() const;
-    /// Runs that are over and not pinned, the one that ended first at the front.
+    /// Runs that are over, the one that ended first at the front.
     std::vector<Run> runs_that_may_go() const;
     std::int64_t free_pages() const;
     /// Uploaded files, newest first, with the runs that name them.
@@ -167,12 +167,6 @@ class Store {
     std::vector<StoredFile> files_of(const std::string& run) const;
     /// Files that no run names and that were not requested since.
     std::vector<StoredFile> unused_files(const std::string& before) const;
-
-    std::optional<StoredScene> scene(const std::string& sha256) const;
-    std::vector<StoredScene> scenes(const SceneFilter& filter, std::size_t most) const;
-    /// Newest first; empty: the name does not exist.
-    std::vector<SceneName> versions_of_scene(const std::string& name) const;
-    std::optional<SceneSource> scene_source_of(const std::string& run) const;
 
     std::vector<Event> events_after(std::int64_t seq, std::size_t most) const;
     std::vector<Event> events_of_run(const std::string& run, std::int64_t after,
@@ -204,7 +198,6 @@ class Store {
     /// Complete runs with their facts; sql: selects the rows.
     std::vector<Run> whole_runs(const std::string& sql, const std::vector<Value>& values) const;
     std::optional<Run> one_run(const std::string& id, const std::string& state) const;
-    static void tell_what_is_missing(Connection& database, std::vector<Run>& runs);
     static void gather_facts(Connection& database, std::vector<Run>& runs);
 
     Histogram commit_sizes_{{1, 2, 5, 10, 20, 50, 100, 256}};

@@ -39,14 +39,13 @@ void keep_artifacts(Connection& database, const std::string& task,
 void Transaction::add_run(const NewRun& run) {
     const std::string now = utc_now();
     database_.change(
-        R"(INSERT INTO runs (id, name, title, created, study, scene, warnings, sweep, last_task,
-    budget_cpu_seconds) VALUES (?,?,?,?,?,?,?,?,?,?))",
+        R"(INSERT INTO runs (id, name, title, created, study, scene, warnings, sweep, last_task)
+VALUES (?,?,?,?,?,?,?,?,?))",
         {run.id, run.name, run.title, now, run.study, run.scene,
          findings::as_json(run.warnings).dump(), std::int64_t{run.sweep ? 1 : 0},
-         static_cast<std::int64_t>(run.tasks.size()), value_or_null(run.budget)});
+         static_cast<std::int64_t>(run.tasks.size())});
     add_recipes(run.recipes);
     add_files(run);
-    add_scene_source(run);
     add_run_event(run.id, {{"event", "submit"}, {"tasks", run.tasks.size()}});
     for (std::size_t i = 0; i < run.tasks.size(); ++i) {
         const TaskPlan& task = run.tasks[i];
@@ -265,7 +264,6 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     Value started(nullptr);
     if (end.wall_seconds)
         started = utc_text(epoch_ms() - static_cast<std::int64_t>(1000.0 * *end.wall_seconds));
-    const bool was_exhausted = !end.cpu_seconds || is_exhausted(run_of(task));
     database_.change(
         R"(UPDATE attempts SET state=?, started=coalesce(started, ?), finished=?, exit_code=?, signal=?,
     wall_seconds=?, cpu_seconds=coalesce(?, cpu_seconds) WHERE task=? AND number=?)",
@@ -280,8 +278,6 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     if (end.signal) detail["signal"] = *end.signal;
     if (!end.reason.empty()) detail["stopped_for"] = end.reason;
     add_event(run_of(task), task, "attempt", detail);
-    if (!was_exhausted && is_exhausted(run_of(task)))
-        add_run_event(run_of(task), {{"event", "budget_exhausted"}});
 }
 
 std::int64_t Transaction::count_try(const std::string& task) {
@@ -313,8 +309,6 @@ bool Transaction::pause_run(const std::string& run) { return mark_run(run, "paus
 bool Transaction::resume_run(const std::string& run) {
     return mark_run(run, "paused", 0, "resume");
 }
-bool Transaction::pin_run(const std::string& run) { return mark_run(run, "pinned", 1, "pin"); }
-bool Transaction::unpin_run(const std::string& run) { return mark_run(run, "pinned", 0, "unpin"); }
 
 bool Transaction::rename_run(const std::string& run, const std::string& title) {
     const auto before = database_.text("SELECT title FROM runs WHERE id=?", {run});

@@ -74,10 +74,6 @@ class Transaction {
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);
     bool set_priority(const std::string& run, std::int64_t priority);
-    /// For an existing run; nothing: no limit. Updates the study, too.
-    void set_budget(const std::string& run, std::optional<double> cpu_seconds);
-    bool pin_run(const std::string& run);
-    bool unpin_run(const std::string& run);
     /// Changes the title shown in lists; the study keeps its original title.
     bool rename_run(const std::string& run, const std::string& title);
     /// Deletes every row of an ended run at once: lists, cache and artifacts no longer contain it.
@@ -96,15 +92,6 @@ class Transaction {
     /// Forgets the file unless it was used after `before` or a run names it.
     bool forget_unused_file(const std::string& sha256, const std::string& before,
                             const std::function<void()>& erase);
-
-    /// Stores the scene under its hash and as a new version of the name, unless the name refers to
-    /// it already. False: both existed.
-    bool keep_scene(const NewScene& scene, const std::optional<std::string>& name);
-    /// needed: a name refers to it, or a run was made from it.
-    Removal forget_scene(const std::string& sha256);
-    /// Removes all versions of the name, and scenes that nothing else needs. needed: a run was made
-    /// from one of them by this name.
-    Removal forget_scene_name(const std::string& name);
 
     /// Gives up to this many free pages at the end of the database back to the disk.
     void shrink(std::int64_t pages);
@@ -144,9 +131,6 @@ class Transaction {
     bool mark_run(const std::string& run, const char* column, std::int64_t value,
                   const char* event);
     void add_files(const NewRun& run);
-    void add_scene_source(const NewRun& run);
-    /// Whether the run has spent its budget, so that none of its tasks starts.
-    bool is_exhausted(const std::string& run) const;
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                    std::optional<std::int64_t> retry_at, nlohmann::json detail);

@@ -13,18 +13,15 @@ namespace {
 
 // A run with an open trigger is not over: it may still get tasks. A run without a runout did not
 // fail if its FEM reached no transfer time, if it consists of lem_tool alone, or if no trigger
-// fired. A run that has spent its budget is exhausted once none of its tasks runs.
+// fired.
 const char* const run_summaries = R"sql(
-SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_total, reached AS tasks_done,
+SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, reached AS tasks_done,
     ended AS tasks_ended, failed AS tasks_failed,
     CASE WHEN EXISTS (SELECT 1 FROM flags WHERE flags.run = id AND severity = 'questionable')
          THEN (SELECT count(DISTINCT task) FROM flags WHERE flags.run = id AND severity = 'questionable')
          ELSE 0 END AS questionable,
-    budget_cpu_seconds, spent_cpu_seconds, warnings,
-    CASE WHEN is_open THEN CASE WHEN spent_cpu_seconds >= budget_cpu_seconds AND NOT EXISTS
-             (SELECT 1 FROM tasks WHERE tasks.run = counted.id AND tasks.state IN
-             ('starting', 'running', 'finalizing', 'cancelling')) THEN 'budget_exhausted'
-             WHEN started IS NULL THEN 'queued' ELSE 'running' END
+    warnings,
+    CASE WHEN is_open THEN CASE WHEN started IS NULL THEN 'queued' ELSE 'running' END
          WHEN cancelled > 0 THEN 'cancelled'
          WHEN failed > 0 AND (runouts > 0 OR reached > 0 AND NOT EXISTS (SELECT 1 FROM tasks
              WHERE tasks.run = counted.id AND phase <> 'lem_tool')) THEN 'partial'
@@ -37,9 +34,7 @@ SELECT id, name, title, created, started, paused, pinned, sweep, total AS tasks_
          ELSE 'succeeded' END AS state,
     CASE WHEN NOT is_open THEN last_finished END AS finished
 FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
-        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open,
-    coalesce((SELECT cpu_seconds FROM spendings WHERE spendings.run = runs.id), 0.0)
-        AS spent_cpu_seconds
+        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open
       FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
 /// When each trigger fired, and the delays of its snapshot and its transfer.

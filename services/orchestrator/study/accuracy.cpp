@@ -193,7 +193,7 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
     plan.draws = entry.at("draws");
     plan.draws_of = redrawn_named(entry.value("draws_of", ""));
     plan.asked_error = entry.at("asked_error");
-    check_draws({0, plan.draws, plan.draws_of}, plan.quantity.reach, "/accuracy", faults);
+    check_draws({plan.draws, plan.draws_of}, plan.quantity.reach, "/accuracy", faults);
     std::size_t rungs = 0;
     for (const Ladder& each : plan.ladders) rungs += each.steps.size();
     if (rungs * plan.draws > most_variants)
@@ -254,26 +254,6 @@ std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const json& scen
         }
     }
     return entries;
-}
-
-BlindCheckPlan read_blind_check(const json& entry, const json& scene, const Draws& draws,
-                                std::vector<Fault>& faults) {
-    BlindCheckPlan plan{.of = entry.at("of"),
-                        .quantity = read_quantity(entry, "/check", scene, faults),
-                        .mean_of = entry.at("mean_of"),
-                        .reference = entry.at("reference"),
-                        .asked_error = entry.at("asked_error")};
-    check_draws(draws, plan.quantity.reach, "", faults);
-    if (plan.reference == 0.0)
-        faults.push_back({"/check/reference",
-                          "errors are relative to the reference, and it is zero",
-                          "check a quantity that is not zero, such as runout_largest"});
-    if (draws.count % plan.mean_of != 0)
-        faults.push_back({"/draws",
-                          std::to_string(draws.count) + " repeats do not make whole means of " +
-                              std::to_string(plan.mean_of),
-                          "give a multiple of /check/mean_of"});
-    return plan;
 }
 
 }  // namespace breach::orchestrator

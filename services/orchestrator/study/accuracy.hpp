@@ -54,16 +54,6 @@ struct AccuracyPlan {
     double asked_error = 0.05;
 };
 
-/// A run with new repeats of a setting that an accuracy study has measured. It needs only the entry
-/// "check" of its study, not the accuracy study.
-struct BlindCheckPlan {
-    std::string of;  ///< the accuracy study's run; empty: not known
-    Quantity quantity;
-    std::size_t mean_of = 1;   ///< number of repeats in a mean
-    double reference = 1.0;    ///< in the unit of the quantity
-    double asked_error = 0.0;  ///< relative
-};
-
 /// A rung of a ladder and the variants that give its value. Rungs with equal scenes, possible in
 /// two ladders, have the same variants.
 struct Setting {
@@ -84,9 +74,5 @@ std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladd
 std::vector<Setting> settings_of(const AccuracyPlan& plan, const nlohmann::json& scene);
 /// All variants of the plan, each once, in the order of the settings.
 std::vector<VariantEntry> variants_of(const AccuracyPlan& plan, const nlohmann::json& scene);
-
-/// The entry "check"; faults have the study's pointers. draws: of the study.
-BlindCheckPlan read_blind_check(const nlohmann::json& entry, const nlohmann::json& scene,
-                                const Draws& draws, std::vector<fault::Fault>& faults);
 
 }  // namespace breach::orchestrator

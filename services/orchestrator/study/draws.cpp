@@ -89,7 +89,7 @@ void check_draws(const Draws& draws, Reach reach, const std::string& where,
             {where + "/draws_of",
              std::string("each repeat computes the FEM again, and ") + program + " comes first",
              "leave \"draws_of\" out"});
-    else if (draws.first + draws.count > 1 && !can_redraw(draws.of, reach))
+    else if (draws.count > 1 && !can_redraw(draws.of, reach))
         faults.push_back(
             {where + "/draws",
              std::string("repeats move the lattice of material points, and ") + program +
@@ -101,14 +101,12 @@ void check_draws(const Draws& draws, Reach reach, const std::string& where,
 }
 
 const json& entries_of_no_draws() {
-    static const json entries{
-        {"draws", 1}, {"first_draw", 0}, {"draws_of", name_of(Redrawn::points)}};
+    static const json entries{{"draws", 1}, {"draws_of", name_of(Redrawn::points)}};
     return entries;
 }
 
 Draws draws_of(const json& study) {
-    return {study.value("first_draw", std::size_t{0}), study.value("draws", std::size_t{1}),
-            redrawn_named(study.value("draws_of", ""))};
+    return {study.value("draws", std::size_t{1}), redrawn_named(study.value("draws_of", ""))};
 }
 
 std::string_view refusal_of_triggers(const Draws& draws) {
@@ -142,7 +140,7 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const D
     std::vector<VariantEntry> entries;
     for (const VariantEntry& each : own) {
         const json its_scene = changed(scene, each.overrides);
-        for (std::size_t d = draws.first; d < draws.first + draws.count; ++d) {
+        for (std::size_t d = 0; d < draws.count; ++d) {
             VariantEntry entry = each;
             const bool unnamed = each.name.empty();
             entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);

@@ -21,9 +21,8 @@ std::string_view name_of(Redrawn what);
 /// Whether these phases contain what the repeat changes.
 bool can_redraw(Redrawn what, Reach reach);
 
-/// Selects repeats: `count` of them from number `first`; number 0 is the scene itself.
+/// How many repeats, the scene itself included.
 struct Draws {
-    std::size_t first = 0;
     std::size_t count = 1;
     Redrawn of = Redrawn::points;
 };

@@ -82,13 +82,6 @@ void check_one_state(const json& document, const std::string& judge, const Study
                           "leave \"transfer_times\" out"});
 }
 
-void check_blind(const json& document, const Study& study, std::vector<Fault>& faults) {
-    if (!own_variants(document).empty())
-        faults.push_back(
-            {"/variants", "a blind check draws one setting", "put its changes into \"overrides\""});
-    check_one_state(document, "a blind check", study, faults);
-}
-
 /// Faults of entries that do not fit an accuracy study.
 void check_company(const json& document, const Study& study, std::vector<Fault>& faults) {
     if (!own_variants(document).empty())
@@ -99,11 +92,9 @@ void check_company(const json& document, const Study& study, std::vector<Fault>&
             faults.push_back({std::string("/") + entry,
                               "an accuracy study has its own entry for repeats",
                               "give /accuracy/draws and /accuracy/draws_of"});
-    for (const char* other : {"check", "uncertainty"})
-        if (document.contains(other))
-            faults.push_back({std::string("/") + other, "a study has one question",
-                              std::string("leave \"") + other +
-                                  "\" out, or give it in a study without \"accuracy\""});
+    if (document.contains("uncertainty"))
+        faults.push_back({"/uncertainty", "a study has one question",
+                          "leave \"uncertainty\" out, or give it in a study without \"accuracy\""});
     check_one_state(document, "an accuracy study", study, faults);
 }
 
@@ -248,12 +239,12 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
 }
 
 /// Kinds of study; each has its own reader below.
-enum class Kind { sweep, accuracy, uncertainty, blind_check };
+enum class Kind { sweep, accuracy, uncertainty };
 
 Kind kind_of(const json& document) {
     if (document.contains("accuracy")) return Kind::accuracy;
     if (document.contains("uncertainty")) return Kind::uncertainty;
-    return document.contains("check") ? Kind::blind_check : Kind::sweep;
+    return Kind::sweep;
 }
 
 /// Reads a study in steps. Each step adds its faults, and skips entries that the schema or an
@@ -266,8 +257,7 @@ class StudyReader {
         of_schema_ = scene::complete_and_check(document_, scene::study_schema(), "study");
         faults_ = of_schema_;
         if (document_.is_object()) kind_ = kind_of(document_);
-        repeats_are_sound_ = sound("variants") && sound("draws") && sound("first_draw") &&
-                             sound("draws_of") && is_sound(of_schema_, pointer_to_kept);
+        repeats_are_sound_ = sound("variants") && sound("draws") && sound("draws_of");
         times_are_sound_ =
             document_.is_object() && is_sound(of_schema_, "/transfer_times") && sound("triggers");
     }
@@ -285,9 +275,6 @@ class StudyReader {
                 break;
             case Kind::uncertainty:
                 read_samples();
-                break;
-            case Kind::blind_check:
-                read_repeats();
                 break;
         }
         if (!faults_.empty()) throw BadInput("study", std::move(faults_));
@@ -310,19 +297,14 @@ class StudyReader {
         }
         if (kind_ == Kind::uncertainty && sound("uncertainty"))
             return reach_of_samples(document_["uncertainty"], base_.scene, of_scene, faults_);
-        if (kind_ == Kind::blind_check && sound("check") && repeats_are_sound_)
-            return read_blind_check(document_["check"], base_.scene, draws_of(document_), faults_)
-                .quantity.reach;
         return of_scene;
     }
 
     void read_scene() {
         if (!document_.is_object() || !document_.contains("scene")) return;
         if (document_["scene"].is_string())
-            faults_.push_back(
-                {"/scene", "a study sent to the service cannot name a scene file",
-                 "put the scene itself here (jq can: .scene = $scene[0]), or store it (POST "
-                 "/v1/scenes) and give scene:NAME"});
+            faults_.push_back({"/scene", "a study sent to the service cannot name a scene file",
+                               "put the scene itself here (jq can: .scene = $scene[0])"});
         if (!document_["scene"].is_object()) return;
         base_.scene = std::move(document_["scene"]);
         if (sound("overrides")) base_.overrides = document_["overrides"];
@@ -384,12 +366,6 @@ class StudyReader {
             take_samples(study_, document_, base_, faults_);
     }
 
-    void read_repeats() {
-        if (scene_ && times_are_sound_ && repeats_are_sound_ && sound("check"))
-            check_blind(document_, study_, faults_);
-        take_variants();
-    }
-
     void take_variants() {
         if (!scene_ || !repeats_are_sound_) return;
         const std::vector<VariantEntry> entries =
@@ -416,13 +392,10 @@ class StudyReader {
         study_.resources = wanted_resources(document_["resources"]);
         study_.priority = document_["priority"];
         study_.reuse = document_["reuse"];
-        if (document_.contains("budget")) study_.budget = document_["budget"]["cpu_seconds"];
         document_.erase("scene");
         study_.document = std::move(document_);
         return std::move(study_);
     }
-
-    inline static const std::string pointer_to_kept = std::string("/") + kept_variants;
 
     json document_;
     check::Recordings recordings_;

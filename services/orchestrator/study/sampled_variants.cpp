@@ -90,10 +90,9 @@ void check_company_of_samples(const json& document, const UncertaintyPlan& plan,
         if (document[entry] != none)
             refuse(entry, "an uncertainty study draws lattices itself",
                    "give a parameter {\"name\": \"lattice\", \"numerical\": true}");
-    for (const char* entry : {"accuracy", "check"})
-        if (document.contains(entry))
-            refuse(entry, "a study measures its error or its uncertainty, not both",
-                   "submit two studies");
+    if (document.contains("accuracy"))
+        refuse("accuracy", "a study measures its error or its uncertainty, not both",
+               "submit two studies");
     for (std::size_t k = 0; k < plan.parameters.size(); ++k)
         if (plan.parameters[k].kind == ParameterKind::numerical && !has_lattice(reach))
             faults.push_back({pointer_to(k) + "/numerical",

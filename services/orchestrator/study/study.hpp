@@ -34,7 +34,6 @@ struct Study {
     std::vector<Variant> variants;               ///< at least one
     std::map<std::string, Resources> resources;  ///< by phase
     std::int64_t priority = 0;
-    std::optional<double> budget;       ///< limit for all attempts together [CPU s]
     bool reuse = true;                  ///< equal earlier results may be used
     std::vector<TriggerPlan> triggers;  ///< triggers that watch the FEM
     double snapshot_interval = 0.0;     ///< of snapshots for the triggers; 0: the scene's [s]

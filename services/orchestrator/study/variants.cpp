@@ -124,10 +124,7 @@ void add_warnings(const std::vector<VariantEntry>& entries,
 }  // namespace
 
 std::vector<VariantEntry> own_variants(const json& document) {
-    std::vector<VariantEntry> own = own_among(document["variants"], "/variants");
-    if (!own.empty() || document["variants"].empty() || !document.contains(kept_variants))
-        return own;
-    return own_among(document[kept_variants], std::string("/") + kept_variants);
+    return own_among(document["variants"], "/variants");
 }
 
 void warn_about_overrides(const json& document, std::vector<Flag>& warnings) {
@@ -165,15 +162,15 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, con
     constexpr std::size_t longest_name = 32;  // limit in the schema
     const Draws draws = draws_of(document);
     std::vector<VariantEntry> own = own_variants(document);
-    if (draws.first == 0 && draws.count == 1) return own;
+    if (draws.count == 1) return own;
     if (!can_redraw(draws.of, reach)) {
-        if (!document.contains("check")) check_draws(draws, reach, "", faults);
+        check_draws(draws, reach, "", faults);
         return own;
     }
     const bool waits = std::ranges::any_of(
         document["triggers"], [](const json& each) { return each.value("kind", "") != "at_time"; });
     const std::string refusal(refusal_of_triggers(draws));
-    if (!refusal.empty() && waits && !document.contains("check"))
+    if (!refusal.empty() && waits)
         faults.push_back({"/draws_of", refusal,
                           "give \"transfer_times\", or leave \"draws_of\" out: repeats of the "
                           "points share one FEM and its triggers"});
@@ -203,10 +200,7 @@ json as_json(const std::vector<VariantEntry>& entries) {
 }
 
 void keep_variants(const std::vector<VariantEntry>& entries, json& document) {
-    const std::vector<VariantEntry> own = own_variants(document);
     document["variants"] = as_json(entries);
-    document.erase(kept_variants);
-    if (!own.empty() && own_variants(document).empty()) document[kept_variants] = as_json(own);
 }
 
 std::vector<Variant> checked_variants(const std::vector<VariantEntry>& entries, const Base& base,

@@ -21,9 +21,6 @@ struct Base {
     check::Recordings* recordings;      ///< cache of motions, shared by the variants
 };
 
-inline constexpr const char* kept_variants =
-    "own_variants";  ///< key of the own variants in a study that runs repeats only
-
 /// The variants that the study itself defines; generated variants are derived again.
 std::vector<VariantEntry> own_variants(const nlohmann::json& document);
 

@@ -126,11 +126,9 @@ class Run:
         """Stops the running tasks and skips the rest."""
         return self._order("cancel", {})
 
-    def extend(self, *, transfer_times: Sequence[float] | None = None, samples: int | None = None,
-               cpu_seconds: float | None = None) -> Run:
-        """Adds transfer times [s], extends to a total number of samples, or raises the budget. Computed results stay."""
-        asked: Document = {"transfer_times": list(transfer_times) if transfer_times is not None else None, "samples": samples,
-                           "budget": {"cpu_seconds": cpu_seconds} if cpu_seconds is not None else None}
+    def extend(self, *, transfer_times: Sequence[float] | None = None, samples: int | None = None) -> Run:
+        """Adds transfer times [s], or extends to a total number of samples. Computed results stay."""
+        asked: Document = {"transfer_times": list(transfer_times) if transfer_times is not None else None, "samples": samples}
         return self._order("extend", {key: value for key, value in asked.items() if value is not None}, "sweeps")
 
     def _order(self, word: str, body: Document, kind: str = "runs") -> Run:

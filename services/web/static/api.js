@@ -105,7 +105,7 @@ export const read_run_alone = (run) => get_json(`${path_of("runs", run)}?tasks=0
 export const report_of = (run) => path_of("runs", run, "report");
 export const submit_study = (text) => post_json("/v1/runs", text);
 export const remove_run = (run) => get_json(path_of("runs", run), { method: "DELETE" });
-/// order: cancel, pause, resume, retry, pin or unpin
+/// order: cancel, pause, resume or retry
 export const command_run = (run, order) => post_json(path_of("runs", run, order), "{}");
 export const read_task = (task) => get_json(path_of("tasks", task));
 export const read_triggers = async (run) => (await get_json(path_of("runs", run, "triggers"))).triggers;
@@ -138,7 +138,6 @@ export async function read_envelopes(run) {
 /// A file of the server as a Blob.
 export const read_file = async (path) => body_of(await request(path), "blob");
 export const artifact_path = (sha256) => path_of("artifacts", sha256);
-export const provenance_path = (sha256) => path_of("artifacts", sha256, "provenance");
 /// The section of a study or a scene as SVG text.
 export async function draw_document(text, with_mesh, signal) {
     return body_of(await request(`/v1/draw${with_mesh ? "?mesh=1" : ""}`, { ...json_body(text), signal }), "text");

@@ -65,7 +65,6 @@ export function state_look(state) {
             return { family: "warn", sign: "⚠" };
         case "partial":
         case "paused":
-        case "budget_exhausted":
             return { family: "warn", sign: "◐" };
         case "failed":
         case "lost":

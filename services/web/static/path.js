@@ -15,7 +15,7 @@ const places = {
     "/scene/materials": "soils",
     "/scene/lem/water": "water", "/scene/lem/piezometric_lines": "water", "/scene/lem/pore_pressure_ratios": "water", "/scene/lem/seismic_coefficient": "water",
     "/scene/fem/water": "water", "/scene/fem/motion": "water", "/scene/fem/base": "water", "/scene/transfer/phreatic_line": "water",
-    "/name": "check", "/title": "check", "/report": "check", "/resources": "check", "/priority": "check", "/budget": "check",
+    "/name": "check", "/title": "check", "/report": "check", "/resources": "check", "/priority": "check",
 };
 const titles = { "/scene/section": "Every entry of the section", "/scene/materials": "Every entry of the soils", "/scene/lem": "Stability (LEM)",
                  "/scene/fem": "Shaking and pore pressure (FEM)", "/scene/transfer": "Transfer from FEM to MPM", "/scene/mpm": "Runout (MPM)" };

@@ -166,8 +166,7 @@ function files(task) {
         element("div", { class: "scroll tall", tabindex: 0, role: "region", "aria-label": `files of ${task_name(task)}` },
             element("table", {}, element("tbody", {}, ...sorted.map((file) => element("tr", {},
                 element("th", { scope: "row" }, file.name), element("td", { class: "number" }, bytes(file.bytes)),
-                element("td", {}, hash_link(file.sha256, file.name)),
-                element("td", {}, element("a", { href: api.provenance_path(file.sha256), download: `${file.name}.prov.json` }, "provenance"))))))));
+                element("td", {}, hash_link(file.sha256, file.name))))))));
 }
 
 /// The completed scene includes the overrides.

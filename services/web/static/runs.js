@@ -3,7 +3,7 @@ import * as api from "./api.js";
 import { differences_address } from "./differences.js";
 import { by_id, element, mirror, set_text } from "./dom.js";
 import { verdict_look, verdict_sign } from "./flags.js";
-import { bytes, clock, is_active, percent, seconds, show_state, span, task_state } from "./format.js";
+import { bytes, clock, is_active, percent, show_state, span, task_state } from "./format.js";
 import { RenameDialog } from "./rename.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
@@ -47,7 +47,7 @@ function fill_item(item, run, open_id) {
     progress.hidden = !is_active(run.state);
     progress.setAttribute("aria-label", `progress of ${run.name}`);
     set_text(time, `${clock(run.created)} · ${is_active(run.state) ? percent(run.progress) + " · " : ""}` +
-                   `${run.tasks_done} of ${run.tasks_total} tasks${run.pinned ? " · pinned" : ""}`);
+                   `${run.tasks_done} of ${run.tasks_total} tasks`);
     const reason = doubt_of(run);
     set_text(why, reason);
     why.classList.toggle("unusable", run.verdict.usable === "no");
@@ -77,7 +77,6 @@ export class RunHead {
         this.rename = new RenameDialog(changed);
         by_id("rename").addEventListener("click", () => this.rename.open(this.run));
         by_id("remove-dialog").addEventListener("close", () => this.answer_removal(by_id("remove-dialog").returnValue));
-        by_id("pin").addEventListener("click", () => this.command(this.run.pinned ? "unpin" : "pin"));
         for (const order of ["pause", "resume", "retry"]) by_id(order).addEventListener("click", () => this.command(order));
     }
 
@@ -89,7 +88,6 @@ export class RunHead {
         by_id("run-progress").value = run.progress ?? 0;
         by_id("run-progress").hidden = !is_active(run.state);
         set_text(by_id("run-message"), beside_the_verdict(run));
-        by_id("run-message").className = run.state === "budget_exhausted" ? "notice warn" : "muted";
     }
 
     show(run) {
@@ -105,8 +103,7 @@ export class RunHead {
         by_id("pause").hidden = !active || run.paused;
         by_id("resume").hidden = !active || !run.paused;
         by_id("retry").hidden = active || !run.tasks.some((task) => ["failed", "cancelled", "skipped"].includes(task_state(task)));
-        set_text(by_id("pin"), run.pinned ? "Unpin" : "Pin");
-        by_id("remove").hidden = active || run.pinned;
+        by_id("remove").hidden = active;
         set_text(by_id("cancel-what"), run.title || run.name);
         set_text(by_id("remove-what"), run.title || run.name);
     }
@@ -164,12 +161,8 @@ function summary(run) {
     if (run.tasks_failed > 0) parts.push(`${run.tasks_failed} failed`);
     if (run.questionable > 0) parts.push(`${run.questionable} questionable`);
     parts.push(`created ${clock(run.created)}${run.submitted_by ? ` by ${run.submitted_by}` : ""}`);
-    if (run.state === "budget_exhausted") parts.push(`started ${clock(run.started)}, nothing of it runs now`);
-    else parts.push(times_of(run));
+    parts.push(times_of(run));
     if (run.paused && is_active(run.state)) parts.push("paused: nothing new is started");
-    if (Number.isFinite(run.budget_cpu_seconds)) {
-        parts.push(`${seconds(run.spent_cpu_seconds)} of a budget of ${seconds(run.budget_cpu_seconds)} CPU time spent`);
-    }
     if (Number.isFinite(run.seconds_left)) parts.push(`about ${span(run.seconds_left)} left`);
     return parts.join(" · ");
 }

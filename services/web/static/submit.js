@@ -160,10 +160,10 @@ export class SubmitDialog {
         const study = this.wants_scene() ? this.form.value : { format: "breachline-study/1", name: scene.name };
         return this.take_study(print({ ...study, scene }));
     }
-    /// Whether a study file needs its scene; the service finds stored scenes itself.
+    /// Whether a study file needs its scene.
     wants_scene() {
         const scene = this.form.is_study && this.form.value?.scene;
-        return typeof scene === "string" && scene !== "" && !scene.startsWith("scene:");
+        return typeof scene === "string" && scene !== "";
     }
 
     async take_example(example) {

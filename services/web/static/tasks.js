@@ -169,9 +169,7 @@ function new_artifact(file) {
     return element("tr", {}, element("th", { scope: "row" },
                        element("a", { href: api.artifact_path(file.sha256), download: file.name }, file.name)),
                    element("td", { class: "number" }, bytes(file.bytes)),
-                   element("td", {}, element("code", { title: file.sha256 }, file.sha256)),
-                   element("td", {}, element("a", { href: api.provenance_path(file.sha256), download: `${file.name}.prov.json`,
-                                                    title: "how it came to be: W3C PROV-JSON" }, "provenance")));
+                   element("td", {}, element("code", { title: file.sha256 }, file.sha256)));
 }
 
 /// The top-level values of result.json; the whole file is among the artifacts.

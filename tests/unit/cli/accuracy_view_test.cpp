@@ -53,29 +53,5 @@ TEST(AccuracyTable, MarksFrontNoiseAndRecommendation) {
     EXPECT_TRUE(text.ends_with("\nThe cheapest setting within 5 % is that.\n"));
 }
 
-TEST(CheckTable, ListsEachMeanAndTheVerdict) {
-    const json answer{{"quantity", "runout"},
-                      {"unit", "m"},
-                      {"asked_error", 0.05},
-                      {"means",
-                       {{{"variants", {"d4", "d5"}},
-                         {"value", 10.5},
-                         {"error", 0.02},
-                         {"kept", true},
-                         {"questionable", true},
-                         {"reason", ""}},
-                        {{"variants", {"d6", "d7"}},
-                         {"value", nullptr},
-                         {"error", nullptr},
-                         {"kept", false},
-                         {"questionable", false},
-                         {"reason", "d7: failed"}}}},
-                      {"verdict", "1 of 1 means."}};
-    const std::string text = as_check_table(answer);
-    EXPECT_NE(text.find("d4 d5          10.5    2 %  yes         ?\n"), std::string::npos) << text;
-    EXPECT_NE(text.find("d7: failed"), std::string::npos);
-    EXPECT_TRUE(text.ends_with("\n1 of 1 means.\n"));
-}
-
 }  // namespace
 }  // namespace breach::cli

@@ -128,7 +128,7 @@ class Breach(unittest.TestCase):
 
     def test_orders_to_a_run(self):
         service = self.serve()
-        for words in (["pause"], ["resume"], ["retry"], ["pin"], ["unpin"], ["priority", "10"]):
+        for words in (["pause"], ["resume"], ["retry"], ["priority", "10"]):
             done = call(service, words[0], "latest", *words[1:])
             self.assertEqual((done.returncode, "running" in done.stdout), (0, True), done.stderr)
             self.assertEqual(service.posted[-1][0], f"/v1/runs/{run_id}/{words[0]}")
@@ -179,7 +179,7 @@ class Breach(unittest.TestCase):
 
     def test_every_word_has_an_example_and_a_wrong_one_is_named(self):
         words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "rename", "priority",
-                 "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "pin", "unpin", "new", "draw", "completion")
+                 "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "new", "draw", "completion")
         for word in words:
             self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)
         wrong = call("http://127.0.0.1:1", "restart", run_id)
@@ -194,7 +194,6 @@ class Breach(unittest.TestCase):
                             (["list", "--jsn"], "breach list: unknown option --jsn; did you mean --json?"),
                             (["results", "latest", "--flga=still_moving"], "breach results: unknown option --flga=still_moving; did you mean --flag?"),
                             (["accuracy", "s.json", "--within2"], "did you mean --within?"),
-                            (["scenes", "ad"], 'breach scenes: unknown command "ad"; did you mean add?'),
                             (["new", "upsteam_dam"], "did you mean upstream_dam?"),
                             (["new", "upstream_dam", "--hight", "20"], "breach new upstream_dam: unknown option --hight; did you mean --height?")):
             done = call("http://127.0.0.1:1", *words)
@@ -232,7 +231,7 @@ class Breach(unittest.TestCase):
                             ("fish", "complete -c breach -n '__fish_seen_subcommand_from results' -l csv -d")):
             script = call("http://127.0.0.1:1", "completion", shell).stdout
             self.assertIn(form, script)
-            for word in ("submit", "scenes", "hydrograph"):
+            for word in ("submit", "transfers", "hydrograph"):
                 self.assertIn(word, script)
 
     def test_a_file_that_the_server_does_not_find_is_sent_once_and_named_by_its_content(self):
@@ -392,17 +391,6 @@ class Breach(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((out / "tasks/fem_solver/snapshots/snapshot_0.500000.vtkhdf").read_bytes(), fake_service.artifact)
         self.assertEqual((out / "tasks/mpm_0.500000/log.1.txt").read_bytes(), fake_service.log)
-        crate = json.loads((out / "ro-crate-metadata.json").read_text())
-        entities = {each["@id"]: each for each in crate["@graph"]}
-        files = {str(each.relative_to(out)) for each in out.rglob("*") if each.is_file()}
-        self.assertEqual({each["@id"] for each in entities["./"]["hasPart"]}, files - {"ro-crate-metadata.json"})
-        for name in files - {"ro-crate-metadata.json"}:
-            content = (out / name).read_bytes()
-            self.assertEqual(entities[name]["sha256"], hashlib.sha256(content).hexdigest())
-            self.assertEqual(entities[name]["contentSize"], str(len(content)))
-        action = entities[f"#{run_id}-00001"]
-        self.assertIn({"@id": "tasks/fem_solver/snapshots/snapshot_0.500000.vtkhdf"}, action["object"])
-        self.assertEqual(entities["#mpm_solver-0.1.0"]["softwareVersion"], "0.1.0")
         # Again: complete files are not fetched again.
         service.asked.clear()
         (out / "tasks/mpm_0.500000/result.json").write_text("damaged")
@@ -415,7 +403,7 @@ class Breach(unittest.TestCase):
         done = call(self.serve(looks=0, lies=True), "export", run_id, out)
         self.assertEqual(done.returncode, 74)
         self.assertIn("its SHA-256 is", done.stderr)
-        self.assertFalse(list(out.rglob("*.vtkhdf*")) or (out / "ro-crate-metadata.json").exists())
+        self.assertFalse(list(out.rglob("*.vtkhdf*")))
 
     def test_export_does_not_mix_with_other_files(self):
         (self.here / "mine").write_text("x")

@@ -57,7 +57,7 @@ class RealService(unittest.TestCase):
         self.assertIn(run, self.breach("list").stdout)
         tasks = json.loads(self.breach("show", run, "--json").stdout)["tasks"]
         self.assertIn("fem_solver", self.breach("logs", tasks[0]["id"]).stdout)
-        self.export_explains_itself(run)
+        self.export_is_submitted_again(run)
 
     def accuracy_study(self, quantity="runout"):
         file = self.here / "accuracy.json"
@@ -67,35 +67,10 @@ class RealService(unittest.TestCase):
         file.write_text(json.dumps(study))
         return file
 
-    def test_a_stored_scene_a_budget_and_their_reports(self):
-        self.study(small, [0.1])
-        self.assertEqual(self.breach("scenes", "add", self.here / "column.json", "--name", "column").stdout, "scene:column@1\n")
-        self.assertRegex(self.breach("scenes").stdout, r"column@1 ")
-        self.assertEqual(json.loads(self.breach("scenes", "show", "scene:column").stdout)["name"], "column")
-        file = self.here / "referring.json"
-        file.write_text(json.dumps({"format": "breachline-study/1", "name": "column", "scene": "scene:column", "overrides": small,
-                                    "transfer_times": [0.1], "reuse": False, "budget": {"cpu_seconds": 1e-3}}))
-        self.assertIn("will not be enough", self.breach("submit", file, "--dry-run").stdout)
-        stopped = self.breach("submit", file, "--watch", code=75)
-        run = stopped.stdout.split()[0]
-        self.assertIn("budget exhausted", stopped.stderr)
-        self.assertRegex(stopped.stderr, f"to go on: breach extend {run} --budget ")
-        self.assertRegex(self.breach("show", run).stdout, r"state     budget_exhausted, .*\n(.*\n)*budget    [0-9.e-]+ of 0.001 CPU s spent")
-        for wrong in ("0", "-1", "much"):
-            self.breach("extend", run, "--budget", wrong, code=2)
-        self.assertIn("/budget/cpu_seconds", self.breach("extend", run, "--budget", 1e-6, code=65).stderr)
-        self.breach("extend", run, "--budget", 3600)
-        self.assertRegex(self.breach("watch", run).stdout, "100 %  (succeeded|questionable)")
+    def test_workers_and_transfers_are_listed(self):
+        run = self.breach("submit", self.study(small, [0.1]), "--watch").stdout.split()[0]
         self.assertRegex(self.breach("transfers", run).stdout, r"0\.1 +at_time ")
         self.assertIn("cores taken", self.breach("workers").stdout)
-        tasks = json.loads(self.breach("show", run, "--json").stdout)["tasks"]
-        result = next(each for each in tasks[-1]["artifacts"] if each["name"] == "result.json")
-        told = self.breach("provenance", result["sha256"]).stdout
-        for part in ("mpm_solver", "transfer_tool", "fem_solver", "particles.vtkhdf", "study column", "scene column", "scene column@1"):
-            self.assertIn(part, told)
-        self.breach("scenes", "rm", "column", code=65)
-        self.breach("rm", "--yes", run)
-        self.breach("scenes", "rm", "column")
 
     def test_error_against_run_time(self):
         shown = self.breach("accuracy", self.accuracy_study(), "--watch").stdout
@@ -110,7 +85,7 @@ class RealService(unittest.TestCase):
         self.assertIn("/accuracy/quantity", refused.stderr)
         self.assertIn("remedy", refused.stderr)
 
-    def test_a_recommendation_is_checked_on_new_lattices(self):
+    def test_a_mean_of_repeats_is_recommended_where_one_run_scatters(self):
         file = self.accuracy_study()  # of the shipped column, which comes to rest
         study = json.loads(file.read_text()) | {"overrides": [], "transfer_times": [0.4]}
         # The mean on cells of 2 m in docs/verification/accuracy.md. One run scatters by 2 %: the mean of some keeps 5.5 %.
@@ -122,33 +97,10 @@ class RealService(unittest.TestCase):
         best = answer["recommended"]
         self.assertGreater(best["draws"], 1, answer["recommendation"])
         self.assertIn(f"the mean of {best['draws']} repeats of cells: /mpm/cell_size=2", answer["recommendation"])
-        shown = self.breach("accuracy", "--of", run, "--check", 5, "--watch").stdout
-        self.assertRegex(shown, rf"\d of 5 means of {best['draws']} new repeats are within 5.5 % of 29.35 m")
-        check = shown.split()[0]
-        told = json.loads(self.breach("accuracy", "--of", check, "--json").stdout)
-        self.assertEqual((told["of"], told["mean_of"], told["judged"]), (run, best["draws"], 5))
-        self.assertEqual(told["means"][0]["variants"][0], "d4")
-        self.assertEqual(len({each["value"] for each in told["means"]}), 5, "every lattice is another")
-        self.assertGreaterEqual(told["kept"], 4, "nine of ten are to be")
-        refused = self.breach("accuracy", "--of", run, "--check", 4, "--within", 0.00001, code=65)
-        self.assertIn("remedy", refused.stderr)
 
-    def export_explains_itself(self, run):
+    def export_is_submitted_again(self, run):
         out = self.here / "exported"
         self.breach("export", run, out)
-        entities = {each["@id"]: each for each in json.loads((out / "ro-crate-metadata.json").read_text())["@graph"]}
-        files = {str(each.relative_to(out)) for each in out.rglob("*") if each.is_file()} - {"ro-crate-metadata.json"}
-        self.assertEqual({each["@id"] for each in entities["./"]["hasPart"]}, files)
-        for name in files:
-            self.assertEqual(entities[name]["sha256"], hashlib.sha256((out / name).read_bytes()).hexdigest())
-        made_by = {result["@id"]: each for each in entities.values() if each["@type"] == "CreateAction"
-                   for result in each["result"]}
-        final = made_by["tasks/mpm_0.100000/final.vtkhdf"]
-        particles = next(each["@id"] for each in final["object"] if each["@id"] in made_by)
-        snapshot = next(each["@id"] for each in made_by[particles]["object"] if each["@id"] in made_by)
-        self.assertEqual(particles, "tasks/transfer_0.100000/particles.vtkhdf")
-        self.assertEqual(snapshot, "tasks/fem/snapshot_0.100000.vtkhdf")
-        self.assertIn("fem_solver", made_by[snapshot]["instrument"]["@id"])
         # The export can be submitted unchanged.
         self.breach("submit", out / "study.json", "--watch")
 
@@ -185,11 +137,8 @@ class RealService(unittest.TestCase):
         self.assertIn(reference, self.breach("files").stdout)
         out = self.here / "from_afar"
         self.breach("export", run, out)
-        entities = {each["@id"]: each for each in json.loads((out / "ro-crate-metadata.json").read_text())["@graph"]}
         motion = f"files/{reference.removeprefix('file:sha256/')}"
         self.assertEqual((out / motion).read_bytes(), (scenes / "../motions/synthetic.csv").read_bytes())
-        fem = next(each for each in entities.values() if each["@type"] == "CreateAction" and "fem_solver" in each["name"])
-        self.assertIn({"@id": motion}, fem["object"])
         refused = self.breach("rm", "--yes", reference, code=65)
         self.assertIn("remove them first", refused.stderr)
         # The export is submitted unchanged: its motion file is included, and its results are reused.
@@ -204,9 +153,6 @@ class RealService(unittest.TestCase):
         run = self.breach("submit", self.study(small, [0.1]), "--watch", "--quiet").stdout.split()[0]
         self.assertIn(run, self.breach("du").stdout)
         self.assertEqual(self.breach("open", run).stdout, f"{self.url}/#/runs/{run}\n")
-        self.breach("pin", run)
-        self.assertIn("breach unpin " + run, self.breach("rm", "--yes", run, code=65).stderr)
-        self.breach("unpin", run)
         long = self.breach("submit", self.study(["/fem/stages/1/duration=60", "/mpm/cell_size=2"], [59])).stdout.strip()
         self.assertIn("breach cancel " + long, self.breach("rm", "--yes", long, code=65).stderr)
         self.assertEqual(len(self.breach("rm", "--yes", run, long, "--cancel").stdout.splitlines()), 2)

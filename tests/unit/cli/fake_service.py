@@ -120,7 +120,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         elif self.path == f"/v1/runs/{run_id}/cancel":
             self.server.end, self.server.looks_left = "cancelled", 0
             self.answer(202, self.server.run())
-        elif self.path in [f"/v1/runs/{run_id}/{word}" for word in ("pause", "resume", "retry", "title", "priority", "pin", "unpin")]:
+        elif self.path in [f"/v1/runs/{run_id}/{word}" for word in ("pause", "resume", "retry", "title", "priority")]:
             self.answer(202, self.server.run())
         elif self.path == "/v1/scenes/plan":
             self.answer(200, {"plans": {"mpm_solver": "pore pressure  left out: the scene is dry\n"}})

@@ -259,44 +259,19 @@ TEST(Draws, OfASweepAreVariantsOfTheirOwn) {
     refusal(study, "/variants/0/name");
 }
 
-TEST(Draws, BeginWithAnyNumber) {
-    json study = study_with({});
-    study.erase("accuracy");
-    study["draws"] = 2;
-    study["first_draw"] = 1;
-    const Study late = read_study(study.dump());
-    ASSERT_EQ(late.variants.size(), 2u);
-    EXPECT_EQ(late.variants[0].name, "d2");
-    study["draws"] = 3;
-    study["first_draw"] = 0;
-    const Study all = read_study(study.dump());
-    EXPECT_EQ(late.variants[0].scene, all.variants[1].scene);
-    EXPECT_EQ(late.variants[1].scene, all.variants[2].scene);
-    study["draws"] = 1;
-    study["first_draw"] = 4;
-    EXPECT_EQ(read_study(study.dump()).variants.at(0).name, "d5");
-}
-
 TEST(Draws, OfVariantsAreMadeAgainFromTheStoredStudy) {
     json study = study_with({});
     study.erase("accuracy");
     study["variants"] = {{{"name", "tall"}, {"overrides", {"/mpm/cfl=0.3"}}},
                          {{"name", "slip"}, {"overrides", {"/mpm/cfl=0.2"}}}};
     study["draws"] = 2;
-    for (const int first : {0, 1, 7}) {
-        study["first_draw"] = first;
-        const Study read = read_study(study.dump());
-        EXPECT_EQ(read.document.contains("own_variants"), first > 0);
-        json stored = read.document;
-        stored["scene"] = read.scene;
-        EXPECT_EQ(read_study(stored.dump()).document, read.document) << first;
-        stored["first_draw"] = 0;
-        const Study unmoved = read_study(stored.dump());
-        EXPECT_EQ(unmoved.variants.at(0).name, "tall");
-        EXPECT_FALSE(unmoved.document.contains("own_variants")) << "they stand among the others";
-        stored["variants"] = json::array();
-        EXPECT_EQ(read_study(stored.dump()).variants.at(0).name, "d1") << "taken out by hand";
-    }
+    const Study read = read_study(study.dump());
+    json stored = read.document;
+    stored["scene"] = read.scene;
+    EXPECT_EQ(read_study(stored.dump()).document, read.document);
+    EXPECT_EQ(read.variants.at(0).name, "tall");
+    stored["variants"] = json::array();
+    EXPECT_EQ(read_study(stored.dump()).variants.at(0).name, "d1") << "taken out by hand";
 }
 
 TEST(Draws, OfATooLargeNumberOrNoWholeOneAreRefused) {
@@ -323,55 +298,6 @@ TEST(Draws, NeedALatticeThatCanBeMoved) {
     } catch (const fault::BadInput& error) {
         EXPECT_EQ(error.faults().size(), 1u) << "not once for each draw";
     }
-}
-
-json check_entry() {
-    return {{"quantity", "runout"}, {"reference", 30.0}, {"mean_of", 2}, {"asked_error", 0.05}};
-}
-
-TEST(BlindCheck, DrawsOneSettingAtOneTime) {
-    json study = study_with({});
-    study.erase("accuracy");
-    study["draws"] = 4;
-    study["first_draw"] = 3;
-    study["check"] = check_entry();
-    const Study read = read_study(study.dump());
-    ASSERT_EQ(read.variants.size(), 4u);
-    EXPECT_EQ(read.variants[0].name, "d4");
-    json stored = read.document;
-    stored["scene"] = read.scene;
-    EXPECT_EQ(read_study(stored.dump()).document, read.document);
-
-    const auto with = [&](const std::string& at, const json& value) {
-        json changed = study;
-        changed[json::json_pointer(at)] = value;
-        return changed;
-    };
-    refusal(with("/draws", 5), "/draws");
-    refusal(with("/transfer_times", {0.2, 0.4}), "/transfer_times");
-    refusal(with("/variants", json::array({{{"name", "soft"}}})), "/variants");
-    refusal(with("/triggers", json::array({{{"kind", "manual"}, {"name", "now"}}})), "/triggers");
-    refusal(with("/check/reference", 0), "/check/reference");
-    refusal(with("/check/quantity", "runnout"), "/check/quantity");
-    refusal(with("/accuracy", accuracy_entry()), "/check");
-    json of_fem = with("/check/quantity", "crest_displacement@0.5");
-    of_fem.erase("transfer_times");
-    refusal(of_fem, "/draws");
-    of_fem["draws_of"] = "fem";
-    EXPECT_EQ(count(plan_tasks(read_study(of_fem.dump()), numerics), "fem_solver"), 4u);
-}
-
-TEST(BlindCheck, OfASceneWithoutFemMovesTheSquaresOfTheFilling) {
-    json study = study_with({});
-    study.erase("accuracy");
-    study.erase("transfer_times");
-    study["scene"].erase("fem");
-    study["draws"] = 2;
-    study["first_draw"] = 1;
-    study["check"] = check_entry();
-    const TaskGraph graph = plan_tasks(read_study(study.dump()), numerics);
-    ASSERT_EQ(graph.tasks.size(), 2u);
-    EXPECT_TRUE(graph.tasks[0].overrides.back().starts_with("/mpm/fill_shift="));
 }
 
 TEST(ValueAt, LiesBetweenTheLinesAndNeverBeyond) {

@@ -259,6 +259,3 @@ DELETE FROM flags;
 INSERT INTO flags (task, run, phase, code, severity, message, pointer) VALUES
     ('r1-00004', 'r1', 'mpm_solver', 'still_moving', 'questionable', 'the soil was still moving when the MPM ended, so that the runout is a lower bound; lengthen /mpm/duration', '/mpm/duration'),
     ('r6-00003', 'r6', 'mpm_solver', 'overlap', 'questionable', '6 %', '/mpm');
-DELETE FROM spendings;
-INSERT INTO spendings SELECT tasks.run, sum(cpu_seconds) FROM attempts JOIN tasks ON tasks.id = task
-    WHERE cpu_seconds IS NOT NULL GROUP BY tasks.run;

@@ -89,15 +89,6 @@ TEST_F(AuditOfDamage, FindsOutputsThatAreNotWhatWasStored) {
     EXPECT_EQ(parts(Look::at_sizes), Parts{"output"});
 }
 
-TEST_F(AuditOfDamage, FindsAHistoryThatContradictsTheTables) {
-    Connection(data_.database(), Access::read_write)
-        .script(
-            "UPDATE events SET detail=json_set(detail, '$.to', 'failed') WHERE task='r1-00000' "
-            "AND json_extract(detail, '$.event')='keep_outputs'");
-    EXPECT_EQ(parts(), (Parts{"history", "history"}))
-        << "no such move, and the task's state is another";
-}
-
 TEST_F(AuditOfDamage, FindsDamageToTheDatabaseItself) {
     Connection(data_.database(), Access::read_write)
         .script("PRAGMA foreign_keys=OFF; DELETE FROM recipes");

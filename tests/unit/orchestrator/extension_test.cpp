@@ -53,33 +53,6 @@ TEST(Extension, AddsTimesAndKeepsWhatIsThere) {
     }
 }
 
-TEST(Extension, KeepsTheVariantsThatOnlyDrawsAreRunOf) {
-    const Sandbox sandbox;
-    Service service(sandbox);
-    json wanted = study("mpm_steps=2", {0.5});
-    wanted["variants"] = {{{"name", "light"}, {"overrides", {"/mpm/duration=1"}}},
-                          {{"name", "slip"}, {"overrides", {"/mpm/duration=2"}}}};
-    wanted["draws"] = 2;
-    wanted["first_draw"] = 1;
-    const std::string run = service.submit(wanted);
-    const json before = service.wait_for_end(run).at("study");
-    const std::vector<std::string> names{"light_d2", "light_d3", "slip_d2", "slip_d3"};
-    for (const double time : {0.75, 1.0}) {  // each resumes from the one before
-        const auto answer =
-            service.post("/v1/sweeps/" + run + "/extend", json{{"transfer_times", {time}}}.dump());
-        ASSERT_EQ(answer.status, 202) << answer.text;
-        const json end = service.wait_for_end(run);
-        EXPECT_EQ(end.at("state"), "succeeded") << end.at("message");
-        EXPECT_EQ(end.at("study").at("variants"), before.at("variants"));
-        EXPECT_EQ(end.at("study").at("own_variants").size(), 2u);
-        std::vector<std::string> made;
-        for (const json& row : service.table(run))
-            if (row.at("transfer_time") == time) made.push_back(row.at("variant"));
-        EXPECT_EQ(made, names);
-    }
-    EXPECT_EQ(service.table(run).size(), 12u);
-}
-
 TEST(Extension, DoesNotApplyTheOverridesTwice) {
     const Sandbox sandbox;
     Service service(sandbox);

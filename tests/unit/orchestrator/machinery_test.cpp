@@ -1,4 +1,4 @@
-// What the service reports about itself: workers, transfers, provenance of files.
+// What the service reports about itself: workers and transfers.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -72,81 +72,6 @@ TEST(Transfers, SayWhyTheyWereMadeAndWhatCameOfThem) {
     EXPECT_EQ(service.get("/v1/transfers?why=chance").status, 400);
     EXPECT_EQ(service.get("/v1/transfers?state=odd").status, 400);
     EXPECT_EQ(service.get("/v1/runs/none/transfers").status, 404);
-}
-
-/// Every name in a document's relations is described in it.
-void expect_closed(const json& prov) {
-    const std::map<std::string, const char*> kinds{
-        {"prov:entity", "entity"},     {"prov:activity", "activity"},
-        {"prov:agent", "agent"},       {"prov:generatedEntity", "entity"},
-        {"prov:usedEntity", "entity"}, {"prov:informed", "activity"},
-        {"prov:informant", "activity"}};
-    for (const auto& [relation, all] : prov.items()) {
-        if (relation == "prefix" || relation == "entity" || relation == "activity" ||
-            relation == "agent")
-            continue;
-        for (const json& each : all)
-            for (const auto& [role, id] : each.items())
-                if (kinds.contains(role)) {
-                    EXPECT_TRUE(prov.at(kinds.at(role)).contains(id.get<std::string>()))
-                        << relation << ": " << id;
-                }
-    }
-}
-
-std::set<std::string> phases_in(const json& prov) {
-    std::set<std::string> phases;
-    for (const json& each : prov.at("activity")) phases.insert(each.at("breach:phase"));
-    return phases;
-}
-
-const json& artifact_of(const json& run, const std::string& label, const std::string& name) {
-    for (const json& each : task_labelled(run, label).at("artifacts"))
-        if (each.at("name") == name) return each;
-    throw std::runtime_error("no artifact " + name);
-}
-
-TEST(Provenance, LeadsFromARunoutToItsSceneAndStudy) {
-    const Sandbox sandbox;
-    Service service(sandbox);
-    const std::string run = service.submit(study("", {0.5}));
-    const json end = service.wait_for_end(run);
-    const std::string runout = artifact_of(end, "mpm_0.500000", "result.json").at("sha256");
-    const json prov = service.get("/v1/artifacts/" + runout + "/provenance").body;
-    expect_closed(prov);
-    EXPECT_EQ(phases_in(prov),
-              (std::set<std::string>{"fem_solver", "transfer_tool", "mpm_solver"}));
-    const std::string particles =
-        artifact_of(end, "transfer_0.500000", "particles.vtkhdf").at("sha256");
-    const std::string snapshot = artifact_of(end, "fem", "snapshot_0.500000.vtkhdf").at("sha256");
-    for (const std::string& each : {runout, particles, snapshot})
-        EXPECT_TRUE(prov.at("entity").contains("breach:file/" + each)) << each;
-    EXPECT_TRUE(prov.at("entity").contains("breach:study/" + run));
-    std::set<std::string> derived;
-    for (const json& each : prov.at("wasDerivedFrom"))
-        derived.insert(each.at("prov:generatedEntity").get<std::string>() + " " +
-                       each.at("prov:usedEntity").get<std::string>());
-    EXPECT_TRUE(derived.contains("breach:file/" + runout + " breach:file/" + particles));
-    EXPECT_TRUE(derived.contains("breach:file/" + particles + " breach:file/" + snapshot));
-
-    // A reused file names the task that computed it.
-    const std::string again = service.submit(study("", {0.5}));
-    const json cached = service.wait_for_end(again);
-    EXPECT_EQ(task_labelled(cached, "fem").at("state"), "cached");
-    const std::string same = artifact_of(cached, "fem", "snapshot_0.500000.vtkhdf").at("sha256");
-    EXPECT_EQ(same, snapshot);
-    const json of_same = service.get("/v1/artifacts/" + same + "/provenance").body;
-    for (const json& each : of_same.at("activity")) EXPECT_EQ(each.at("breach:run"), run);
-    EXPECT_EQ(service.get("/v1/artifacts/" + std::string(64, '0') + "/provenance").status, 404);
-
-    // Its run was removed: only the one that reused it can be reported.
-    EXPECT_EQ(service.ask("DELETE", "/v1/runs/" + run).status, 202);
-    const json orphan = service.get("/v1/artifacts/" + same + "/provenance").body;
-    expect_closed(orphan);
-    for (const json& each : orphan.at("activity")) {
-        EXPECT_EQ(each.at("breach:run"), again);
-        EXPECT_NE(each.at("breach:note").get<std::string>().find("removed"), std::string::npos);
-    }
 }
 
 }  // namespace

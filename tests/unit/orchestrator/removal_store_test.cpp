@@ -67,9 +67,6 @@ TEST_F(RemovalStore, TakesEveryRowOfARunAndNoneOfAnother) {
     const std::string run = whole_run(store);
     EXPECT_EQ(removed(store, run), Removal::going_on);
     end(store, run);
-    store.write([&](Transaction& t) { t.pin_run(run); });
-    EXPECT_EQ(removed(store, run), Removal::pinned);
-    store.write([&](Transaction& t) { t.unpin_run(run); });
     EXPECT_EQ(removed(store, run), Removal::done);
     EXPECT_EQ(removed(store, run), Removal::unknown);
     for (const Event& each : store.events_after(0, 1000))

@@ -278,48 +278,6 @@ TEST(FiringPlan, AFemComputedAgainStandsWhereItsVariantsStands) {
     EXPECT_EQ(place_of_fem({fem("fem_firm", ""), fem("fem_deep", "")}, "fem_deep", ""), 1u);
 }
 
-TEST_F(StoreTest, SpendingIsThatOfEveryAttemptAndBudgetsHoldBackNewOnes) {
-    Store store(file());
-    NewRun run = small_run();
-    run.budget = 10.0;
-    const std::string fem = task_id(run.id, 0);
-    const auto attempt = [&](AttemptEvent end, double cpu_seconds) {
-        store.write([&](Transaction& t) {
-            t.move_task(fem, TaskEvent::claim);
-            const auto number = t.add_attempt(fem);
-            AttemptEnd how;
-            how.cpu_seconds = cpu_seconds;
-            t.move_attempt(fem, number, end, how);
-            if (end == AttemptEvent::vanish) t.move_task(fem, TaskEvent::vanish);
-            t.move_task_to_retry(
-                fem, end == AttemptEvent::vanish ? TaskEvent::retry : TaskEvent::exit_retryable, 0,
-                json::object());
-            t.move_task(fem, TaskEvent::wait_over);
-        });
-    };
-    store.write([&](Transaction& t) { t.add_run(run); });
-    attempt(AttemptEvent::exit, 4.0);
-    attempt(AttemptEvent::vanish, 3.5);  // what its supervisor had noted
-    EXPECT_EQ(store.run(run.id)->spent, 7.5);
-    EXPECT_EQ(store.run(run.id)->state, "running");
-    EXPECT_EQ(store.tasks_to_start({}, 10).size(), 1u);
-    attempt(AttemptEvent::exit, 2.5);
-    EXPECT_EQ(store.run(run.id)->state, "budget_exhausted");
-    EXPECT_TRUE(store.tasks_to_start({}, 10).empty());
-    const auto told = store.events_of_run(run.id, 0, 100);
-    EXPECT_EQ(std::ranges::count_if(told,
-                                    [](const Event& each) {
-                                        return each.detail.value("event", "") == "budget_exhausted";
-                                    }),
-              1);
-    store.write([&](Transaction& t) { t.set_budget(run.id, 10.5); });
-    EXPECT_EQ(store.tasks_to_start({}, 10).size(), 1u);
-    EXPECT_EQ(store.study_of(run.id)->at("budget").at("cpu_seconds"), 10.5);
-    store.write([&](Transaction& t) { t.set_budget(run.id, std::nullopt); });
-    EXPECT_FALSE(store.run(run.id)->budget);
-    EXPECT_FALSE(store.study_of(run.id)->contains("budget"));
-}
-
 TEST_F(StoreTest, ARunKeepsItsNewTitleAndIsFoundByAPartOfIt) {
     NewRun run = small_run(), other = small_run();
     run.title = "First try";
