@@ -17,14 +17,6 @@ using nlohmann::json;
 
 namespace {
 
-constexpr const char* name_of_trigger = "until (samples)";  // not a name that a study can use
-
-std::string condition_of(const Until& until) {
-    const auto number = [](double value) { return json(value).dump(); };
-    return "half the interval of percentile " + number(until.percentile) + " of " + until.quantity +
-           " <= " + number(until.half_width) + " of it";
-}
-
 /// Results of the samples that have the quantity.
 std::vector<double> results_of(const Store& store, const std::string& run,
                                const std::string& quantity) {
@@ -42,7 +34,6 @@ struct Narrowness {
     std::optional<double> half_width{};  ///< of its interval, over its value
     bool reached = false;
 };
-/// spec: of the trigger.
 Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
     Narrowness narrowness{.samples = results.size(), .value = {}};
     const double p = spec.at("percentile");
@@ -56,34 +47,16 @@ Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
     return narrowness;
 }
 
-json as_json(const Narrowness& narrowness, const json& spec) {
-    return {{"quantity", spec.at("quantity")},
-            {"percentile", spec.at("percentile")},
-            {"samples", narrowness.samples},
-            {"value", or_null(narrowness.value)},
-            {"half_width", or_null(narrowness.half_width)},
-            {"reached", narrowness.reached}};
-}
-
 }  // namespace
 
-std::optional<TriggerPlan> batches_of(const Study& study) {
-    if (study.target) {
-        const statistics::InverseQuestion& question = study.target->question;
-        return TriggerPlan{name_of_trigger,
-                           "criterion",
-                           {{"when", question.quantity + " = " + json(question.target).dump()},
-                            {"target", question.target}}};
-    }
-    if (!study.uncertainty || !study.uncertainty->until) return std::nullopt;
+json batches_of(const Study& study) {
+    if (study.target) return {{"target", study.target->question.target}};
+    if (!study.uncertainty || !study.uncertainty->until) return nullptr;
     const Until& until = *study.uncertainty->until;
-    return TriggerPlan{name_of_trigger,
-                       "criterion",
-                       {{"when", condition_of(until)},
-                        {"quantity", until.quantity},
-                        {"percentile", until.percentile},
-                        {"half_width", until.half_width},
-                        {"batch", until.batch}}};
+    return {{"quantity", until.quantity},
+            {"percentile", until.percentile},
+            {"half_width", until.half_width},
+            {"batch", until.batch}};
 }
 
 bool BatchWatch::look() {
@@ -91,7 +64,7 @@ bool BatchWatch::look() {
     if (newest == seen_event_) return false;
     bool added = false;
     std::map<std::string, std::string> troubles;
-    for (const Trigger& each : store_.open_batches()) {
+    for (const Batches& each : store_.open_batches()) {
         try {
             added |= settle(each);
         } catch (const std::exception& error) {
@@ -109,89 +82,77 @@ bool BatchWatch::has_ended(const std::string& run) const {
     const auto known = store_.run(run);
     if (!known || known->tasks_ended < known->tasks_total) return false;
     const std::vector<Trigger> triggers = store_.triggers_of(run);
-    return std::ranges::all_of(triggers, [](const Trigger& each) {
-        return each.name == name_of_trigger || is_final(each.state);
-    });
+    return std::ranges::all_of(triggers, [](const Trigger& each) { return is_final(each.state); });
 }
 
-bool BatchWatch::settle(const Trigger& trigger) {
-    if (!has_ended(trigger.run)) return false;
-    if (trigger.spec.contains("target")) return search_on(trigger);
-    const json study = still(store_.study_of(trigger.run));
+bool BatchWatch::settle(const Batches& batches) {
+    if (!has_ended(batches.run)) return false;
+    if (batches.spec.contains("target")) return search_on(batches);
+    const json study = still(store_.study_of(batches.run));
     const json& entry = study.at("uncertainty");
-    const std::string quantity = trigger.spec.at("quantity");
-    const auto results = results_of(store_, trigger.run, quantity);
-    const Narrowness narrowness = narrowness_of(results, trigger.spec);
-    const json result = as_json(narrowness, trigger.spec);
+    const std::string quantity = batches.spec.at("quantity");
+    const auto results = results_of(store_, batches.run, quantity);
+    const Narrowness narrowness = narrowness_of(results, batches.spec);
     if (narrowness.reached) {
-        end(trigger, TriggerEvent::fire, result, "");
+        end(batches, "met", "");
     } else if (results.empty()) {
-        end(trigger, TriggerEvent::expire, result, "no sample has a result: no more are drawn");
+        end(batches, "given_up", "no sample has a result: no more are drawn");
     } else if (entry.at("drawn") >= entry.at("samples")) {
-        end(trigger, TriggerEvent::expire, result,
+        end(batches, "given_up",
             "all samples are used and the interval is still too wide; extend the run by more "
             "samples");
     } else {
-        return draw_on(trigger, study);
+        return draw_on(batches, study);
     }
     return false;
 }
 
-bool BatchWatch::draw_on(const Trigger& trigger, const json& study) {
+bool BatchWatch::draw_on(const Batches& batches, const json& study) {
     const json& entry = study.at("uncertainty");
     const std::size_t asked = entry.at("samples");
     const std::size_t drawn = std::min(
-        asked, entry.at("drawn").get<std::size_t>() + trigger.spec.at("batch").get<std::size_t>());
+        asked, entry.at("drawn").get<std::size_t>() + batches.spec.at("batch").get<std::size_t>());
     json wanted = entry;
     wanted["drawn"] = drawn;
-    return extend(trigger, study, wanted);
+    return extend(batches, study, wanted);
 }
 
 /// Adds the next value of the inverse search.
-bool BatchWatch::search_on(const Trigger& trigger) {
-    const auto ensemble = ensemble_of(store_, trigger.run);
-    const json scene = json::parse(still(store_.scene_of(trigger.run)));
+bool BatchWatch::search_on(const Batches& batches) {
+    const auto ensemble = ensemble_of(store_, batches.run);
+    const json scene = json::parse(still(store_.scene_of(batches.run)));
     const statistics::InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
     if (advice.run_next.empty()) {
-        const TriggerEvent event = advice.found ? TriggerEvent::fire : TriggerEvent::expire;
-        end(trigger, event, {{"value", advice.found ? json(advice.found->value) : json()}},
-            advice.refused);
+        end(batches, advice.found ? "met" : "given_up", advice.refused);
         return false;
     }
     json wanted = ensemble->entry;
     for (const double each : advice.run_next) wanted["target"]["values"].push_back(each);
-    return extend(trigger, still(store_.study_of(trigger.run)), wanted);
+    return extend(batches, still(store_.study_of(batches.run)), wanted);
 }
 
-bool BatchWatch::extend(const Trigger& trigger, const json& study, const json& entry) {
+bool BatchWatch::extend(const Batches& batches, const json& study, const json& entry) {
     bool added = false;
     try {
         const RunSoFar so_far{.study = study,
-                              .scene = still(store_.scene_of(trigger.run)),
-                              .tasks = store_.tasks_of(trigger.run)};
+                              .scene = still(store_.scene_of(batches.run)),
+                              .tasks = store_.tasks_of(batches.run)};
         const Extension extension = plan_more_variants(so_far, data_, numerics_, entry);
         added = store_.write([&](Transaction& transaction) {
-            const bool open = transaction.is_open(trigger.id);
-            if (open) transaction.extend_run(trigger.run, extension);
+            const bool open = transaction.batches_are_open(batches.run);
+            if (open) transaction.extend_run(batches.run, extension);
             return open;
         });
-        if (added) spdlog::info("{}: {} more variants", trigger.run, extension.samples.size());
+        if (added) spdlog::info("{}: {} more variants", batches.run, extension.samples.size());
     } catch (const fault::BadInput& error) {
-        end(trigger, TriggerEvent::expire, nullptr,
-            std::string("the study cannot go on: ") + error.what());
+        end(batches, "given_up", std::string("the study cannot go on: ") + error.what());
     }
     return added;
 }
 
-void BatchWatch::end(const Trigger& trigger, TriggerEvent event, const json& result,
-                     const std::string& why) {
-    json detail{{"result", result}};
-    if (!why.empty()) detail["why"] = why;
-    store_.write([&](Transaction& transaction) {
-        if (!transaction.is_open(trigger.id)) return;
-        transaction.keep_trigger_result(trigger.id, result);
-        transaction.move_trigger(trigger, event, detail);
-    });
+void BatchWatch::end(const Batches& batches, const char* state, const std::string& why) {
+    store_.write(
+        [&](Transaction& transaction) { transaction.end_batches(batches.run, state, why); });
 }
 
 }  // namespace breach::orchestrator

@@ -3,8 +3,7 @@
 // "until" gets batches of samples until the percentile is accurate enough or all requested samples
 // exist.
 //
-// The store keeps this as a trigger on the run's first task, with a "percentile" or a "target" in
-// its spec. While it is armed the run is not over; cancelling disarms it. Decisions depend on the
+// The store keeps a row of it per run (Batches in records/records.hpp). Decisions depend on the
 // stored results only, so that a restart repeats them.
 #pragma once
 
@@ -17,8 +16,8 @@
 
 namespace breach::orchestrator {
 
-/// The trigger of a study with "until" or "target"; nothing for others.
-std::optional<TriggerPlan> batches_of(const Study& study);
+/// Batches::spec of a study with "until" or "target"; null for others.
+nlohmann::json batches_of(const Study& study);
 
 class BatchWatch {
   public:
@@ -31,13 +30,12 @@ class BatchWatch {
     bool look();
 
   private:
-    bool settle(const Trigger& trigger);
+    bool settle(const Batches& batches);
     bool has_ended(const std::string& run) const;
-    bool draw_on(const Trigger& trigger, const nlohmann::json& study);
-    bool search_on(const Trigger& trigger);
-    bool extend(const Trigger& trigger, const nlohmann::json& study, const nlohmann::json& entry);
-    void end(const Trigger& trigger, TriggerEvent event, const nlohmann::json& result,
-             const std::string& why);
+    bool draw_on(const Batches& batches, const nlohmann::json& study);
+    bool search_on(const Batches& batches);
+    bool extend(const Batches& batches, const nlohmann::json& study, const nlohmann::json& entry);
+    void end(const Batches& batches, const char* state, const std::string& why);
 
     Store& store_;
     const DataFolder& data_;

@@ -46,6 +46,7 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
     std::map<std::string, WithoutTransfer> without;
     for (WithoutTransfer& each : store.without_transfer(run))
         without.emplace(each.variant, std::move(each));
+    if (const auto batches = store.batches_of(run)) ensemble.ended = batches->reason;
     const auto factors = store.factors_of_safety(run);
     for (const json& variant : study->at("variants")) {
         if (!variant.contains("sample")) continue;

@@ -30,6 +30,7 @@ struct Ensemble {
     Run run;
     nlohmann::json entry;            ///< "uncertainty" of the study
     std::vector<SampleRow> samples;  ///< in the order of their numbers
+    std::string ended = {};          ///< why no more samples are added; empty: they may be
 };
 
 /// Nothing: the run does not exist, or its study has no samples.

@@ -234,6 +234,7 @@ json until_of(const Ensemble& ensemble) {
     made["quantity"] = until.value("quantity", first_quantity(ensemble));
     made["reached"] = false;
     made["now"] = nullptr;
+    made["ended"] = ensemble.ended;
     const Measured found = measured(ensemble, made["quantity"].get<std::string>());
     const double p = until.at("percentile");
     if (found.results.size() < statistics::samples_needed(p)) return made;

@@ -58,6 +58,16 @@ void from_json(const nlohmann::json& json, TaskPlan& task);
 /// "fem", "transfer_0.500000_soft": its phase, its transfer time and its variant.
 std::string label_of(const TaskPlan& task);
 
+/// Batches of samples that an uncertainty study adds while it runs. States: "open" at submission,
+/// and again when a retry repeats tasks; from there BatchWatch moves it to "met" or "given_up", a
+/// cancelled run to "stopped". A run with open batches is not over.
+struct Batches {
+    std::string run;
+    nlohmann::json spec;  ///< {"quantity", "percentile", "half_width", "batch"} or {"target"}
+    std::string state;
+    std::string reason;  ///< why it is given up or stopped
+};
+
 struct NewRun {
     std::string id;
     std::string name;
@@ -66,13 +76,14 @@ struct NewRun {
     std::string scene;  ///< the completed scene, JSON
     std::vector<TaskPlan> tasks;
     std::vector<Recipe> recipes = {};
-    std::vector<TriggerPlan> triggers = {};   ///< to be watched, on each FEM of the run
-    std::vector<TaskPlan> firing_plan = {};   ///< of one more transfer (firing_plan.hpp)
-    std::optional<TriggerPlan> batches = {};  ///< draws more samples (ensemble/batch_watch.hpp)
-    std::vector<fault::Flag> warnings = {};   ///< of the study
-    std::int64_t priority = 0;                ///< higher goes first
-    bool sweep = false;                       ///< several points, or requested as a sweep
-    std::vector<std::string> files = {};      ///< SHA-256 of stored files that its scenes name
+    std::vector<TriggerPlan> triggers = {};  ///< to be watched, on each FEM of the run
+    std::vector<TaskPlan> firing_plan = {};  ///< of one more transfer (firing_plan.hpp)
+    nlohmann::json batches =
+        {};  ///< how more samples are added (Batches::spec); null: they are not
+    std::vector<fault::Flag> warnings = {};  ///< of the study
+    std::int64_t priority = 0;               ///< higher goes first
+    bool sweep = false;                      ///< several points, or requested as a sweep
+    std::vector<std::string> files = {};     ///< SHA-256 of stored files that its scenes name
 };
 
 /// A task that is added to a run: its parent is in the run already, or added before it.

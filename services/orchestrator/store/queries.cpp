@@ -25,11 +25,12 @@ std::string sweep_state() {
     WHEN NOT EXISTS (SELECT 1 FROM tasks AS t WHERE t.run=r.id AND )" +
            makes_a_row("t") + R"() THEN 'planning'
     WHEN EXISTS (SELECT 1 FROM triggers AS g WHERE g.run=r.id AND g.state IN ('armed', 'holding')
-        AND (g.kind='bisect' AND json_extract(g.spec, '$.seeds') <
-            (SELECT count(*) FROM firings WHERE firings.trigger=g.id) OR )" +
-           draws_samples("g.spec") + R"( AND (SELECT last_task FROM runs WHERE runs.id=r.id)
+        AND g.kind='bisect' AND json_extract(g.spec, '$.seeds') <
+            (SELECT count(*) FROM firings WHERE firings.trigger=g.id))
+        OR EXISTS (SELECT 1 FROM batches AS b WHERE b.run=r.id AND b.state='open'
+            AND (SELECT last_task FROM runs WHERE runs.id=r.id)
                 > (SELECT json_extract(detail, '$.tasks') FROM events WHERE events.run=r.id
-                   AND json_extract(detail, '$.event')='submit' ORDER BY seq LIMIT 1)))
+                   AND json_extract(detail, '$.event')='submit' ORDER BY seq LIMIT 1))
         THEN 'refining' ELSE r.state END)";
 }
 

@@ -15,6 +15,7 @@ constexpr std::array rows_of_run{
     "DELETE FROM firings WHERE trigger IN (SELECT id FROM triggers WHERE run=?)",
     "DELETE FROM triggers WHERE run=?",
     "DELETE FROM firing_plans WHERE run=?",
+    "DELETE FROM batches WHERE run=?",
     "DELETE FROM flags WHERE run=?",
     "DELETE FROM variants WHERE run=?",
     "DELETE FROM idempotency_keys WHERE run=?",
@@ -35,7 +36,9 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
     const bool goes_on =
         database_.finds("SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", {run}) ||
         database_.finds(
-            "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1", {run});
+            "SELECT 1 FROM triggers WHERE run=? AND state IN ('armed', 'holding') LIMIT 1",
+            {run}) ||
+        batches_are_open(run);
     if (goes_on) return Removal::going_on;
     for (const char* each : rows_of_run) database_.change(each, {run});
     // Tasks of future firings are in the firing plan of their run.

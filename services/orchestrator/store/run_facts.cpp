@@ -122,12 +122,10 @@ GROUP BY run, variant HAVING min(not_reached) ORDER BY run, min(tasks.id))",
 /// samples are long.
 void add_without_transfer(Connection& database, std::vector<Run>& runs) {
     for (Run& each : runs) {
-        const bool some =
-            each.finished &&
-            database.finds("SELECT 1 FROM triggers WHERE run=? AND state='expired' AND NOT (" +
-                               draws_samples("spec") + R"()
+        const bool some = each.finished &&
+                          database.finds(R"(SELECT 1 FROM triggers WHERE run=? AND state='expired'
     AND NOT EXISTS (SELECT 1 FROM tasks AS child WHERE child.parent=triggers.fem_task) LIMIT 1)",
-                           {each.id});
+                                         {each.id});
         if (!some) continue;
         for (WithoutTransfer& found : variants_without_transfer(database, each.id))
             each.facts.without_transfer.push_back(

@@ -180,6 +180,15 @@ CREATE TABLE triggers (
 CREATE INDEX triggers_of_run ON triggers(run, id);
 CREATE INDEX triggers_open ON triggers(run, fem_task) WHERE state IN ('armed', 'holding');
 
+-- See Batches in records/records.hpp.
+CREATE TABLE batches (
+    run TEXT PRIMARY KEY REFERENCES runs(id),
+    spec TEXT NOT NULL CHECK (json_valid(spec)),
+    state TEXT NOT NULL DEFAULT 'open' CHECK (state IN ('open', 'met', 'given_up', 'stopped')),
+    reason TEXT NOT NULL DEFAULT ''
+) STRICT;
+CREATE INDEX batches_open ON batches(run) WHERE state = 'open';
+
 CREATE TABLE firings (
     trigger TEXT NOT NULL REFERENCES triggers(id),
     transfer_time REAL NOT NULL,

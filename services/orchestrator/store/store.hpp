@@ -146,8 +146,9 @@ class Store {
     std::vector<Trigger> open_triggers() const;
     /// Whether the run stores the tasks of one more transfer from this FEM.
     bool plans_transfers_of(const Task& fem) const;
-    /// Triggers that add samples (ensemble/batch_watch.hpp).
-    std::vector<Trigger> open_batches() const;
+    std::vector<Batches> open_batches() const;
+    /// Nothing: the study adds no samples by itself.
+    std::optional<Batches> batches_of(const std::string& run) const;
     std::vector<Trigger> triggers_of(const std::string& run) const;
     std::vector<FiringRow> firings_of(const std::string& run) const;
     /// In the order of the run's plan.

@@ -291,6 +291,7 @@ bool Transaction::cancel_run(const std::string& run, const std::string& why) {
         database_.texts("SELECT id FROM tasks WHERE run=? AND finished IS NULL", {run});
     const bool known = database_.finds(is_a_run, {run});
     disarm_triggers(run, why);
+    end_batches(run, "stopped", why);
     for (const std::string& task : tasks) try_move_task(task, TaskEvent::cancel, {{"why", why}});
     if (!tasks.empty()) add_run_event(run, {{"event", "cancel"}, {"why", why}});
     return known;
@@ -344,6 +345,7 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
         add_run_event(run,
                       {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
     for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
+    open_batches(run, !tasks.empty());
     for (const auto& [task, release] : tasks) {
         // A retried breakdown loses its recipe: the cache would answer with the same breakdown.
         database_.change(

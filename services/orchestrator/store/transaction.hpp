@@ -111,6 +111,10 @@ class Transaction {
     bool add_firing(const Trigger& trigger, const Firing& firing);
     void keep_trigger_result(const std::string& trigger, const nlohmann::json& result);
 
+    bool batches_are_open(const std::string& run) const;
+    /// Without effect on batches that have ended.
+    void end_batches(const std::string& run, const std::string& state, const std::string& reason);
+
     /// Events of this transaction, oldest first.
     std::vector<Event> take_events() { return std::move(events_); }
     /// Whether the transaction has deleted earlier events.
@@ -130,6 +134,8 @@ class Transaction {
     void add_transfer(const std::string& run, const std::string& fem_task, double time);
     bool mark_run(const std::string& run, const char* column, std::int64_t value,
                   const char* event);
+    /// By a retry; those given up only where tasks run again, whose results may change the answer.
+    void open_batches(const std::string& run, bool tasks_run_again);
     void add_files(const NewRun& run);
     TaskState state_of(const std::string& task) const;
     void set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,

@@ -88,7 +88,9 @@ void Transaction::add_triggers(const NewRun& run) {
         if (run.tasks[i].phase != phases::fem.program) continue;
         for (const TriggerPlan& each : run.triggers) add_trigger(run.id, task_id(run.id, i), each);
     }
-    if (run.batches && !run.tasks.empty()) add_trigger(run.id, task_id(run.id, 0), *run.batches);
+    if (!run.batches.is_null())
+        database_.change("INSERT INTO batches (run, spec) VALUES (?,?)",
+                         {run.id, run.batches.dump()});
 }
 
 /// Adds the samples' places in tables, and their tasks where triggers have already fired.
@@ -230,21 +232,14 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
 
 std::vector<Trigger> Store::open_triggers() const {
     return reader()->select(
-        selected_triggers + "WHERE state IN ('armed', 'holding') AND NOT (" +
-            draws_samples("spec") +
-            R"() AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task
+        selected_triggers +
+            R"(WHERE state IN ('armed', 'holding') AND EXISTS (SELECT 1 FROM tasks WHERE tasks.id=triggers.fem_task
     AND tasks.state NOT IN ('blocked', 'ready', 'starting')) ORDER BY id)",
         {}, trigger_from);
 }
 
 bool Store::plans_transfers_of(const Task& fem) const {
     return place_of_fem(firing_plan_of(*reader(), fem.run), fem.label, fem.variant).has_value();
-}
-
-std::vector<Trigger> Store::open_batches() const {
-    return reader()->select(selected_triggers + "WHERE state IN ('armed', 'holding') AND " +
-                                draws_samples("spec") + " ORDER BY id",
-                            {}, trigger_from);
 }
 
 std::vector<Trigger> Store::triggers_of(const std::string& run) const {

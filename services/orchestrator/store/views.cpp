@@ -34,7 +34,8 @@ SELECT id, name, title, created, started, paused, sweep, total AS tasks_total, r
          ELSE 'succeeded' END AS state,
     CASE WHEN NOT is_open THEN last_finished END AS finished
 FROM (SELECT *, ended < total OR EXISTS (SELECT 1 FROM triggers
-        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding')) AS is_open
+        WHERE triggers.run = runs.id AND triggers.state IN ('armed', 'holding'))
+        OR EXISTS (SELECT 1 FROM batches WHERE batches.run = runs.id AND state = 'open') AS is_open
       FROM runs JOIN run_counts ON run_counts.run = runs.id) AS counted)sql";
 
 /// When each trigger fired, and the delays of its snapshot and its transfer.
@@ -204,11 +205,6 @@ CREATE INDEX IF NOT EXISTS tasks_by_factor ON tasks(run, json_extract(result, '$
         database.script("DROP VIEW IF EXISTS " + each.name);
         database.script(each.sql);
     }
-}
-
-std::string draws_samples(const std::string& spec) {
-    return "coalesce(json_extract(" + spec + ", '$.percentile'), json_extract(" + spec +
-           ", '$.target')) IS NOT NULL";
 }
 
 std::string factor_liquefied(const std::string& result) {

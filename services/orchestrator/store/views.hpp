@@ -13,9 +13,6 @@ void make_views(Connection& database);
 /// SQL condition on a task that has a row in sweep_results: an MPM, or the stability analysis of a
 /// run that has nothing else.
 std::string makes_a_row(const std::string& task);
-/// SQL condition on a trigger's spec that adds samples (ensemble/batch_watch.hpp) and watches no
-/// FEM.
-std::string draws_samples(const std::string& spec);
 /// The tasks of one more transfer; empty: the run has none.
 std::vector<TaskPlan> firing_plan_of(Connection& database, const std::string& run);
 /// In the order of the run's plan.

@@ -48,8 +48,7 @@ std::map<std::string, EndedFem> ended_fems(Connection& database, const std::stri
         });
     database.query(
         R"(SELECT fem_task, name, state, reason, coalesce(json_extract(result, '$.was_met'), 1) AS was_met
-FROM triggers WHERE run=? AND NOT ()" +
-            draws_samples("spec") + ") ORDER BY rowid",
+FROM triggers WHERE run=? ORDER BY rowid)",
         {run}, [&](const Row& row) {
             const auto of = by_task.find(row.text("fem_task"));
             if (of == by_task.end() || !of->second->came_through) return;

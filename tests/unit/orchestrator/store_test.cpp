@@ -49,7 +49,7 @@ class StoreTest : public ::testing::Test {
 TEST_F(StoreTest, SweepsRefineWhenMoreIsDrawnThanAtFirst) {
     Store store(file());
     NewRun run = small_run();
-    run.batches = TriggerPlan{"until (samples)", "criterion", {{"percentile", 50}}};
+    run.batches = {{"percentile", 50}};
     store.write([&](Transaction& t) { t.add_run(run); });
     EXPECT_EQ(store.sweep(run.id)->state, "queued");
     Extension more{.times = {}, .tasks = {}, .recipes = {}, .study = json::object()};
@@ -230,28 +230,23 @@ TEST_F(StoreTest, AStudyThatCannotContinueDelaysNoOtherAndIsLookedAtAgain) {
         R"({"uncertainty": {"samples": 4, "drawn": 2, "parameters": []}, "variants": []})";
     runs[1].study = sound;  // the other one's cannot be read
     for (NewRun& each : runs) {
-        each.batches = TriggerPlan{"until (samples)",
-                                   "criterion",
-                                   {{"when", "narrow"},
-                                    {"quantity", "runout"},
-                                    {"percentile", 50},
-                                    {"half_width", 0.1},
-                                    {"batch", 2}}};
+        each.batches = {
+            {"quantity", "runout"}, {"percentile", 50}, {"half_width", 0.1}, {"batch", 2}};
         store.write([&](Transaction& t) { t.add_run(each); });
         for (std::size_t i = 0; i < each.tasks.size(); ++i)
             bring_to_success(store, task_id(each.id, i), {{"runout", 12.5}});
     }
-    const auto state = [&](std::size_t i) { return store.triggers_of(runs[i].id).at(0).state; };
+    const auto state = [&](std::size_t i) { return store.batches_of(runs[i].id)->state; };
     BatchWatch watch(store, data, numerics);
     EXPECT_FALSE(watch.look());
-    EXPECT_EQ(state(0), TriggerState::armed);
-    EXPECT_EQ(state(1), TriggerState::expired);
+    EXPECT_EQ(state(0), "open");
+    EXPECT_EQ(state(1), "given_up");
     EXPECT_FALSE(watch.look());
-    EXPECT_EQ(state(0), TriggerState::armed);
+    EXPECT_EQ(state(0), "open");
     Connection(file(), Access::read_write)
         .change("UPDATE runs SET study=? WHERE id=?", {sound, runs[0].id});
     watch.look();  // though nothing was stored that tells of it
-    EXPECT_EQ(state(0), TriggerState::expired);
+    EXPECT_EQ(state(0), "given_up");
 }
 
 TEST(FiringPlan, AFemComputedAgainStandsWhereItsVariantsStands) {

@@ -37,8 +37,8 @@ std::string extend(Service& service, const std::string& run, const json& body) {
     return answer.text;
 }
 
-json only_trigger(Service& service, const std::string& run) {
-    return service.get("/v1/runs/" + run + "/triggers").body.at("triggers").at(0);
+json until_of(Service& service, const std::string& run) {
+    return service.get("/v1/runs/" + run + "/uncertainty").body.at("until");
 }
 
 TEST(Samples, EachHasItsRowAndSharesTheFem) {
@@ -124,10 +124,10 @@ TEST(Samples, AreDrawnUntilAPercentileIsKnown) {
     EXPECT_GE(rows, 8u);  // a median needs at least 5
     EXPECT_LT(rows, 200u);
     EXPECT_EQ(rows % 4, 0u);
-    const json trigger = only_trigger(service, run);
-    EXPECT_EQ(trigger.at("state"), "fired");
-    EXPECT_EQ(trigger.at("result").at("samples"), rows);
-    EXPECT_LE(trigger.at("result").at("half_width").get<double>(), 0.02);
+    const json until = until_of(service, run);
+    EXPECT_EQ(until.at("reached"), true);
+    EXPECT_LE(until.at("now").get<double>(), 0.02);
+    EXPECT_EQ(until.at("ended"), "");
     EXPECT_EQ(end.at("study").at("uncertainty").at("drawn"), rows);
 }
 
@@ -139,9 +139,9 @@ TEST(Samples, EndWhenAllThatWereAskedForAreDrawn) {
     const std::string run = service.submit(wanted);
     EXPECT_EQ(service.wait_for_end(run).at("state"), "succeeded");
     EXPECT_EQ(service.table(run).size(), 10u);
-    const json trigger = only_trigger(service, run);
-    EXPECT_EQ(trigger.at("state"), "expired");
-    EXPECT_NE(trigger.at("reason").get<std::string>().find("extend"), std::string::npos);
+    const json until = until_of(service, run);
+    EXPECT_EQ(until.at("reached"), false);
+    EXPECT_NE(until.at("ended").get<std::string>().find("extend"), std::string::npos);
 }
 
 TEST(Samples, KilledInTheMiddleGiveTheSameTable) {
