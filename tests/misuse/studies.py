@@ -51,6 +51,5 @@ def studies(bases):
         ("draws by halves", study(draws=2.5), r"draws"),
         ("more draws than anyone waits for", study(draws=5000), r"draws"),
         ("draws of one point per element", study(draws=3, overrides=["/transfer/points_per_direction=1"]), r"/draws[\s\S]*points_per_direction 2"),
-        ("a check of a deterministic number", study(draws=4, check={"quantity": "factor_of_safety", "reference": 1.2}), r"lattice"),
         ("faults of study and scene at once", study(scene=broken, transfer_times=[-1]), r"density[\s\S]*transfer_times|transfer_times[\s\S]*density"),
     ]

@@ -103,8 +103,7 @@ void add(Service& service, Call& call) {
     wanted_run(service, run);
     const TriggerPlan plan = checked(service, run, call.json_body());
     const Draws draws = draws_of(still(service.store.study_of(run)));
-    if (const std::string refusal(refusal_of_triggers(draws)); !refusal.empty())
-        throw bad_request(refusal);
+    if (draws.of == Redrawn::fem && draws.count > 1) throw bad_request(each_fem_has_its_time);
     for (const Trigger& each : service.store.triggers_of(run)) {
         if (each.name == plan.name)
             throw Problem{409, "/problems/name-taken", "Name taken",

@@ -100,19 +100,8 @@ void check_draws(const Draws& draws, Reach reach, const std::string& where,
                  : "leave \"draws\" out: every run gives the same"});
 }
 
-const json& entries_of_no_draws() {
-    static const json entries{{"draws", 1}, {"draws_of", name_of(Redrawn::points)}};
-    return entries;
-}
-
 Draws draws_of(const json& study) {
     return {study.value("draws", std::size_t{1}), redrawn_named(study.value("draws_of", ""))};
-}
-
-std::string_view refusal_of_triggers(const Draws& draws) {
-    if (draws.of != Redrawn::fem || draws.count == 1) return "";
-    return "each repeat has its own FEM, and a trigger fires at another time in each: there "
-           "would be no mean at a transfer time";
 }
 
 json changed(json scene, const std::vector<std::string>& overrides) {

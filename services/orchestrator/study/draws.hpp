@@ -30,12 +30,12 @@ struct Draws {
 /// object.
 void check_draws(const Draws& draws, Reach reach, const std::string& where,
                  std::vector<fault::Fault>& faults);
+/// Why repeats of the FEM allow transfer times only.
+inline constexpr const char* each_fem_has_its_time =
+    "each repeat has its own FEM, and a trigger fires at another time in each: there would be no "
+    "mean at a transfer time";
 /// The study's entries, which the schema has accepted; missing entries mean no repeats.
 Draws draws_of(const nlohmann::json& study);
-/// Why such repeats allow transfer times only, no triggers; empty: triggers are allowed.
-std::string_view refusal_of_triggers(const Draws& draws);
-/// These entries in a study without repeats.
-const nlohmann::json& entries_of_no_draws();
 
 /// Whether this entry of a scene moves the lattice of points, as repeats do.
 bool is_lattice(const std::string& pointer);

@@ -7,6 +7,7 @@
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
+#include "services/orchestrator/study/conflicts.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 #include "services/orchestrator/study/sampled_variants.hpp"
 #include "services/orchestrator/study/transfers.hpp"
@@ -49,53 +50,6 @@ bool is_sound(const std::vector<Fault>& faults, const std::string& entry) {
     return std::ranges::none_of(faults, [&](const Fault& each) {
         return each.pointer == entry || each.pointer.starts_with(entry + "/");
     });
-}
-
-void check_without_fem(const json& document, Reach reach, std::vector<Fault>& faults) {
-    const auto refuse = [&](const std::string& entry, const std::string& cause) {
-        faults.push_back(
-            {"/" + entry, cause, "leave \"" + entry + "\" out, or add \"fem\" to the scene"});
-    };
-    if (document.contains("transfer_times"))
-        refuse("transfer_times", "the scene has no FEM, and nothing else is transferred");
-    if (!document["triggers"].empty())
-        refuse("triggers", "triggers watch a FEM, and the scene has none");
-    if (reach == Reach::lem && !document["stability"].get<bool>())
-        faults.push_back({"/stability", "the scene has nothing but a stability analysis to run",
-                          "leave \"stability\" out, or add \"mpm\" to the scene"});
-}
-
-/// Faults of entries that do not fit a study of one state at one time.
-void check_one_state(const json& document, const std::string& judge, const Study& study,
-                     std::vector<Fault>& faults) {
-    if (!document["triggers"].empty())
-        faults.push_back({"/triggers", judge + " judges one state, at one time",
-                          "give one transfer time instead"});
-    const std::size_t times = study.transfer_times.size();
-    if (study.reach == Reach::chain && times > 1)
-        faults.push_back({"/transfer_times",
-                          judge + " judges one state, and there are " + std::to_string(times) +
-                              " transfer times",
-                          "give one time"});
-    if (study.reach != Reach::chain && times > 0)
-        faults.push_back({"/transfer_times", "nothing is transferred for this quantity",
-                          "leave \"transfer_times\" out"});
-}
-
-/// Faults of entries that do not fit an accuracy study.
-void check_company(const json& document, const Study& study, std::vector<Fault>& faults) {
-    if (!own_variants(document).empty())
-        faults.push_back({"/variants", "an accuracy study makes its variants of its ladders",
-                          "leave \"variants\" out: a ladder's rungs say what is changed"});
-    for (const auto& [entry, none] : entries_of_no_draws().items())
-        if (document[entry] != none)
-            faults.push_back({std::string("/") + entry,
-                              "an accuracy study has its own entry for repeats",
-                              "give /accuracy/draws and /accuracy/draws_of"});
-    if (document.contains("uncertainty"))
-        faults.push_back({"/uncertainty", "a study has one question",
-                          "leave \"uncertainty\" out, or give it in a study without \"accuracy\""});
-    check_one_state(document, "an accuracy study", study, faults);
 }
 
 void check_time(const Quantity& quantity, const scene::Scene& scene, std::vector<Fault>& faults) {
@@ -176,29 +130,12 @@ void check_parameters_are_read(const Study& study, const Base& base, std::vector
         faults.push_back(std::move(each));
 }
 
-/// Each sample is one state: several times would give several results per sample.
-void check_state_of_samples(const Study& study, std::vector<Fault>& faults) {
-    const std::size_t times = study.transfer_times.size();
-    if (study.reach != Reach::chain) {
-        if (times + study.triggers.size() > 0)
-            faults.push_back({times > 0 ? "/transfer_times" : "/triggers",
-                              "nothing is transferred for this quantity", "leave it out"});
-        return;
-    }
-    const bool searches = std::ranges::any_of(
-        study.triggers, [](const TriggerPlan& each) { return each.kind == "bisect"; });
-    if (times + study.triggers.size() > 1 || searches)
-        faults.push_back({times > 1 ? "/transfer_times" : "/triggers",
-                          "each sample is transferred once, and this makes several transfers",
-                          "give one time, or one trigger that fires once"});
-}
-
 /// Reads the plan, checks it, and makes the samples the study's variants.
 void take_samples(Study& study, json& document, const Base& base, std::vector<Fault>& faults) {
     const std::size_t before = faults.size();
     study.uncertainty = read_uncertainty(document["uncertainty"], base.scene, faults);
     const UncertaintyPlan& plan = *study.uncertainty;
-    check_company_of_samples(document, plan, study.reach, faults);
+    check_parameters(document, plan, study.reach, faults);
     if (faults.size() > before) return;
     check_parameters_are_read(study, base, faults);
     if (faults.size() > before) return;
@@ -238,15 +175,6 @@ std::map<std::string, Resources> wanted_resources(const json& entries) {
     return wanted;
 }
 
-/// Kinds of study; each has its own reader below.
-enum class Kind { sweep, accuracy, uncertainty };
-
-Kind kind_of(const json& document) {
-    if (document.contains("accuracy")) return Kind::accuracy;
-    if (document.contains("uncertainty")) return Kind::uncertainty;
-    return Kind::sweep;
-}
-
 /// Reads a study in steps. Each step adds its faults, and skips entries that the schema or an
 /// earlier step found faulty.
 class StudyReader {
@@ -265,6 +193,7 @@ class StudyReader {
     Study read() {
         read_scene();
         read_transfers();
+        refuse_what_conflicts();
         if (scene_ && sound("stability")) study_.stability = wants_stability();
         switch (kind_) {
             case Kind::sweep:
@@ -335,33 +264,34 @@ class StudyReader {
             check_fields(document_["triggers"], *scene_, document_["stability"], faults_);
     }
 
+    void refuse_what_conflicts() {
+        if (!scene_ || !times_are_sound_ || !repeats_are_sound_ || !sound("stability")) return;
+        const bool bisects = std::ranges::any_of(
+            study_.triggers, [](const TriggerPlan& each) { return each.kind == "bisect"; });
+        refuse_conflicts({document_, kind_, study_.reach, study_.transfer_times.size(),
+                          study_.triggers.size(), bisects, draws_of(document_)},
+                         faults_);
+    }
+
     bool wants_stability() const {
         if (study_.reach == Reach::lem) return true;
         return kind_ != Kind::accuracy && document_["stability"].get<bool>() &&
                scene_->lem.has_value();
     }
 
-    void read_sweep() {
-        if (times_are_sound_ && sound("stability") && study_.reach != Reach::chain)
-            check_without_fem(document_, study_.reach, faults_);
-        take_variants();
-    }
+    void read_sweep() { take_variants(); }
 
     void read_ladders() {
         if (!accuracy_ || !scene_ || !repeats_are_sound_) return;
         const bool rungs_are_sound = std::ranges::none_of(
             faults_, [](const Fault& each) { return each.pointer.starts_with("/accuracy"); });
-        if (times_are_sound_) {
-            check_company(document_, study_, faults_);
-            check_time(accuracy_->quantity, *scene_, faults_);
-        }
+        if (times_are_sound_) check_time(accuracy_->quantity, *scene_, faults_);
         if (!rungs_are_sound) return;
         take_variants();
         check_rungs(*accuracy_, settings_of(*accuracy_, base_.scene), study_.variants, faults_);
     }
 
     void read_samples() {
-        if (times_are_sound_) check_state_of_samples(study_, faults_);
         if (sound("uncertainty") && sound("overrides") && repeats_are_sound_ && faults_.empty())
             take_samples(study_, document_, base_, faults_);
     }

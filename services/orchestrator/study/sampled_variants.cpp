@@ -67,32 +67,9 @@ Reach reach_of_samples(const json& entry, const json& scene, Reach of_scene,
     return of_scene;
 }
 
-void check_company_of_samples(const json& document, const UncertaintyPlan& plan, Reach reach,
-                              std::vector<Fault>& faults) {
-    const auto refuse = [&](const std::string& entry, const std::string& cause,
-                            const std::string& remedy) {
-        faults.push_back({"/" + entry, cause, remedy});
-    };
+void check_parameters(const json& document, const UncertaintyPlan& plan, Reach reach,
+                      std::vector<Fault>& faults) {
     check_overrides(document["overrides"], "/overrides", plan, faults);
-    const json& variants = document["variants"];
-    bool has_variants = false;
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-        if (variants[i].contains("made_by")) continue;
-        has_variants = true;
-        check_overrides(variants[i].at("overrides"),
-                        "/variants/" + std::to_string(i) + "/overrides", plan, faults);
-    }
-    if (has_variants)
-        refuse(
-            "variants", "an uncertainty study makes its variants of its samples",
-            "leave \"variants\" out; what is one of several becomes a parameter with \"one_of\"");
-    for (const auto& [entry, none] : entries_of_no_draws().items())
-        if (document[entry] != none)
-            refuse(entry, "an uncertainty study draws lattices itself",
-                   "give a parameter {\"name\": \"lattice\", \"numerical\": true}");
-    if (document.contains("accuracy"))
-        refuse("accuracy", "a study measures its error or its uncertainty, not both",
-               "submit two studies");
     for (std::size_t k = 0; k < plan.parameters.size(); ++k)
         if (plan.parameters[k].kind == ParameterKind::numerical && !has_lattice(reach))
             faults.push_back({pointer_to(k) + "/numerical",

@@ -11,10 +11,9 @@ namespace breach::orchestrator {
 Reach reach_of_samples(const nlohmann::json& entry, const nlohmann::json& scene, Reach of_scene,
                        std::vector<fault::Fault>& faults);
 
-/// Faults of variants, repeats and overrides that conflict with a parameter, and of the entries
-/// accuracy and check.
-void check_company_of_samples(const nlohmann::json& document, const UncertaintyPlan& plan,
-                              Reach reach, std::vector<fault::Fault>& faults);
+/// Faults of overrides that a parameter gives as well, and of a lattice without points.
+void check_parameters(const nlohmann::json& document, const UncertaintyPlan& plan, Reach reach,
+                      std::vector<fault::Fault>& faults);
 
 /// Turns "transfer" into the study's own transfer_times; a trigger that it names must exist.
 void place_transfer(nlohmann::json& document, std::vector<fault::Fault>& faults);

@@ -162,18 +162,7 @@ std::vector<VariantEntry> wanted_variants(const json& document, Reach reach, con
     constexpr std::size_t longest_name = 32;  // limit in the schema
     const Draws draws = draws_of(document);
     std::vector<VariantEntry> own = own_variants(document);
-    if (draws.count == 1) return own;
-    if (!can_redraw(draws.of, reach)) {
-        check_draws(draws, reach, "", faults);
-        return own;
-    }
-    const bool waits = std::ranges::any_of(
-        document["triggers"], [](const json& each) { return each.value("kind", "") != "at_time"; });
-    const std::string refusal(refusal_of_triggers(draws));
-    if (!refusal.empty() && waits)
-        faults.push_back({"/draws_of", refusal,
-                          "give \"transfer_times\", or leave \"draws_of\" out: repeats of the "
-                          "points share one FEM and its triggers"});
+    if (draws.count == 1 || !can_redraw(draws.of, reach)) return own;
     if (own.empty())
         own.push_back({.name = "",
                        .overrides = {},

@@ -231,7 +231,6 @@ TEST(UncertaintyStudy, RefusesASettingThatIsGivenTwice) {
     refusal(study, "/overrides/0");
     study = with(viscosity);
     study["variants"] = {{{"name", "soft"}, {"overrides", {"/materials/sand/viscosity=50"}}}};
-    refusal(study, "/variants/0/overrides/0");
     refusal(study, "/variants");
     study = with(viscosity);
     study["uncertainty"]["parameters"].push_back(viscosity);
