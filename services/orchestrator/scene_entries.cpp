@@ -1,13 +1,11 @@
-#include "services/report/read/entries.hpp"
+#include "services/orchestrator/scene_entries.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
-#include "services/report/chart/axis.hpp"
 
-namespace breach::report {
+namespace breach::orchestrator {
 
 using nlohmann::json;
 
@@ -45,18 +43,6 @@ bool holds_objects(const json& list) {
     return std::ranges::any_of(list, [](const json& each) { return each.is_object(); });
 }
 
-std::string text_of(const json& value) {
-    constexpr std::size_t many_digits = 10;  // values derived from other entries have more digits
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float() && value.dump().size() > many_digits) return rounded(value, 7);
-    std::string text;
-    for (const char c : value.dump()) {
-        text += c;
-        if (c == ',') text += ' ';
-    }
-    return text;
-}
-
 class Lister {
   public:
     explicit Lister(const std::vector<std::string>& set) : set_(set) {}
@@ -74,8 +60,8 @@ class Lister {
             const std::string unit = schema.value("unit", "");
             const json& written = resolved(property);
             const bool is_default = written.contains("default") && written.at("default") == value;
-            found.push_back({pointer, text_of(value), unit == "1" ? "" : unit,
-                             is_default && !was_set(pointer)});
+            found.push_back(
+                {pointer, value, unit == "1" ? "" : unit, is_default && !was_set(pointer)});
         }
     }
 
@@ -123,4 +109,4 @@ std::vector<SceneEntry> entries_of(const json& scene, const std::vector<std::str
     return std::move(lister.found);
 }
 
-}  // namespace breach::report
+}  // namespace breach::orchestrator

@@ -2,17 +2,17 @@
 // The schema gives their meaning.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-namespace breach::report {
+namespace breach::orchestrator {
 
 struct SceneEntry {
     std::string pointer;  ///< "/mpm/floor/level"
-    std::string value;    ///< as in the file, lists in full
-    std::string unit;     ///< of the schema; empty: it has none
-    bool is_default;      ///< whether the value is the schema's default
+    nlohmann::json value;
+    std::string unit;  ///< of the schema; empty: it has none
+    bool is_default;   ///< whether the value is the schema's default
 };
 
 /// In the order of the document. A list of numbers is one entry; objects in lists have one entry
@@ -20,4 +20,4 @@ struct SceneEntry {
 std::vector<SceneEntry> entries_of(const nlohmann::json& scene,
                                    const std::vector<std::string>& set = {});
 
-}  // namespace breach::report
+}  // namespace breach::orchestrator

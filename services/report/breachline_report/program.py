@@ -1,0 +1,136 @@
+"""The program `report`: its arguments, its exit codes, and the order of the chapters."""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import NamedTemporaryFile
+
+from breachline.faults import BreachlineError
+from breachline.plot import Figure
+
+from .chapters import Choice, Material, assessment, checklist, flow, ground, inputs, mesh, methods, motion, numbers, runout, shaking, soil_elements, \
+    stability, variants
+from .document import Document
+from .ended import verdict_of
+from .front import front_of
+from .measures import Measures
+from .page import as_html
+from .paper import Paper, paper_for
+from .run import Run, mpm, read_run
+
+
+def _add_companion(folder: Path, paper: Paper | None, document: Document) -> None:
+    """Adds another run's runouts, grounds and variants under its name."""
+    run = read_run(folder)
+    of, other = Material(run, paper, Measures(run, paper), Choice()), Document(run.title)
+    for figure in [each for chapter in document.chapters for each in chapter.figures if each.name == runout.runout_figure]:
+        for series in runout.runout_curves(run):
+            series.name = f"{run.name}, {series.name}"
+            figure.chart.series.append(series)
+    ground.add(of, other)
+    variants.add(of, other)
+    if not other.chapters:
+        document.leave_out(f"variants of {folder}", "its study has none")
+    for chapter in other.chapters:
+        chapter.title, chapter.text = f"{chapter.title}: {run.name}", f"{run.title}. {chapter.text}"
+        for each in [*chapter.figures, *chapter.tables]:
+            each.name += f"_{run.name}"
+        document.chapters.append(chapter)
+
+
+def document_of(run: Run, choice: Choice) -> Document:
+    paper = paper_for(run.scene["name"])
+    of, document, asked = Material(run, paper, Measures(run, paper), choice), Document(run.title, front_of(run, paper), verdict_of(run)), inputs.Inputs(run)
+    assessment.add(of, document)
+    inputs.add(asked, document)
+    stability.add(of, document)
+    soil_elements.add(of, document)
+    if run.is_static:
+        document.leave_out("motion, course of the finite elements, meshes and transfers", "the scene is static: it has no FEM")
+    else:
+        for add in (motion.add, motion.add_several, shaking.add, mesh.add, runout.add_transfer):
+            add(of, document)
+    if run.first(mpm):
+        for add in (runout.add, ground.add, flow.add, flow.add_outflow):
+            add(of, document)
+    else:
+        document.leave_out("runout, flow and deposit", "the run has no runout")
+    for add in (variants.add, checklist.add, methods.add, numbers.add):
+        add(of, document)
+    for folder in choice.companions:
+        _add_companion(folder, paper, document)
+    inputs.add_annex(asked, document)
+    return document
+
+
+def _publish(file: Path, content: str | bytes) -> None:
+    """Whole or not at all."""
+    with NamedTemporaryFile(dir=file.parent, prefix=f".{file.name[:40]}-", delete=False) as partial:
+        partial.write(content.encode() if isinstance(content, str) else content)
+    os.chmod(partial.name, 0o644)
+    os.replace(partial.name, file)
+
+
+def publish_figures(figures: list[Figure], folder: Path) -> None:
+    """Each as SVG, PNG and CSV."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for each in figures:
+        for ending, made in (("svg", each.svg), ("png", each.png), ("csv", each.csv)):
+            _publish(folder / f"{each.name.replace('/', '_')}.{ending}", made())
+
+
+def write_report(document: Document, page: Path, alone: bool) -> None:
+    """With files of figures and tables in a folder beside it, unless it is to be alone."""
+    if page.is_dir():
+        raise OSError(f"{page}: is a folder; give the page's file name")
+    folder = page.parent / f"{page.stem}_files"
+    if not alone:
+        publish_figures(document.front.pictures + [each for chapter in document.chapters for each in chapter.figures], folder)
+        for table in document.front.tables + [each for chapter in document.chapters for each in chapter.tables]:
+            _publish(folder / f"{table.name}.csv", table.csv())
+    _publish(page, as_html(document, "" if alone else folder.name))
+
+
+def guarded(source: Path, work: Callable[[], None]) -> int:
+    """The exit code (core/fault/fault.hpp), after a line on what is wrong."""
+    code, message = 0, ""
+    try:
+        work()
+    except BreachlineError as error:
+        code, message = 65, str(error)
+    except (KeyError, IndexError, TypeError, ValueError) as error:  # an entry that an older version did not write, a number that cannot be drawn
+        code, message = 65, f"{source}: {type(error).__name__}: {error}; run its phases again with this version"
+    except OSError as error:
+        code, message = 74, str(error)
+    except MemoryError:
+        code, message = 75, "not enough memory"
+    if message:
+        print(f"report: {message}", file=sys.stderr)
+    return code
+
+
+def _numbers(text: str) -> list[float]:
+    return [float(each) for each in text.split(",")]
+
+
+def _folders(text: str) -> list[Path]:
+    return [Path(each) for each in text.split(",")]
+
+
+def main(version: str) -> int:
+    parser = argparse.ArgumentParser("report", description="A run as one HTML page with its figures (SVG, PNG) and their data (CSV)")
+    parser.add_argument("--version", action="version", version=f"report {version}")
+    parser.add_argument("run", type=Path, help="folder of breach export, or with one folder per phase")
+    parser.add_argument("--output", type=Path, required=True, metavar="F.html", help="the page; figures and data go to F_files")
+    parser.add_argument("--snapshots", type=_numbers, default=[], metavar="TIMES", help="times of contours and meshes [s]: 11,13")
+    parser.add_argument("--transfers", type=_numbers, default=[], metavar="TIMES", help="transfer times of the geometries [s]: 13,16")
+    parser.add_argument("--element-tests", type=Path, metavar="FOLDER", help="of fem_solver element-test: strength of the scene's soils")
+    parser.add_argument("--companions", type=_folders, default=[], metavar="RUNS",
+                        help="other runs: their runouts in the figure, their variants behind those of this one")
+    parser.add_argument("--alone", action="store_true", help="the page only, without files of its figures and their data")
+    asked = parser.parse_args()
+    return guarded(asked.run, lambda: write_report(
+        document_of(read_run(asked.run), Choice(asked.snapshots, asked.transfers, asked.companions, asked.element_tests)), asked.output, asked.alone))
