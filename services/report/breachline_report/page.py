@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 
 import jinja2
+from markupsafe import Markup, escape
 
 from .document import Document, Table, is_number
 from .words import at_least
@@ -19,11 +20,11 @@ def _class_of(cell: str) -> str:
     return "n b" if cell.startswith(at_least) else "long" if len(cell) > 12 else ""
 
 
-def _inline(svg: str, title: str) -> jinja2.utils.markupsafe.Markup:
+def _inline(svg: str, title: str) -> Markup:
     """SVG inside HTML needs no prolog and no namespaces, whose addresses would look like network access."""
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", svg[svg.index("<svg"):])
-    label = jinja2.utils.markupsafe.escape(title)
-    return jinja2.utils.markupsafe.Markup(text.replace("<svg", f'<svg role="img" aria-label="{label}"', 1))
+    label = escape(title)
+    return Markup(text.replace("<svg", f'<svg role="img" aria-label="{label}"', 1))
 
 
 def _wordy_columns(table: Table) -> list[int]:

@@ -3,11 +3,13 @@ from __future__ import annotations
 
 import argparse
 import os
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
+from breachline import plot
 from breachline.faults import BreachlineError
 from breachline.plot import Figure
 
@@ -19,7 +21,7 @@ from .front import front_of
 from .measures import Measures
 from .page import as_html
 from .paper import Paper, paper_for
-from .run import Run, mpm, read_run
+from .run import Run, mpm, read_run, service_program
 
 
 def _add_companion(folder: Path, paper: Paper | None, document: Document) -> None:
@@ -96,19 +98,22 @@ def write_report(document: Document, page: Path, alone: bool) -> None:
 
 def guarded(source: Path, work: Callable[[], None]) -> int:
     """The exit code (core/fault/fault.hpp), after a line on what is wrong."""
-    code, message = 0, ""
     try:
         work()
+        return 0
     except BreachlineError as error:
         code, message = 65, str(error)
-    except (KeyError, IndexError, TypeError, ValueError) as error:  # an entry that an older version did not write, a number that cannot be drawn
-        code, message = 65, f"{source}: {type(error).__name__}: {error}; run its phases again with this version"
+    except KeyError as error:  # of a document
+        code, message = 65, f"{source}: a file of the run has no entry {error}; run its phases again with this version"
+    except ValueError as error:  # numbers that cannot be drawn
+        code, message = 65, f"{source}: {error}"
     except OSError as error:
         code, message = 74, str(error)
     except MemoryError:
         code, message = 75, "not enough memory"
-    if message:
-        print(f"report: {message}", file=sys.stderr)
+    except Exception as error:  # pylint: disable=broad-except
+        code, message = 70, f"internal fault: {type(error).__name__}: {error}"
+    print(f"report: {message}", file=sys.stderr)
     return code
 
 
@@ -120,9 +125,20 @@ def _folders(text: str) -> list[Path]:
     return [Path(each) for each in text.split(",")]
 
 
-def main(version: str) -> int:
-    parser = argparse.ArgumentParser("report", description="A run as one HTML page with its figures (SVG, PNG) and their data (CSV)")
-    parser.add_argument("--version", action="version", version=f"report {version}")
+class _Version(argparse.Action):
+    """That of the service's program beside this one."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        said = subprocess.run([service_program(), "--version"], capture_output=True, text=True, check=True).stdout
+        print("report " + said.split(" ", 1)[1].rstrip())
+        parser.exit()
+
+
+def _whole_run(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser("report", description="A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",
+                                     epilog="One phase alone, figures and data only: report " + "|".join(_of_one_phase) + " FOLDER --output FOLDER. "
+                                     "Accuracy studies: report accuracy TABLE... --output F.md.")
+    parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     parser.add_argument("run", type=Path, help="folder of breach export, or with one folder per phase")
     parser.add_argument("--output", type=Path, required=True, metavar="F.html", help="the page; figures and data go to F_files")
     parser.add_argument("--snapshots", type=_numbers, default=[], metavar="TIMES", help="times of contours and meshes [s]: 11,13")
@@ -131,6 +147,26 @@ def main(version: str) -> int:
     parser.add_argument("--companions", type=_folders, default=[], metavar="RUNS",
                         help="other runs: their runouts in the figure, their variants behind those of this one")
     parser.add_argument("--alone", action="store_true", help="the page only, without files of its figures and their data")
-    asked = parser.parse_args()
+    asked = parser.parse_args(arguments)
     return guarded(asked.run, lambda: write_report(
         document_of(read_run(asked.run), Choice(asked.snapshots, asked.transfers, asked.companions, asked.element_tests)), asked.output, asked.alone))
+
+
+def _one_phase(word: str, arguments: list[str]) -> int:
+    purpose, write = _of_one_phase[word]
+    parser = argparse.ArgumentParser(f"report {word}", description=purpose)
+    parser.add_argument("folder", type=Path, help="output folder of the phase")
+    parser.add_argument("--output", type=Path, required=True, help="folder for figures, made if absent")
+    asked = parser.parse_args(arguments)
+    return guarded(asked.folder, lambda: write(asked.folder, asked.output))
+
+
+def main() -> int:
+    word, rest = sys.argv[1] if len(sys.argv) > 1 else "", sys.argv[2:]
+    return _one_phase(word, rest) if word in _of_one_phase else _whole_run(sys.argv[1:])
+
+
+_of_one_phase: dict[str, tuple[str, Callable[[Path, Path], None]]] = {
+    "element-test": ("Figures of fem_solver element-test", lambda folder, output: plot.write_figures(output, plot.element_test_figures(folder))),
+    "stability": ("Figures of lem_tool", lambda folder, output: plot.write_figures(output, plot.stability_figures(folder))),
+    "transfer": ("Figures of transfer_tool, before and after side by side", plot.write_transfer_figures)}

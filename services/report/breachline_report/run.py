@@ -24,10 +24,14 @@ class BadInput(BreachlineError):
     """A file or folder has not what a run's has."""
 
 
+def service_program() -> Path:
+    """Beside this program."""
+    return Path(sys.argv[0]).absolute().with_name("breachline")
+
+
 def ask(question: str, place: Path, asked: Json = None) -> Json:
-    """What the service's program, beside this one, says of a run, of a FEM's telemetry or of a scene."""
-    program = Path(sys.argv[0]).resolve().parent / "breachline"
-    done = subprocess.run([program, question, place.absolute()], input=json.dumps(asked), capture_output=True, text=True)
+    """What the service's program says of a run, of a FEM's telemetry or of a scene."""
+    done = subprocess.run([service_program(), question, place.absolute()], input=json.dumps(asked), capture_output=True, text=True)
     if done.returncode != 0:
         raise (BadInput if done.returncode == 65 else OSError)(done.stderr.removeprefix("breachline: ").rstrip())
     return json.loads(done.stdout)
@@ -299,7 +303,7 @@ def read_run(folder: Path) -> Run:
 
 
 def _phase_of(files: Path, task: Json, scene: Json) -> Phase:
-    result = task.get("result")
+    result = read_json(files / "result.json")
     return Phase(task["phase"], task["label"], task.get("variant") or "", task.get("transfer_time") if task["phase"] not in (lem, fem) else None,
                  files, result, "" if result else _fault_of(files, task), task["id"],
                  [each["sha256"] for each in task.get("artifacts", [])], scene)

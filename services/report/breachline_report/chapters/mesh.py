@@ -36,7 +36,7 @@ def add(of: Material, document: Document) -> None:
     chapter = Chapter("Strain, pore pressure and mesh", of.run.which_of_several(phase, "finite element analyses")
                       + f"{len(meshes)} of {len(files)} snapshots; colours have one scale for all times of a quantity.")
     strains = colour_range(element_epsilon_q(meshes[-1]))
-    wet = [each for each in meshes if len(element_r_u(each))]
+    wet = [each for each in meshes if element_r_u(each) is not None]
     for shown, name, label, values, limits in ((meshes, "epsilon_q", "epsilon_q [%]", element_epsilon_q, strains),
                                                (wet, "r_u", "r_u [-]", element_r_u, (0.0, 1.0))):
         for mesh in shown:
