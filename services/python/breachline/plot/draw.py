@@ -36,7 +36,7 @@ _STYLE = {
     "axes.edgecolor": "#333", "axes.linewidth": 0.8, "axes.axisbelow": True, "axes.grid": True, "grid.color": "#ddd", "grid.linewidth": 0.8,
     "text.color": "#222", "axes.labelcolor": "#222", "legend.frameon": False, "lines.linewidth": 1.4, "lines.markersize": 6,
     "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0, "text.parse_math": False, "svg.fonttype": "none",
-    "svg.hashsalt": "breachline", "savefig.dpi": 192}
+    "savefig.dpi": 192}
 
 _CIRCLE = Outline.unit_circle()
 _UP = Outline([(0, 1.75), (0, 4), (-0.9, 3.1), (0, 4), (0.9, 3.1)])  # an arrow above the circle
@@ -47,10 +47,12 @@ def as_svg(chart: Chart) -> str:
     length, and a chart without data."""
     svg = _saved(chart, format="svg", metadata={"Date": None}).decode()
     svg = re.sub(r"<metadata>.*?</metadata>|<defs>\s*<style.*?</defs>|<!--.*?-->", "", svg[svg.index("<svg"):], flags=re.DOTALL)
-    svg = re.sub(r'<g id="[^"]*"', "<g", svg)  # nothing refers to them, and a page holds many pictures
-    svg = re.sub(r'(?<= d=")[^"CQ]*', lambda found: _short_path(found[0]), svg)
-    svg = svg.replace("'DejaVu Sans'", "'DejaVu Sans', Helvetica, Arial, sans-serif").replace("xlink:href=", "href=")
-    return re.sub(r"\n\s*\n*", "\n", svg).replace(' xmlns:xlink="http://www.w3.org/1999/xlink"', ' stroke-linejoin="round"', 1)
+    svg = re.sub(r"font: (?:(\d+) )?([\d.]+)px [^;\"]*", r"font-size: \2; font-weight: \1", svg)  # WeasyPrint reads no shorthand
+    svg = re.sub(r' style="([^"]*)"', lambda found: "".join(f' {name}="{value}"' for name, value in re.findall(r"([a-z-]+): ([^;]+)", found[1])), svg)
+    svg = re.sub(r'(?<= d=")[^"CQ]*(?=")', lambda found: _short_path(found[0]), svg)
+    svg = re.sub(r'(?<=<g) id="[^"]*"| transform="rotate\(-0 [^"]*"|(?<=\n)\s+', "", svg)  # nothing refers to these ids, and a page has many pictures
+    look = 'stroke-linejoin="round" fill="#222" font-family="DejaVu Sans, Helvetica, Arial, sans-serif"'
+    return svg.replace("xlink:href=", "href=").replace('xmlns:xlink="http://www.w3.org/1999/xlink"', look, 1)
 
 
 def _short_path(path: str) -> str:
@@ -170,7 +172,7 @@ def _saved(chart: Chart, **how: Any) -> bytes:
     _check_columns(chart)
     x, y = _limits(chart, "x"), _limits(chart, "y")
     width, height, times = _size(chart, x, y)
-    with matplotlib.rc_context(_STYLE), warnings.catch_warnings():
+    with matplotlib.rc_context({**_STYLE, "svg.hashsalt": chart.title}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # the page's fonts have what matplotlib's lack
         sheet = Sheet((width * PX, height * PX))
         axes = sheet.add_axes((0, 0, 1, 1), xlim=x, ylim=y, xscale="log" if chart.x.logarithmic else "linear",
@@ -199,7 +201,7 @@ def _ticks(axis: Any, logarithmic: bool, limits: tuple[float, float], length: fl
     """Plain numbers; on a logarithmic axis of a few decades also their 2 and 5 folds."""
     if logarithmic:
         axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if limits[1] / limits[0] < 2e3 else (1,)))
-        axis.set_minor_formatter(ticker.NullFormatter())
+        axis.set_minor_locator(ticker.NullLocator())
     else:
         axis.set_major_locator(ticker.MaxNLocator(int(np.clip(length / 45, 2, 10)), steps=[1, 2, 5, 10]))
     axis.set_major_formatter(lambda value, _: f"{value + 0.0:.6g}")
