@@ -31,12 +31,11 @@ _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#
 _EARTHS = ("#b08d57", "#d9c9a5", "#8c8c7a", "#c2b280", "#a3a380")
 _DASHES = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 2, 1, 2)))  # after the last colour they tell series apart
 _MOST_ENTRIES = 24  # of a legend; more than a page can hold are counted only
-_STYLE = {
+_STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 12, "axes.titleweight": "bold", "axes.titlelocation": "left",
     "axes.edgecolor": "#333", "axes.linewidth": 0.8, "axes.axisbelow": True, "axes.grid": True, "grid.color": "#ddd", "grid.linewidth": 0.8,
     "text.color": "#222", "axes.labelcolor": "#222", "legend.frameon": False, "lines.linewidth": 1.4, "lines.markersize": 6,
-    "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0, "text.parse_math": False, "svg.fonttype": "none",
-    "savefig.dpi": 192}
+    "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0, "text.parse_math": False, "svg.fonttype": "none"}
 
 _CIRCLE = Outline.unit_circle()
 _UP = Outline([(0, 1.75), (0, 4), (-0.9, 3.1), (0, 4), (0.9, 3.1)])  # an arrow above the circle
@@ -72,9 +71,9 @@ def _short_path(path: str) -> str:
     return "".join(out)
 
 
-def as_png(chart: Chart) -> bytes:
+def as_png(chart: Chart, dots_per_inch: int = 192) -> bytes:
     """Two dots for each pixel of the SVG. Raises as as_svg does."""
-    return _saved(chart, format="png")
+    return _saved(chart, format="png", dpi=dots_per_inch)
 
 
 def as_csv(chart: Chart) -> str:
@@ -250,7 +249,7 @@ def _draw_field(axes: Any, field: Field, dot: float) -> None:
 
 def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: float, fill: bool = False, **look: Any) -> None:
     """Dots, segments or polygons as one path. pieces: [n, corners, 2]; width: of the line, or of a dot [px]."""
-    if pieces.shape[1] == 1:
+    if dots := pieces.shape[1] == 1:
         pieces = np.repeat(pieces, 2, axis=1)
         pieces[:, 1, 0] += 1e-6 * np.ptp(axes.get_xlim())  # some writers do not draw a line without length
     codes = [Outline.MOVETO] + [Outline.LINETO] * (pieces.shape[1] - 1)
@@ -258,8 +257,8 @@ def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: flo
         pieces, codes = np.concatenate([pieces, pieces[:, :1]], axis=1), [*codes, Outline.CLOSEPOLY]
     outline = Outline(pieces.reshape(-1, 2), codes * len(pieces))
     outline.should_simplify = False
-    axes.add_patch(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order,
-                             **{"capstyle": "round", "joinstyle": "round", **look}))
+    look = {"capstyle": "round", "joinstyle": "round", "antialiased": not dots, **look}  # a PNG of sharp dots is a tenth as large
+    axes.add_patch(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order, **look))
 
 
 def _area(diameter: float) -> float:
@@ -295,9 +294,9 @@ def _draw(axes: Any, series: Series, look: dict[str, Any], dot: float) -> None:
 def _draw_points(axes: Any, x: Array, y: Array, certainty: str, colour: str, order: float = 2) -> Any:
     """Filled; a lower bound hollow with an arrow upwards; questionable hollow and dashed."""
     if certainty == "lower bound":
-        axes.scatter(x, y, marker=_UP, s=_area(32), facecolors="none", edgecolors=colour, linewidths=1.3, zorder=order)
+        axes.scatter(x, y, marker=_UP, s=_area(32), facecolors="none", edgecolors=colour, linewidths=1.3, zorder=order, clip_on=False)
     return axes.scatter(x, y, marker=_CIRCLE, s=_area(8), facecolors=colour if certainty == "certain" else "#fff", edgecolors=colour,
-                        linewidths=1.4, linestyles=(0, (1.6, 1.0)) if certainty == "questionable" else "-", zorder=order)
+                        linewidths=1.4, linestyles=(0, (1.6, 1.0)) if certainty == "questionable" else "-", zorder=order, clip_on=False)
 
 
 def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
