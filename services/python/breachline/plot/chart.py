@@ -77,9 +77,9 @@ class Figure:
     def __repr__(self) -> str:
         return f"Figure({self.name}: {self.chart.title})"
 
-    def _repr_svg_(self) -> str:
-        """Shown by a notebook."""
-        return self.svg()
+    def _repr_png_(self) -> bytes:
+        """Shown by a notebook, which keeps it: of a cloud a small one."""
+        return self.png(dots_per_inch=96)
 
     def svg(self) -> str:
         """Self-contained. Raises ValueError for numbers that cannot be drawn."""
@@ -87,11 +87,11 @@ class Figure:
 
         return as_svg(self.chart)
 
-    def png(self) -> bytes:
-        """The same, two dots for each of the SVG's pixels."""
+    def png(self, dots_per_inch: int = 192) -> bytes:
+        """The same; two dots for each of the SVG's pixels unless given otherwise."""
         from .draw import as_png
 
-        return as_png(self.chart)
+        return as_png(self.chart, dots_per_inch)
 
     def csv(self) -> str:
         """As the files of a report have it: series, x, y and what else is known, one row per point; or each polygon of the field."""

@@ -31,12 +31,11 @@ _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#
 _EARTHS = ("#b08d57", "#d9c9a5", "#8c8c7a", "#c2b280", "#a3a380")
 _DASHES = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 2, 1, 2)))  # after the last colour they tell series apart
 _MOST_ENTRIES = 24  # of a legend; more than a page can hold are counted only
-_STYLE = {
+_STYLE: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 12, "axes.titleweight": "bold", "axes.titlelocation": "left",
     "axes.edgecolor": "#333", "axes.linewidth": 0.8, "axes.axisbelow": True, "axes.grid": True, "grid.color": "#ddd", "grid.linewidth": 0.8,
     "text.color": "#222", "axes.labelcolor": "#222", "legend.frameon": False, "lines.linewidth": 1.4, "lines.markersize": 6,
-    "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0, "text.parse_math": False, "svg.fonttype": "none",
-    "svg.hashsalt": "breachline", "savefig.dpi": 192}
+    "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0, "text.parse_math": False, "svg.fonttype": "none"}
 
 _CIRCLE = Outline.unit_circle()
 _UP = Outline([(0, 1.75), (0, 4), (-0.9, 3.1), (0, 4), (0.9, 3.1)])  # an arrow above the circle
@@ -47,10 +46,12 @@ def as_svg(chart: Chart) -> str:
     length, and a chart without data."""
     svg = _saved(chart, format="svg", metadata={"Date": None}).decode()
     svg = re.sub(r"<metadata>.*?</metadata>|<defs>\s*<style.*?</defs>|<!--.*?-->", "", svg[svg.index("<svg"):], flags=re.DOTALL)
-    svg = re.sub(r'<g id="[^"]*"', "<g", svg)  # nothing refers to them, and a page holds many pictures
-    svg = re.sub(r'(?<= d=")[^"CQ]*', lambda found: _short_path(found[0]), svg)
-    svg = svg.replace("'DejaVu Sans'", "'DejaVu Sans', Helvetica, Arial, sans-serif").replace("xlink:href=", "href=")
-    return re.sub(r"\n\s*\n*", "\n", svg).replace(' xmlns:xlink="http://www.w3.org/1999/xlink"', ' stroke-linejoin="round"', 1)
+    svg = re.sub(r"font: (?:(\d+) )?([\d.]+)px [^;\"]*", r"font-size: \2; font-weight: \1", svg)  # WeasyPrint reads no shorthand
+    svg = re.sub(r' style="([^"]*)"', lambda found: "".join(f' {name}="{value}"' for name, value in re.findall(r"([a-z-]+): ([^;]+)", found[1])), svg)
+    svg = re.sub(r'(?<= d=")[^"CQ]*(?=")', lambda found: _short_path(found[0]), svg)
+    svg = re.sub(r'(?<=<g) id="[^"]*"| transform="rotate\(-0 [^"]*"|(?<=\n)\s+', "", svg)  # nothing refers to these ids, and a page has many pictures
+    look = 'stroke-linejoin="round" fill="#222" font-family="DejaVu Sans, Helvetica, Arial, sans-serif"'
+    return svg.replace("xlink:href=", "href=").replace('xmlns:xlink="http://www.w3.org/1999/xlink"', look, 1)
 
 
 def _short_path(path: str) -> str:
@@ -70,9 +71,9 @@ def _short_path(path: str) -> str:
     return "".join(out)
 
 
-def as_png(chart: Chart) -> bytes:
+def as_png(chart: Chart, dots_per_inch: int = 192) -> bytes:
     """Two dots for each pixel of the SVG. Raises as as_svg does."""
-    return _saved(chart, format="png")
+    return _saved(chart, format="png", dpi=dots_per_inch)
 
 
 def as_csv(chart: Chart) -> str:
@@ -170,7 +171,7 @@ def _saved(chart: Chart, **how: Any) -> bytes:
     _check_columns(chart)
     x, y = _limits(chart, "x"), _limits(chart, "y")
     width, height, times = _size(chart, x, y)
-    with matplotlib.rc_context(_STYLE), warnings.catch_warnings():
+    with matplotlib.rc_context({**_STYLE, "svg.hashsalt": chart.title}), warnings.catch_warnings():
         warnings.filterwarnings("ignore", "Glyph")  # the page's fonts have what matplotlib's lack
         sheet = Sheet((width * PX, height * PX))
         axes = sheet.add_axes((0, 0, 1, 1), xlim=x, ylim=y, xscale="log" if chart.x.logarithmic else "linear",
@@ -199,7 +200,7 @@ def _ticks(axis: Any, logarithmic: bool, limits: tuple[float, float], length: fl
     """Plain numbers; on a logarithmic axis of a few decades also their 2 and 5 folds."""
     if logarithmic:
         axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if limits[1] / limits[0] < 2e3 else (1,)))
-        axis.set_minor_formatter(ticker.NullFormatter())
+        axis.set_minor_locator(ticker.NullLocator())
     else:
         axis.set_major_locator(ticker.MaxNLocator(int(np.clip(length / 45, 2, 10)), steps=[1, 2, 5, 10]))
     axis.set_major_formatter(lambda value, _: f"{value + 0.0:.6g}")
@@ -248,7 +249,7 @@ def _draw_field(axes: Any, field: Field, dot: float) -> None:
 
 def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: float, fill: bool = False, **look: Any) -> None:
     """Dots, segments or polygons as one path. pieces: [n, corners, 2]; width: of the line, or of a dot [px]."""
-    if pieces.shape[1] == 1:
+    if dots := pieces.shape[1] == 1:
         pieces = np.repeat(pieces, 2, axis=1)
         pieces[:, 1, 0] += 1e-6 * np.ptp(axes.get_xlim())  # some writers do not draw a line without length
     codes = [Outline.MOVETO] + [Outline.LINETO] * (pieces.shape[1] - 1)
@@ -256,8 +257,8 @@ def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: flo
         pieces, codes = np.concatenate([pieces, pieces[:, :1]], axis=1), [*codes, Outline.CLOSEPOLY]
     outline = Outline(pieces.reshape(-1, 2), codes * len(pieces))
     outline.should_simplify = False
-    axes.add_patch(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order,
-                             **{"capstyle": "round", "joinstyle": "round", **look}))
+    look = {"capstyle": "round", "joinstyle": "round", "antialiased": not dots, **look}  # a PNG of sharp dots is a tenth as large
+    axes.add_patch(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order, **look))
 
 
 def _area(diameter: float) -> float:
@@ -293,9 +294,9 @@ def _draw(axes: Any, series: Series, look: dict[str, Any], dot: float) -> None:
 def _draw_points(axes: Any, x: Array, y: Array, certainty: str, colour: str, order: float = 2) -> Any:
     """Filled; a lower bound hollow with an arrow upwards; questionable hollow and dashed."""
     if certainty == "lower bound":
-        axes.scatter(x, y, marker=_UP, s=_area(32), facecolors="none", edgecolors=colour, linewidths=1.3, zorder=order)
+        axes.scatter(x, y, marker=_UP, s=_area(32), facecolors="none", edgecolors=colour, linewidths=1.3, zorder=order, clip_on=False)
     return axes.scatter(x, y, marker=_CIRCLE, s=_area(8), facecolors=colour if certainty == "certain" else "#fff", edgecolors=colour,
-                        linewidths=1.4, linestyles=(0, (1.6, 1.0)) if certainty == "questionable" else "-", zorder=order)
+                        linewidths=1.4, linestyles=(0, (1.6, 1.0)) if certainty == "questionable" else "-", zorder=order, clip_on=False)
 
 
 def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
