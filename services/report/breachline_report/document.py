@@ -1,6 +1,7 @@
 """The content of a report before it is written: chapters of figures and tables, and what is left out."""
 from __future__ import annotations
 
+import hashlib
 import re
 from dataclasses import dataclass, field
 from typing import Any
@@ -8,11 +9,20 @@ from typing import Any
 from breachline.plot import Figure
 
 Json = Any  #: a parsed document
+_longest_name = 180  # [bytes]: endings, and a folder for them, need some of 255
 _number = re.compile(r"-?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
 def is_number(text: str) -> bool:
     return _number.fullmatch(text) is not None
+
+
+def as_file_name(name: str) -> str:
+    """Shortened to what file systems take, still one for each name."""
+    plain = name.replace("/", "_")
+    if len(plain.encode()) <= _longest_name:
+        return plain
+    return plain.encode()[:_longest_name].decode(errors="ignore") + "_" + hashlib.sha256(name.encode()).hexdigest()[:8]
 
 
 @dataclass
@@ -80,7 +90,10 @@ class Document:
         self.left_out.append((what, why))
 
     def add(self, chapter: Chapter) -> None:
-        """Without its empty tables and figures, and only if something is left."""
+        """Without its empty tables and figures, and only if something is left. Names of variants may be no names of files."""
+        named: list[Figure | Table] = [*chapter.figures, *chapter.tables]
+        for each in named:
+            each.name = as_file_name(each.name)
         chapter.tables = [each for each in chapter.tables if each.rows]
         chapter.figures = [each for each in chapter.figures if each.chart.series or each.chart.field]
         if chapter.tables or chapter.figures or chapter.drawing:

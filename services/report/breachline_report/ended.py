@@ -29,7 +29,7 @@ def _listed(flags: Sequence[Json], severity: str) -> str:
 
 
 def is_entangled(phase: Phase) -> bool:
-    return entry(phase.result, "/ended") == "entangled"
+    return bool(entry(phase.result, "/ended") == "entangled")
 
 
 def entangled_at(phase: Phase) -> float | None:
@@ -46,7 +46,7 @@ def _facts(phase: Phase, *named: tuple[str, str, float, str]) -> str:
 
 
 def _is_corner(phase: Phase) -> bool:
-    return entry(phase.result, "/entanglement/kind") == "corner"
+    return bool(entry(phase.result, "/entanglement/kind") == "corner")
 
 
 def _where(phase: Phase) -> str:

@@ -259,7 +259,7 @@ def _identity_of(run: Run) -> str:
 
 def _headline_of(run: Run) -> str:
     """Flows at least 37.3 m beyond the toe; FS 0.912 as built; governing case: t_T = 13 s, soft; 1 of 2 runouts without a result."""
-    text, governs = run.about["headline"]["text"], run.farthest or run.least_factor
+    text, governs = str(run.about["headline"]["text"]), run.farthest or run.least_factor
     if governs and (governs.variant or governs.time is not None):
         text += f"; governing case: {governs.where}"
     missing = sum(not each.result for each in run.of(mpm))

@@ -199,7 +199,7 @@ def plateau_of(run: Run, variant: str) -> Plateau | None:
     """Variants that share a FEM share the times, from the one with the largest runout; None: none runs beyond the toe."""
     phase = run.of_variant(fem, variant)
     sharing = [found for each in run.variants if run.of_variant(fem, each) is phase and (found := run.runouts_of(each))]
-    largest = max(sharing, key=lambda found: max(each.runout for each in found), default=[])
+    largest: list[Phase] = max(sharing, key=lambda found: max(each.runout for each in found), default=[])
     if not largest or max(each.runout for each in largest) <= 0.0:
         return None
     first, last = _edges(largest)

@@ -39,4 +39,5 @@ def as_html(document: Document, folder: str) -> str:
     environment = jinja2.Environment(loader=jinja2.PackageLoader("breachline_report", "."), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
     return environment.get_template("page.html.j2").render(
-        document=document, front=document.front, left_out=[f"{what}: {why}" for what, why in document.left_out], folder=folder, class_of=_class_of, inline=_inline, wordy_columns=_wordy_columns, many=_many)
+        document=document, front=document.front, left_out=[f"{what}: {why}" for what, why in document.left_out], folder=folder,
+        class_of=_class_of, inline=_inline, wordy_columns=_wordy_columns, many=_many)

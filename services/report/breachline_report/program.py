@@ -15,7 +15,7 @@ from breachline.plot import Figure
 
 from .chapters import Choice, Material, assessment, checklist, flow, ground, inputs, mesh, methods, motion, numbers, runout, shaking, soil_elements, \
     stability, variants
-from .document import Document
+from .document import Document, Table
 from .ended import verdict_of
 from .front import front_of
 from .measures import Measures
@@ -38,14 +38,16 @@ def _add_companion(folder: Path, paper: Paper | None, document: Document) -> Non
         document.leave_out(f"variants of {folder}", "its study has none")
     for chapter in other.chapters:
         chapter.title, chapter.text = f"{chapter.title}: {run.name}", f"{run.title}. {chapter.text}"
-        for each in [*chapter.figures, *chapter.tables]:
+        named: list[Figure | Table] = [*chapter.figures, *chapter.tables]
+        for each in named:
             each.name += f"_{run.name}"
-        document.chapters.append(chapter)
+        document.add(chapter)
 
 
 def document_of(run: Run, choice: Choice) -> Document:
     paper = paper_for(run.scene["name"])
-    of, document, asked = Material(run, paper, Measures(run, paper), choice), Document(run.title, front_of(run, paper), verdict_of(run)), inputs.Inputs(run)
+    of, asked = Material(run, paper, Measures(run, paper), choice), inputs.Inputs(run)
+    document = Document(run.title, front_of(run, paper), verdict_of(run))
     assessment.add(of, document)
     inputs.add(asked, document)
     stability.add(of, document)
@@ -80,8 +82,9 @@ def publish_figures(figures: list[Figure], folder: Path) -> None:
     """Each as SVG, PNG and CSV."""
     folder.mkdir(parents=True, exist_ok=True)
     for each in figures:
-        for ending, made in (("svg", each.svg), ("png", each.png), ("csv", each.csv)):
-            _publish(folder / f"{each.name.replace('/', '_')}.{ending}", made())
+        _publish(folder / f"{each.name}.svg", each.svg())
+        _publish(folder / f"{each.name}.png", each.png())
+        _publish(folder / f"{each.name}.csv", each.csv())
 
 
 def write_report(document: Document, page: Path, alone: bool) -> None:

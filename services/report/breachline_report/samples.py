@@ -15,8 +15,7 @@ _words = {"runout": "Runout: 99 % of the mobile soil, from the toe", "runout_bey
 
 def quantities_of(answer: Json) -> list[str]:
     """The one requested first, then the others."""
-    names: list[str] = sorted(answer["quantities"], key=lambda name: name != answer["quantity"])
-    return names
+    return sorted(map(str, answer["quantities"]), key=lambda name: bool(name != answer["quantity"]))
 
 
 def label_of(quantity: Json, name: str) -> str:

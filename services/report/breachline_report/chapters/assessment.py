@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from collections.abc import Sequence
 
 from breachline.plot import Axis, Chart, Figure, Mark, Series
 from breachline.plot.uncertainty import envelope_figures, exceedance_figure, tornado_figure
@@ -13,12 +12,12 @@ from breachline.plot.uncertainty import envelope_figures, exceedance_figure, tor
 from ..document import Chapter, Document, Json, Table
 from ..ended import bounded, entanglements_of
 from ..paper import Paper
-from ..run import Phase, Run, fem, lem
-from ..samples import (ends_of, known_of, label_of, marked, percentile_in, percentile_text, percentiles_of, quantities_of, sampled_runouts, value_found,
+from ..run import Run, fem, lem
+from ..samples import (ends_of, known_of, label_of, percentile_in, percentile_text, percentiles_of, quantities_of, sampled_runouts, value_found,
                        why_no_percentile, words_of)
 from ..words import at_least, counted, entry, number, or_dash, rounded
 from . import Material
-from .flow import read_history
+from .flow import history_of
 
 _most_rows = 100  # of a printed table
 
@@ -61,7 +60,8 @@ def _breach_text(width: Json) -> str:
 
 def _answers(run: Run) -> Table:
     table = Table("assessment", "How far, when, how deep, how fast", ["what", "p50", "p10", "p90", "rests on"], [],
-                  "In brackets: the percentile's 90 % interval. \u2265: a lower bound, soil still moved. At a gauge a sample whose flow never came is 0 "
+                  "In brackets: the percentile's 90 % interval. \u2265: a lower bound, soil still moved. At a gauge a sample whose flow never "
+                  "came is 0 "
                   "deep and arrives after all others.")
     for name in quantities_of(run.uncertainty):
         quantity = run.uncertainty["quantities"][name]
@@ -118,7 +118,8 @@ def _assumptions(run: Run) -> Table:
 def _cases(run: Run) -> Table:
     liquefies = entry(run.scene, "/transfer/liquefied") is not None
     keeps = not liquefies and not run.is_static
-    which = "" if liquefies or keeps else ("Whether this static scene is 2A or 2B depends on whether its strengths are those of liquefied soil, which "
+    which = "" if liquefies or keeps else ("Whether this static scene is 2A or 2B depends on whether its strengths are those of liquefied soil, "
+                                           "which "
                                            "the scene does not state. ")
     return Table("assessment_cases", "Which cases of CDA (2021) this can answer", ["case", "free pond at the breach", "tailings liquefy", "covered",
                                                                                    "because"],
@@ -127,7 +128,8 @@ def _cases(run: Run) -> Table:
                   ["2A", "no", "yes", "yes: this run" if liquefies else "yes",
                    "liquefied soil flows until its residual strength and viscosity stop it"],
                   ["2B", "no", "no", "yes: this run" if keeps else "yes", "a slope that fails and slumps with the strength that it keeps"]],
-                 which + "Canadian Dam Association (2021), Technical Bulletin: Tailings Dam Breach Analysis. A dam with a pond needs an analysis of its "
+                 which + "Canadian Dam Association (2021), Technical Bulletin: Tailings Dam Breach Analysis. A dam with a pond needs an analysis "
+                         "of its "
                  "release beside this one. Nor is there a channel or a valley that narrows: plane strain, so that no flow spreads or is confined "
                  "sideways, and volumes are per metre of width.")
 
@@ -178,7 +180,8 @@ def _page(run: Run, name: str) -> Chapter:
                              [["What fails", _what_fails(run)], ["When", _when_it_fails(run)]]),
                        _answers(run), _assumptions(run), _cases(run), _error(run, name), _origin(run)],
                    cautions=run.uncertainty["cautions"]
-                   + ["Percentiles are over the parameters named below, as they are distributed there, and over nothing else. They leave out what the "
+                   + ["Percentiles are over the parameters named below, as they are distributed there, and over nothing else. They leave out what "
+                      "the "
                       "model leaves out (table of CDA's cases below)."])
 
 
@@ -201,18 +204,21 @@ def _hydrographs(run: Run, name: str) -> list[Figure]:
         wanted = percentile_in(run.uncertainty["quantities"][name], p)
         if not wanted or not samples:
             continue
-        value, nearest = min(samples, key=lambda pair: abs(pair[0] - wanted["value"]))
-        found = [(each["name"], read_history(nearest, "time", f"section.{each['name']}.discharge")) for each in entry(run.scene, "/mpm/sections", [])]
+        value, nearest = min(samples, key=lambda pair: abs(pair[0] - float(wanted["value"])))
+        found = [series for each in entry(run.scene, "/mpm/sections", [])
+                 for series in history_of(nearest, each["name"], "time", f"section.{each['name']}.discharge")]
         figures.append(Figure(
             f"hydrographs_p{p}", Chart(f"Discharge at the sections, sample nearest to p{p}", Axis("time [s]"),
-                                       Axis("discharge [m3/s per m of width]"), [Series(section, *course) for section, course in found if course]),
-            f"Sample {nearest.variant}, with {name} of {bounded(nearest, rounded(value, 4))}: one run, no envelope. The hydrograph of a percentile of "
+                                       Axis("discharge [m3/s per m of width]"), found),
+            f"Sample {nearest.variant}, with {name} of {bounded(nearest, rounded(value, 4))}: one run, no envelope. The hydrograph of a "
+            f"percentile of "
             "the runout is not the percentile of the hydrographs."))
     return figures
 
 
 def _percentiles(run: Run) -> Table:
-    table = Table("assessment_percentiles", "Percentiles", ["quantity", "samples", "mean", "standard deviation", "p5", "p10", "p50", "p90", "p95"], [],
+    table = Table("assessment_percentiles", "Percentiles",
+                  ["quantity", "samples", "mean", "standard deviation", "p5", "p10", "p50", "p90", "p95"], [],
                   "In brackets: 90 % intervals. Mean and standard deviation of distances that are lower bounds in part are too small.")
     for name in quantities_of(run.uncertainty):
         quantity = run.uncertainty["quantities"][name]
@@ -224,12 +230,14 @@ def _percentiles(run: Run) -> Table:
 
 def _importance(quantity: Json, name: str) -> Table:
     found = quantity["importance"] if isinstance(quantity["importance"], list) else []
-    return Table("assessment_importance", f"What decides {name}", ["parameter", "rank correlation", "its interval", "partial", "share of the variance",
+    return Table("assessment_importance", f"What decides {name}", ["parameter", "rank correlation", "its interval", "partial", "share of the "
+                                                                                                                               "variance",
                                                                    "its interval"],
                  [[each["parameter"], or_dash(each.get("rank_correlation"), 2), ends_of(each, "low", "high"),
                    or_dash(each.get("partial_rank_correlation"), 2), or_dash(each.get("first_order"), 2),
                    ends_of(each, "first_order_low", "first_order_high")] for each in found],
-                 "An interval that contains 0: the parameter may have no effect. The share is what the parameter explains alone. Options of a choice and "
+                 "An interval that contains 0: the parameter may have no effect. The share is what the parameter explains alone. Options of a "
+                 "choice and "
                  "lattices have no order, and so no rank correlation.")
 
 
@@ -284,14 +292,15 @@ def _back_analysis(run: Run) -> Chapter:
                    ["lower bound" if each["lower_bounds"] else "certain" for each in known],
                    low=[min(each["results"]) for each in known], high=[max(each["results"]) for each in known])
     marks = [Mark("y", inverse["target"], "asked")] + ([Mark("x", inverse["value"], value_found(inverse))] if inverse["value"] is not None else [])
-    figure = Figure("back_analysis", Chart("Result against the value", Axis(inverse["vary"], logarithmic=bool(values) and values[0] > 0.0), Axis(label),
+    figure = Figure("back_analysis", Chart("Result against the value", Axis(inverse["vary"], bool(values) and values[0] > 0.0), Axis(label),
                                            [means] if known else [], marks), "Dashed: the target. All other parameters have their medians.")
     table = Table("back_analysis_steps", "Values that were run", [inverse["vary"], label, "of its lattices", "lower bounds", "state"], [
         [or_dash(each["value"], 4), (at_least if each["lower_bounds"] else "") + or_dash(each["result"], 4),
          "; ".join(or_dash(result, 4) for result in each["results"]) or "-", f"{each['lower_bounds']} of {len(each['results'])}", each["state"]]
         for each in steps])
     return Chapter("Back-analysis", " ".join(run.uncertainty["sentences"]), [figure], [table], cautions=[
-        "The value makes this model give the result: it holds what the model leaves out (see the limits on the first page), and is no strength that was "
+        "The value makes this model give the result: it holds what the model leaves out (see the limits on the first page), and is no strength "
+        "that was "
         f"measured. Only {inverse['vary']} was moved; another parameter moved as well gives another value."])
 
 

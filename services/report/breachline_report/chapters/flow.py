@@ -27,8 +27,12 @@ def _toe_of(runout: Phase) -> Mark:
 
 def _courses(runout: Phase, places: str, kind: str, quantity: str) -> list[Series]:
     """Telemetry at every gauge or section of the scene."""
-    named = [(each["name"], each["x"], runout.course(f"{kind}.{each['name']}.{quantity}")) for each in entry(runout.scene, "/mpm/" + places, [])]
-    return [Series(f"{name} (x = {x:.6g} m)", *course) for name, x, course in named if course[0]]
+    found = []
+    for each in entry(runout.scene, "/mpm/" + places, []):
+        times, values = runout.course(f"{kind}.{each['name']}.{quantity}")
+        if times:
+            found.append(Series(f"{each['name']} (x = {each['x']:.6g} m)", times, values))
+    return found
 
 
 def _gauge_figure(runout: Phase, quantity: str, label: str) -> Figure:
@@ -51,13 +55,13 @@ def _gauge_table(run: Run) -> Table:
     return table
 
 
-def read_history(runout: Phase, *names: str) -> list[list[float]]:
-    """Arrays of history.h5; empty: one is missing."""
+def history_of(runout: Phase, name: str, x: str, y: str) -> list[Series]:
+    """A series of two arrays of history.h5; empty: one is missing."""
     if not runout.has("history.h5"):
         return []
     with h5py.File(runout.files / "history.h5") as file:
         reals = file["breachline/reals"]
-        return [list(reals[name][()]) for name in names] if all(name in reals for name in names) else []
+        return [Series(name, list(reals[x][()]), list(reals[y][()]))] if x in reals and y in reals else []
 
 
 def add(of: Material, document: Document) -> None:
@@ -65,11 +69,11 @@ def add(of: Material, document: Document) -> None:
     if not runouts:
         document.leave_out("gauges and deposit profile", "the run has no runout")
         return
-    deposit = Figure("deposit_profile", Chart("Depth of the deposit", Axis("x [m]"), Axis("depth of mobile soil [m]"), marks=[_toe_of(runouts[0])]),
-                     "At the end of the runout.")
+    deposit = Figure("deposit_profile", Chart("Depth of the deposit", Axis("x [m]"), Axis("depth of mobile soil [m]"),
+                                              marks=[_toe_of(runouts[0])]), "At the end of the runout.")
     for each in runouts:
-        if found := read_history(each, "envelope.x", "envelope.final_depth"):
-            deposit.chart.series.append(Series(each.where + (" (still moving)" if each.still_moves else ""), *found))
+        name = each.where + (" (still moving)" if each.still_moves else "")
+        deposit.chart.series += history_of(each, name, "envelope.x", "envelope.final_depth")
     if not deposit.chart.series:
         document.leave_out("deposit profile", "the runouts kept no envelope")
     table = _gauge_table(of.run)
@@ -93,10 +97,11 @@ def _envelope_figures(runout: Phase) -> list[Figure]:
         return Series(shown, [x for x, _ in known], [value for _, value in known])
 
     def figure(word: str, what: str, label: str, series: list[Series], caption: str) -> Figure:
-        return Figure(f"envelope_{word}_{runout.file_word}", Chart(f"{what}, {runout.where}", Axis("x [m]"), Axis(label), series, [_toe_of(runout)]),
-                      caption)
+        return Figure(f"envelope_{word}_{runout.file_word}",
+                      Chart(f"{what}, {runout.where}", Axis("x [m]"), Axis(label), series, [_toe_of(runout)]), caption)
 
-    return [figure("depth", "Largest depth and deposit", "flow depth [m]", [along("largest_depth_m", "largest"), along("final_depth_m", "at the end")],
+    return [figure("depth", "Largest depth and deposit", "flow depth [m]",
+                   [along("largest_depth_m", "largest"), along("final_depth_m", "at the end")],
                    "Mean over a cell each way, of mobile soil; fewer than three points there are grains and no flow."),
             figure("velocity", "Largest velocity", "depth-averaged velocity [m/s]", [along("largest_velocity_m_per_s", "largest")], "Either way."),
             figure("times", "Arrival and time of the peak", _time_label(runout), [along("arrival_s", "arrival"), along("time_of_peak_s", "deepest")],

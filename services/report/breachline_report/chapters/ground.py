@@ -54,7 +54,8 @@ def _shown_by(runouts: list[Phase]) -> tuple[float, float]:
 def _table(runouts: list[Phase], paper: Paper | None) -> Table:
     table = Table("ground", "Runout by ground", ["quantity", *(each.where for each in runouts)]
                   + (["case history, valley of about 20 %"] if paper else []), [],
-                  "Arrival: seconds since the transfer; - when the flow never gets there, or had not yet. \u2265: a lower bound, the soil still moved.")
+                  "Arrival: seconds since the transfer; - when the flow never gets there, or had not yet. \u2265: a lower bound, the soil still "
+                  "moved.")
     rows = [("runout [m]", "/runout", True), ("beyond the toe, 99 % [m]", "/runout_beyond_toe", True),
             ("beyond the toe, 95 % [m]", "/runout_beyond_toe_95", True), ("farthest point [m]", "/runout_largest", True),
             ("at rest", "/at_rest", False), ("end [s]", "/end_time", False)]

@@ -104,7 +104,8 @@ def _soils(scene: Json) -> Table:
     return Table("soils", "Soils", ["soil", "law", "density [kg/m3]", "strength", "after softening", "E [MPa]", "nu", "permeability [m/s]"],
                  [[name, soil["law"].get("type", "").replace("_", " "), _number(soil.get("density")),
                    _strength(entry(soil, "/strength/peak") or soil["law"]), _residual(soil), _number(soil["law"].get("E_MPa")),
-                   _number(soil["law"].get("nu")), _number(entry(soil, "/permeability/0"), 3)] for name, soil in entry(scene, "/materials", {}).items()],
+                   _number(soil["law"].get("nu")), _number(entry(soil, "/permeability/0"), 3)]
+                  for name, soil in entry(scene, "/materials", {}).items()],
                  "Strength before failure, and what the soil softens to. The annex has every entry.")
 
 
@@ -119,8 +120,8 @@ def _notes(scene: Json) -> Table:
 
 
 def add(inputs: Inputs, document: Document) -> None:
-    document.add(Chapter("Inputs", "The table of variants lists their changes, the annex every entry.", tables=[_soils(inputs.scene), _notes(inputs.scene)],
-                         drawing=inputs.drawing))
+    document.add(Chapter("Inputs", "The table of variants lists their changes, the annex every entry.",
+                         tables=[_soils(inputs.scene), _notes(inputs.scene)], drawing=inputs.drawing))
 
 
 # ---------------------------------------------------------------- annex
@@ -128,7 +129,7 @@ def add(inputs: Inputs, document: Document) -> None:
 
 def _area(polygon: Json) -> float:
     """By the shoelace formula [m2]."""
-    return 0.5 * abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(polygon, polygon[1:] + polygon[:1])))
+    return 0.5 * abs(sum(float(a[0] * b[1] - b[0] * a[1]) for a, b in zip(polygon, polygon[1:] + polygon[:1])))
 
 
 def _regions(inputs: Inputs) -> Table:
@@ -142,9 +143,11 @@ def _regions(inputs: Inputs) -> Table:
 
 def _materials(inputs: Inputs) -> list[Table]:
     """Side by side, one row per entry that one of them has."""
-    names, tables = list(entry(inputs.scene, "/materials", {})), []
+    names = list(entry(inputs.scene, "/materials", {}))
+    tables: list[Table] = []
     for first in range(0, len(names), _abreast):
-        shown, rows = names[first:first + _abreast], {}
+        shown = names[first:first + _abreast]
+        rows: dict[str, list[str]] = {}
         for k, name in enumerate(shown):
             for key, each in inputs.below(f"/materials/{name}/"):
                 rows.setdefault(key, [key, each.unit] + ["-"] * len(shown))[2 + k] = each.text

@@ -36,14 +36,14 @@ def add(of: Material, document: Document) -> None:
     chapter = Chapter("Strain, pore pressure and mesh", of.run.which_of_several(phase, "finite element analyses")
                       + f"{len(meshes)} of {len(files)} snapshots; colours have one scale for all times of a quantity.")
     strains = colour_range(element_epsilon_q(meshes[-1]))
-    wet = [each for each in meshes if element_r_u(each) is not None]
-    for shown, name, label, values, limits in ((meshes, "epsilon_q", "epsilon_q [%]", element_epsilon_q, strains),
-                                               (wet, "r_u", "r_u [-]", element_r_u, (0.0, 1.0))):
-        for mesh in shown:
-            figure = _figure(mesh, name, label, "Element averages on the mesh where it has moved to; displacements are not exaggerated.")
-            figure.chart.field = on_deformed_mesh(mesh, values(mesh), label, limits)
-            figure.chart.series = [borders_of(mesh)]
-            chapter.figures.append(figure)
+    wet = [(each, r_u) for each in meshes if (r_u := element_r_u(each)) is not None]
+    fields = [("epsilon_q", "epsilon_q [%]", mesh, element_epsilon_q(mesh), strains) for mesh in meshes] \
+        + [("r_u", "r_u [-]", mesh, r_u, (0.0, 1.0)) for mesh, r_u in wet]
+    for name, label, mesh, values, limits in fields:
+        figure = _figure(mesh, name, label, "Element averages on the mesh where it has moved to; displacements are not exaggerated.")
+        figure.chart.field = on_deformed_mesh(mesh, values, label, limits)
+        figure.chart.series = [borders_of(mesh)]
+        chapter.figures.append(figure)
     if not wet:
         document.leave_out("contours of r_u", "the mesh carries no pore pressure: dry")
     for mesh in meshes:

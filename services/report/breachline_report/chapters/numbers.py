@@ -105,7 +105,8 @@ def _means(run: Run) -> Table:
     table = Table("numbers_means", "Means over the repeats", ["t_T [s]", "variant", "repeats", "runout [m]", "beyond the toe [m]", "farthest [m]",
                                                               "mean runout is off by [m]", "not as it should be"], [],
                   "Mean +- standard deviation of one repeat. A repeat is the same setting on another lattice of points. Off by: nine of ten such "
-                  "means, by Student's distribution for so few repeats, with the bias where an accuracy study tells it. \u2265: a lower bound, soil of "
+                  "means, by Student's distribution for so few repeats, with the bias where an accuracy study tells it. \u2265: a lower bound, "
+                  "soil of "
                   "a repeat still moved.")
     for mean in run.means:
         bound = at_least if any_moves(run.draws_of(mean)) else ""
