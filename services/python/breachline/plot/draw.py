@@ -332,7 +332,8 @@ def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
 
 def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]], beside: float) -> None:
     """Right of the axes, or below those of equal aspect in as many columns as fit."""
-    entries = [(lines.Line2D([], [], **{**look, "linewidth": 3}), each.name) for each, look in zip(chart.series, looks)
+    entries = [(lines.Line2D([], [], **{**look, "linewidth": 3, **({"marker": "o", "linestyle": ""} if each.style == "points" else {})}), each.name)
+               for each, look in zip(chart.series, looks)
                if each.like is None and each.style != "area"]
     if len(entries) > _MOST_ENTRIES:
         entries[_MOST_ENTRIES:] = [(lines.Line2D([], [], alpha=0), f"and {len(entries) - _MOST_ENTRIES} more")]
