@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "services/report/section/sheet.hpp"
+#include "services/drawing/sheet.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 /// An entry of the legend: a symbol of 24 x 12 px, and its meaning.
 struct Key {
@@ -24,4 +24,4 @@ struct Canvas {
     std::ostringstream over = {};  ///< marks and text above it
 };
 
-}  // namespace breach::report
+}  // namespace breach::drawing

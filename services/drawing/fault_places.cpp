@@ -1,4 +1,4 @@
-#include "services/report/section/fault_places.hpp"
+#include "services/drawing/fault_places.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 #include "core/scene/scene.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 using mechanics::Vec2;
 using nlohmann::json;
@@ -188,4 +188,4 @@ std::vector<Trace> places_of(const fault::Fault& fault, const json& document,
     return {};  // invalid, or not a path through the document
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

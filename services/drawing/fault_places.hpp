@@ -8,7 +8,7 @@
 #include "core/fault/fault.hpp"
 #include "core/scene/scene.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 /// A place (one point) or a line (several) [m].
 using Trace = std::vector<mechanics::Vec2>;
@@ -19,4 +19,4 @@ using Trace = std::vector<mechanics::Vec2>;
 std::vector<Trace> places_of(const fault::Fault& fault, const nlohmann::json& document,
                              const scene::Scene& scene);
 
-}  // namespace breach::report
+}  // namespace breach::drawing

@@ -1,14 +1,14 @@
-#include "services/report/section/features.hpp"
+#include "services/drawing/features.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/check/applied_motion.hpp"
 #include "core/motion/plausibility.hpp"
-#include "services/report/chart/axis.hpp"
-#include "services/report/section/strokes.hpp"
+#include "core/words/number.hpp"
+#include "services/drawing/strokes.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 namespace {
 
@@ -72,7 +72,7 @@ void draw_free_field(Canvas& canvas, const scene::Scene& scene) {
     canvas.keys.push_back(
         {"<rect x=\"6\" width=\"12\" height=\"12\" fill=\"#ddd\" stroke=\"#444\" "
          "stroke-dasharray=\"3 2\"/>\n",
-         "FEM: free-field column, " + short_number(columns.width) +
+         "FEM: free-field column, " + words::text_of(columns.width) +
              " m wide (at most 24 px are drawn)"});
 }
 
@@ -99,7 +99,8 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
                                                    {soil.high.x(), soil.low.y() - below}}),
                             stroke("#777", 3, "class=\"base\" stroke-dasharray=\"2 5\""));
         canvas.keys.push_back(line_key(
-            "#777", "FEM: elastic half-space below, V_s = " + short_number(fem.base->V_s) + " m/s",
+            "#777",
+            "FEM: elastic half-space below, V_s = " + words::text_of(fem.base->V_s) + " m/s",
             " stroke-dasharray=\"2 5\""));
     }
     draw_loads(canvas, scene, fem.surcharge, "FEM");
@@ -136,7 +137,7 @@ void draw_runout_marks(Canvas& canvas, const scene::Scene& scene) {
     const Room room = canvas.panel.room();
     std::string list;
     for (const scene::Gauge& each : mpm.gauges) {
-        list += (list.empty() ? "" : ", ") + each.name + " (x = " + short_number(each.x) + ")";
+        list += (list.empty() ? "" : ", ") + each.name + " (x = " + words::text_of(each.x) + ")";
         const double x = canvas.panel.at({each.x, 0.0}).x();
         if (x < room.left || x > room.right) continue;
         canvas.svg << shape("M" + px(x) + " " + px(room.bottom) + "V" + px(room.top + 18),
@@ -156,9 +157,9 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
     const double cells_x = std::round((right - left) / mpm.cell_size);
     const double cells_y = std::round((high - low) / mpm.cell_size);
     canvas.keys.push_back(line_key("#111",
-                                   "MPM: grid of " + short_number(cells_x) + " x " +
-                                       short_number(cells_y) + " cells of " +
-                                       short_number(mpm.cell_size) + " m",
+                                   "MPM: grid of " + words::text_of(cells_x) + " x " +
+                                       words::text_of(cells_y) + " cells of " +
+                                       words::text_of(mpm.cell_size) + " m",
                                    " stroke-dasharray=\"7 3\""));
     if (!mpm.terrain.empty()) {
         draw_line(canvas, "terrain", across(canvas.panel, mpm.terrain, geometry::straight_level_at),
@@ -167,12 +168,12 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
     } else {
         draw_line(canvas, "floor", {{left, mpm.floor.level}, {right, mpm.floor.level}}, brown);
         canvas.keys.push_back(
-            line_key(brown, "MPM: floor at y = " + short_number(mpm.floor.level) + " m"));
+            line_key(brown, "MPM: floor at y = " + words::text_of(mpm.floor.level) + " m"));
     }
     std::string friction;
     for (const scene::FrictionZone& each : mpm.floor.friction)
-        friction += (friction.empty() ? "" : "; ") + short_number(each.coefficient) +
-                    " from x = " + short_number(each.from) + " to " + short_number(each.to);
+        friction += (friction.empty() ? "" : "; ") + words::text_of(each.coefficient) +
+                    " from x = " + words::text_of(each.from) + " to " + words::text_of(each.to);
     canvas.keys.push_back({"", friction.empty() ? "MPM: nothing slips on the ground"
                                                 : "MPM: friction of the ground " + friction});
 }
@@ -185,12 +186,13 @@ std::optional<std::string> motion_line(const scene::Scene& scene) {
                            motion::summary_of(shaking);
         if (shaking.quantity == motion::Quantity::acceleration) {
             const motion::StrongPart strong = motion::strong_part(shaking.series);
-            line += ", Arias intensity " + rounded(motion::arias_intensity(shaking.series), 3) +
-                    " m/s, strong part from " + rounded(strong.begin, 3) + " to " +
-                    rounded(strong.end, 3) + " s";
+            line += ", Arias intensity " +
+                    words::text_of(motion::arias_intensity(shaking.series), 3) +
+                    " m/s, strong part from " + words::text_of(strong.begin, 3) + " to " +
+                    words::text_of(strong.end, 3) + " s";
         }
         if (scene.fem->motion->scale_to_pga_g)
-            line += " (scaled to " + short_number(*scene.fem->motion->scale_to_pga_g) + " g)";
+            line += " (scaled to " + words::text_of(*scene.fem->motion->scale_to_pga_g) + " g)";
         return line;
     } catch (const fault::BadInput&) {  // reported as a fault elsewhere
     } catch (const fault::IoError&) {
@@ -198,4 +200,4 @@ std::optional<std::string> motion_line(const scene::Scene& scene) {
     return std::nullopt;
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

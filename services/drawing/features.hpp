@@ -6,9 +6,9 @@
 #include <string>
 
 #include "core/scene/scene.hpp"
-#include "services/report/section/canvas.hpp"
+#include "services/drawing/canvas.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 /// Phreatic and piezometric lines of all phases, each once; standing water; held pressures.
 void draw_water(Canvas& canvas, const scene::Scene& scene);
@@ -25,4 +25,4 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene);
 /// nothing: the scene has no readable motion.
 std::optional<std::string> motion_line(const scene::Scene& scene);
 
-}  // namespace breach::report
+}  // namespace breach::drawing

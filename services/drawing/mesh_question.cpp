@@ -1,4 +1,4 @@
-#include "services/report/section/mesh_question.hpp"
+#include "services/drawing/mesh_question.hpp"
 
 #include <cstdlib>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 using nlohmann::json;
 namespace fs = std::filesystem;
@@ -87,4 +87,4 @@ DrawnMesh mesh_of(const Draft& draft, const Mesher& mesher) {
     return {mesh.position_0, mesh.quads};
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

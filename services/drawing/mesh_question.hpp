@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "services/report/section/section_drawing.hpp"
+#include "services/drawing/section_drawing.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 struct Mesher {
     std::filesystem::path fem_solver;  ///< the program
@@ -17,4 +17,4 @@ struct Mesher {
 /// fem_solver, gmsh or the folder cannot be used.
 DrawnMesh mesh_of(const Draft& draft, const Mesher& mesher);
 
-}  // namespace breach::report
+}  // namespace breach::drawing

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace breach::report {
+namespace breach::drawing {
 
 /// A fill as "#rrggbb", and whether text on it is white.
 struct Fill {
@@ -34,4 +34,4 @@ inline const Fill& fill_of(std::size_t material) { return fills[material % fills
 /// Number of sets of hatching lines: none, one direction, two directions.
 inline std::size_t hatchings_of(std::size_t material) { return material / fills.size() % 3; }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

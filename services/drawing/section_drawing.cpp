@@ -1,15 +1,14 @@
-#include "services/report/section/section_drawing.hpp"
+#include "services/drawing/section_drawing.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/scene/schema.hpp"
-#include "services/report/chart/frame.hpp"
-#include "services/report/section/fault_places.hpp"
-#include "services/report/section/features.hpp"
-#include "services/report/section/palette.hpp"
+#include "services/drawing/fault_places.hpp"
+#include "services/drawing/features.hpp"
+#include "services/drawing/palette.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 using fault::Fault;
 using nlohmann::json;
@@ -200,8 +199,7 @@ void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& 
                             << px(centre.x()) << " " << px(end) << "\" stroke=\"#333\"/>\n"
                             << "<circle cx=\"" << px(anchor.x()) << "\" cy=\"" << px(anchor.y())
                             << "\" r=\"2\" fill=\"#333\"/>\n";
-                canvas.labels.write(canvas.over, centre, name, "#111",
-                                    "paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"");
+                canvas.labels.write(canvas.over, centre, name, "#111", Labels::Ground::lines);
                 return;
             }
 }
@@ -492,4 +490,4 @@ std::string as_svg(const Draft& draft, const Additions& additions) {
            svg.str() + "</svg>\n";
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

@@ -12,7 +12,7 @@
 
 #include "core/check/check.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 /// The scene of a document: the document itself, or a study's scene with the study's overrides for
 /// all variants.
@@ -55,4 +55,4 @@ bool can_be_drawn(const Draft& draft);
 /// attribute data-pointer. Needs can_be_drawn.
 std::string as_svg(const Draft& draft, const Additions& additions);
 
-}  // namespace breach::report
+}  // namespace breach::drawing

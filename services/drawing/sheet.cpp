@@ -1,18 +1,33 @@
-#include "services/report/section/sheet.hpp"
+#include "services/drawing/sheet.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
-#include "services/report/chart/axis.hpp"
-#include "services/report/chart/frame.hpp"
+#include "core/words/number.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 namespace {
 
 constexpr double page_left = 60, most_width = 960, least_width = 420;
 constexpr double beside = 28, above = 46, below = 24;  // free border [px]
+
+/// Multiples of 1, 2 or 5 times a power of ten from low to high, about `wanted` of them.
+std::vector<double> ticks(double low, double high, double wanted) {
+    const double rough = (high - low) / wanted;
+    const double power = std::pow(10.0, std::floor(std::log10(rough)));
+    const double share = rough / power;
+    const double step = power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
+    std::vector<double> all;
+    const double slack = 1e-9;  // of a step: keeps the last tick despite round-off
+    const double first = std::ceil(low / step - slack);
+    const double more = std::floor(high / step + slack) - first;
+    if (!(more < 1e3)) return all;  // no ticks in a range within round-off
+    for (int k = 0; k <= more; ++k) all.push_back((first + k) * step + 0.0);
+    return all;
+}
 
 }  // namespace
 
@@ -44,7 +59,29 @@ Vec2 Panel::inside(const Vec2& place) const {
     return place.cwiseMax(shown.low + margin).cwiseMin(shown.high - margin);
 }
 
-std::string px(double value) { return short_number(std::round(10.0 * value) / 10.0); }
+std::string escaped(const std::string& text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '"')
+            out += "&quot;";
+        else
+            out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+    return out;
+}
+
+std::string text_at(double x, double y, const std::string& text, const std::string& more) {
+    std::ostringstream svg;
+    svg << "<text x=\"" << x << "\" y=\"" << y << "\" " << more << ">" << escaped(text)
+        << "</text>\n";
+    return svg.str();
+}
+
+std::string px(double value) { return words::text_of(std::round(10.0 * value) / 10.0); }
 
 std::string path_of(const Panel& panel, const std::vector<Vec2>& line) {
     std::string path;
@@ -58,21 +95,20 @@ std::string path_of(const Panel& panel, const std::vector<Vec2>& line) {
 void draw_axes(std::ostream& svg, const Panel& panel) {
     const Room room = panel.room();
     const geometry::Box world = panel.world();
-    const auto ticks = [](double low, double high, double pixels) {
-        return linear_ticks({low, high}, std::clamp(pixels / 80.0, 1.5, 10.0));
-    };
+    const auto wanted = [](double pixels) { return std::clamp(pixels / 80.0, 1.5, 10.0); };
     svg << "<g class=\"axes\" font-size=\"12\">\n";
-    for (const double t : ticks(world.low.x(), world.high.x(), room.right - room.left)) {
+    for (const double t : ticks(world.low.x(), world.high.x(), wanted(room.right - room.left))) {
         const std::string x = px(panel.at({t, 0.0}).x());
         svg << "<path d=\"M" << x << " " << px(room.bottom) << "V" << px(room.top)
             << "\" stroke=\"#e4e4e4\"/>\n"
-            << text_at(std::stod(x), room.bottom + 16, short_number(t), "text-anchor=\"middle\"");
+            << text_at(std::stod(x), room.bottom + 16, words::text_of(t), "text-anchor=\"middle\"");
     }
-    for (const double t : ticks(world.low.y(), world.high.y(), 1.6 * (room.bottom - room.top))) {
+    for (const double t :
+         ticks(world.low.y(), world.high.y(), wanted(1.6 * (room.bottom - room.top)))) {
         const std::string y = px(panel.at({0.0, t}).y());
         svg << "<path d=\"M" << px(room.left) << " " << y << "H" << px(room.right)
             << "\" stroke=\"#e4e4e4\"/>\n"
-            << text_at(room.left - 6, std::stod(y) + 4, short_number(t), "text-anchor=\"end\"");
+            << text_at(room.left - 6, std::stod(y) + 4, words::text_of(t), "text-anchor=\"end\"");
     }
     svg << "<rect x=\"" << px(room.left) << "\" y=\"" << px(room.top) << "\" width=\""
         << px(room.right - room.left) << "\" height=\"" << px(room.bottom - room.top)
@@ -83,7 +119,12 @@ void draw_axes(std::ostream& svg, const Panel& panel) {
 }
 
 double Labels::width_of(const std::string& text) {
-    return 1.1 * report::width_of(text) * size / 14.0 + 4.0;  // fits the widest usual fonts
+    const auto begins_letter = [](char c) {
+        return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
+    };
+    const auto letters =
+        static_cast<double>(std::count_if(text.begin(), text.end(), begins_letter));
+    return 1.1 * (7.6 * letters) * size / 14.0 + 4.0;  // fits the widest usual fonts
 }
 
 Room Labels::around(const Vec2& centre, const std::string& text) {
@@ -98,11 +139,16 @@ bool Labels::is_free(const Room& room) const {
 }
 
 void Labels::write(std::ostream& svg, const Vec2& centre, const std::string& text,
-                   const std::string& colour, const std::string& more) {
-    take(around(centre, text));
+                   const std::string& colour, Ground ground) {
+    const Room room = around(centre, text);
+    take(room);
+    if (ground == Ground::lines)  // not a halo by paint-order, which writers of PDF ignore
+        svg << "<rect x=\"" << px(room.left) << "\" y=\"" << px(room.top) << "\" width=\""
+            << px(room.right - room.left) << "\" height=\"" << px(height)
+            << "\" fill=\"#fff\" fill-opacity=\"0.7\"/>\n";
     svg << text_at(
         centre.x(), centre.y() + 4, text,
-        "class=\"label\" text-anchor=\"middle\" font-size=\"12\" fill=\"" + colour + "\" " + more);
+        "class=\"label\" text-anchor=\"middle\" font-size=\"12\" fill=\"" + colour + "\"");
 }
 
 bool Labels::beside(std::ostream& svg, const Vec2& point, const std::string& text,
@@ -114,12 +160,11 @@ bool Labels::beside(std::ostream& svg, const Vec2& point, const std::string& tex
                                             Vec2(-aside, far),       Vec2(0, 16 + far)};
         for (const Vec2& each : around_it) {
             if (!is_free(around(point + each, text))) continue;
-            write(svg, point + each, text, colour,
-                  "paint-order=\"stroke\" stroke=\"#fff\" stroke-width=\"3\"");
+            write(svg, point + each, text, colour, Ground::lines);
             return true;
         }
     }
     return false;
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

@@ -8,7 +8,7 @@
 
 #include "core/geometry/polygon.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 using mechanics::Vec2;
 
@@ -48,6 +48,10 @@ class Panel {
     Vec2 low_;  ///< world at the panel's lower left corner [m]
 };
 
+/// Text for SVG: escapes markup, replaces control characters by blanks.
+std::string escaped(const std::string& text);
+/// `more`: further attributes of the tag.
+std::string text_at(double x, double y, const std::string& text, const std::string& more = "");
 /// Rounded to a tenth of a pixel.
 std::string px(double value);
 /// "M0 1L2 3", a closed ring with "Z".
@@ -71,13 +75,15 @@ class Labels {
     /// written.
     bool beside(std::ostream& svg, const Vec2& point, const std::string& text,
                 const std::string& colour);
+    /// What lies under a label. lines: it gets a white plate.
+    enum class Ground { plain, lines };
     /// Reserves the space and writes.
     void write(std::ostream& svg, const Vec2& centre, const std::string& text,
-               const std::string& colour, const std::string& more = "");
+               const std::string& colour, Ground ground = Ground::plain);
 
   private:
     Room page_;
     std::vector<Room> taken_;
 };
 
-}  // namespace breach::report
+}  // namespace breach::drawing

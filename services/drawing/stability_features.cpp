@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/report/chart/axis.hpp"
-#include "services/report/section/features.hpp"
-#include "services/report/section/strokes.hpp"
+#include "core/words/number.hpp"
+#include "services/drawing/features.hpp"
+#include "services/drawing/strokes.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 namespace {
 
@@ -18,8 +18,8 @@ void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<doub
                             stroke(colour, 5, "class=\"search\" stroke-opacity=\"0.85\""));
     }
     canvas.keys.push_back({shape("M0 6h24", stroke(colour, 5)),
-                           "LEM: " + name + " searched from x = " + short_number(range[0]) +
-                               " to " + short_number(range[1]) + " m"});
+                           "LEM: " + name + " searched from x = " + words::text_of(range[0]) +
+                               " to " + words::text_of(range[1]) + " m"});
 }
 
 /// Outlines and numbers the zones that liquefy stage by stage.
@@ -70,9 +70,9 @@ void draw_crack(Canvas& canvas, const scene::Scene& scene) {
     canvas.keys.push_back(line_key(
         dark_red,
         "LEM: foot of the tension crack, " +
-            (crack.depth ? short_number(*crack.depth) + " m deep"
-                         : "at y = " + short_number(*crack.level) + " m") +
-            (crack.filled > 0.0 ? ", water in " + short_number(100.0 * crack.filled) + " %" : ""),
+            (crack.depth ? words::text_of(*crack.depth) + " m deep"
+                         : "at y = " + words::text_of(*crack.level) + " m") +
+            (crack.filled > 0.0 ? ", water in " + words::text_of(100.0 * crack.filled) + " %" : ""),
         dash));
 }
 
@@ -92,7 +92,7 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
             const std::string dash = " stroke-dasharray=\"2 4\"";
             draw_line(canvas, "search", {{world.low.x(), y}, {world.high.x(), y}}, violet, dash);
             canvas.keys.push_back(
-                line_key(violet, "LEM: no surface below y = " + short_number(y) + " m", dash));
+                line_key(violet, "LEM: no surface below y = " + words::text_of(y) + " m", dash));
         }
     }
     if (lem.circle) {
@@ -120,10 +120,10 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
         canvas.svg << shape("M" + px(at.x()) + " " + px(at.y() - 26) + "v24m-4 -6l4 6l4 -6",
                             stroke(violet, 2, "class=\"load\""));
         canvas.keys.push_back({shape("M12 0v11m-4 -5l4 5l4 -5", stroke(violet, 2)),
-                               "LEM: line load at x = " + short_number(each.x) + " m, " +
-                                   short_number(each.down / 1e3) + " kN/m down, " +
-                                   short_number(each.right / 1e3) + " kN/m right"});
+                               "LEM: line load at x = " + words::text_of(each.x) + " m, " +
+                                   words::text_of(each.down / 1e3) + " kN/m down, " +
+                                   words::text_of(each.right / 1e3) + " kN/m right"});
     }
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

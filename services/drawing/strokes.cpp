@@ -1,14 +1,13 @@
-#include "services/report/section/strokes.hpp"
+#include "services/drawing/strokes.hpp"
 
 #include <algorithm>
 
-#include "services/report/chart/axis.hpp"
-#include "services/report/chart/frame.hpp"
+#include "core/words/number.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 std::string stroke(const std::string& colour, double width, const std::string& more) {
-    return " fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + short_number(width) +
+    return " fill=\"none\" stroke=\"" + colour + "\" stroke-width=\"" + words::text_of(width) +
            "\" " + more;
 }
 
@@ -28,7 +27,7 @@ Key line_key(const std::string& colour, const std::string& text, const std::stri
 }
 
 std::string place(const Vec2& at) {
-    return "(" + short_number(at.x()) + ", " + short_number(at.y()) + ")";
+    return "(" + words::text_of(at.x()) + ", " + words::text_of(at.y()) + ")";
 }
 
 Line across(const Panel& panel, const Line& line, geometry::Level level) {
@@ -59,9 +58,9 @@ void draw_loads(Canvas& canvas, const scene::Scene& scene,
         }
         canvas.keys.push_back(
             {shape("M6 0v10m-3 -4l3 4l3 -4M16 0v10m-3 -4l3 4l3 -4", stroke(violet, 1.2)),
-             of + ": surcharge of " + short_number(each.pressure / 1e3) +
-                 " kPa, x = " + short_number(each.from) + " to " + short_number(each.to) + " m"});
+             of + ": surcharge of " + words::text_of(each.pressure / 1e3) + " kPa, x = " +
+                 words::text_of(each.from) + " to " + words::text_of(each.to) + " m"});
     }
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/scene/scene.hpp"
-#include "services/report/section/canvas.hpp"
+#include "services/drawing/canvas.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 using Line = std::vector<Vec2>;
 
@@ -32,4 +32,4 @@ Line across(const Panel& panel, const Line& line, geometry::Level level);
 void draw_loads(Canvas& canvas, const scene::Scene& scene,
                 const std::vector<scene::Surcharge>& loads, const std::string& of);
 
-}  // namespace breach::report
+}  // namespace breach::drawing

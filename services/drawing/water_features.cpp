@@ -1,10 +1,10 @@
 #include <algorithm>
 
-#include "services/report/chart/axis.hpp"
-#include "services/report/section/features.hpp"
-#include "services/report/section/strokes.hpp"
+#include "core/words/number.hpp"
+#include "services/drawing/features.hpp"
+#include "services/drawing/strokes.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 
 namespace {
 
@@ -45,7 +45,7 @@ void draw_boundaries(Canvas& canvas, const scene::GroundWater& water) {
         canvas.keys.push_back(
             {shape("M2 6h20", stroke(blue, 5, "stroke-opacity=\"0.55\"")),
              "FEM: pore pressure held on " + each.name + ", " +
-                 (each.level ? "water at y = " + short_number(*each.level) + " m" : "p = 0")});
+                 (each.level ? "water at y = " + words::text_of(*each.level) + " m" : "p = 0")});
     }
 }
 
@@ -93,4 +93,4 @@ void draw_water(Canvas& canvas, const scene::Scene& scene) {
     canvas.keys.push_back(line_key(blue, "piezometric line (LEM)", dash));
 }
 
-}  // namespace breach::report
+}  // namespace breach::drawing

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/phases/phases.hpp"
+#include "services/drawing/section_drawing.hpp"
 #include "services/report/chapters/chapters.hpp"
 #include "services/report/read/entries.hpp"
-#include "services/report/section/section_drawing.hpp"
 
 namespace breach::report {
 
@@ -189,11 +189,11 @@ std::vector<Table> materials_of(const json& scene, const std::vector<SceneEntry>
 /// The study's section. Its faults are ignored: it was computed, and a missing file (a motion on
 /// another machine) is only not drawn.
 std::string drawing_of(const Run& run) {
-    BaseScene base{run.scene, {}, ""};
+    drawing::BaseScene base{run.scene, {}, ""};
     check::Checked checked = check::checked_document(base.scene, "scene", run.folder, {});
     checked.faults.clear();
-    const Draft draft = draft_of(std::move(base), std::move(checked));
-    return can_be_drawn(draft) ? as_svg(draft, {}) : "";
+    const drawing::Draft draft = drawing::draft_of(std::move(base), std::move(checked));
+    return drawing::can_be_drawn(draft) ? drawing::as_svg(draft, {}) : "";
 }
 
 /// "drained c' = 5 kPa, phi' = 30 deg", "s_u = 0.22 sigma'_v0"; "-": the law has no strength.

@@ -1,6 +1,6 @@
 // The drawing of a section: every region once in its colour, everything within the page, faults at
 // their places, distinguishable colours.
-#include "services/report/section/section_drawing.hpp"
+#include "services/drawing/section_drawing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 
 #include "core/scene/reading.hpp"
 #include "core/scene/schema.hpp"
-#include "services/report/section/palette.hpp"
+#include "services/drawing/palette.hpp"
 
-namespace breach::report {
+namespace breach::drawing {
 namespace {
 
 using nlohmann::json;
@@ -326,4 +326,4 @@ TEST(SectionColours, AThirteenthMaterialIsHatched) {
 }
 
 }  // namespace
-}  // namespace breach::report
+}  // namespace breach::drawing
