@@ -10,6 +10,7 @@
 #include "core/criteria/window.hpp"
 #include "core/fault/fault.hpp"
 #include "core/telemetry/lines.hpp"
+#include "services/drawing/section_drawing.hpp"
 #include "services/findings/flags.hpp"
 #include "services/orchestrator/accuracy/runout_error.hpp"
 #include "services/orchestrator/http/answers.hpp"
@@ -17,7 +18,6 @@
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/scene_entries.hpp"
-#include "services/report/section/section_drawing.hpp"
 
 namespace breach::orchestrator {
 
@@ -181,12 +181,12 @@ json inputs_of(const fs::path& folder, const json& asked) {
                            {"value", each.value},
                            {"unit", each.unit},
                            {"default", each.is_default}});
-    report::BaseScene base{asked.at("scene"), {}, ""};
+    drawing::BaseScene base{asked.at("scene"), {}, ""};
     check::Checked checked = check::checked_document(base.scene, "scene", folder, {});
     checked.faults.clear();
-    const report::Draft draft = report::draft_of(std::move(base), std::move(checked));
+    const drawing::Draft draft = drawing::draft_of(std::move(base), std::move(checked));
     return {{"entries", std::move(entries)},
-            {"drawing", report::can_be_drawn(draft) ? json(report::as_svg(draft, {})) : json()}};
+            {"drawing", drawing::can_be_drawn(draft) ? json(drawing::as_svg(draft, {})) : json()}};
 }
 
 }  // namespace

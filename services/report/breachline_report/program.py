@@ -13,6 +13,7 @@ from breachline import plot
 from breachline.faults import BreachlineError
 from breachline.plot import Figure
 
+from .accuracy_page import write_accuracy_page
 from .chapters import Choice, Material, assessment, checklist, flow, ground, inputs, mesh, methods, motion, numbers, runout, shaking, soil_elements, \
     stability, variants
 from .document import Document, Table
@@ -140,7 +141,7 @@ class _Version(argparse.Action):
 def _whole_run(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser("report", description="A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",
                                      epilog="One phase alone, figures and data only: report " + "|".join(_of_one_phase) + " FOLDER --output FOLDER. "
-                                     "Accuracy studies: report accuracy TABLE... --output F.md.")
+                                     "Accuracy studies: report accuracy TABLES --output F.md.")
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
     parser.add_argument("run", type=Path, help="folder of breach export, or with one folder per phase")
     parser.add_argument("--output", type=Path, required=True, metavar="F.html", help="the page; figures and data go to F_files")
@@ -164,8 +165,18 @@ def _one_phase(word: str, arguments: list[str]) -> int:
     return guarded(asked.folder, lambda: write(asked.folder, asked.output))
 
 
+def _accuracy(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser("report accuracy", description="Page of accuracy studies, with error against CPU seconds")
+    parser.add_argument("tables", type=Path, nargs="+", help="what breach accuracy --of RUN --json printed, one file each")
+    parser.add_argument("--output", type=Path, required=True, help="the page (Markdown); figures and data go to a folder of its name")
+    asked = parser.parse_args(arguments)
+    return guarded(asked.output, lambda: write_accuracy_page(asked.tables, asked.output))
+
+
 def main() -> int:
     word, rest = sys.argv[1] if len(sys.argv) > 1 else "", sys.argv[2:]
+    if word == "accuracy":
+        return _accuracy(rest)
     return _one_phase(word, rest) if word in _of_one_phase else _whole_run(sys.argv[1:])
 
 

@@ -288,14 +288,16 @@ def _draw(axes: Any, series: Series, look: dict[str, Any], dot: float) -> None:
         if series.style != "line":
             certainty = np.asarray(series.certainty or ["certain"] * len(x))
             for kind in ("certain", "lower bound", "questionable"):
-                _draw_points(axes, x[certainty == kind], y[certainty == kind], kind, colour, order)
+                if (certainty == kind).any():
+                    _draw_points(axes, x[certainty == kind], y[certainty == kind], kind, colour, order)
 
 
-def _draw_points(axes: Any, x: Array, y: Array, certainty: str, colour: str, order: float = 2) -> Any:
-    """Filled; a lower bound hollow with an arrow upwards; questionable hollow and dashed."""
+def _draw_points(axes: Any, x: Any, y: Any, certainty: str, colour: str, order: float = 2) -> Any:
+    """Filled; a lower bound hollow with an arrow upwards; questionable hollow and dashed. Gives what a legend shows."""
     if certainty == "lower bound":
-        axes.scatter(x, y, marker=_UP, s=_area(32), facecolors="none", edgecolors=colour, linewidths=1.3, zorder=order, clip_on=False)
-    return axes.scatter(x, y, marker=_CIRCLE, s=_area(8), facecolors=colour if certainty == "certain" else "#fff", edgecolors=colour,
+        up = axes.scatter(x, y, marker=_UP, s=_area(32), facecolors="none", edgecolors=colour, linewidths=1.3, zorder=order, clip_on=False)
+        return up, _draw_points(axes, x, y, "", colour, order)
+    return axes.scatter(x, y, marker=_CIRCLE, s=_area(7), facecolors=colour if certainty == "certain" else "#fff", edgecolors=colour,
                         linewidths=1.4, linestyles=(0, (1.6, 1.0)) if certainty == "questionable" else "-", zorder=order, clip_on=False)
 
 
@@ -330,15 +332,14 @@ def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
 
 def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]], beside: float) -> None:
     """Right of the axes, or below those of equal aspect in as many columns as fit."""
-    entries = [(lines.Line2D([], [], **{**look, "linewidth": 3}), each.name) for each, look in zip(chart.series, looks)
+    entries = [(lines.Line2D([], [], **{**look, "linewidth": 3, **({"marker": "o", "linestyle": ""} if each.style == "points" else {})}), each.name)
+               for each, look in zip(chart.series, looks)
                if each.like is None and each.style != "area"]
     if len(entries) > _MOST_ENTRIES:
         entries[_MOST_ENTRIES:] = [(lines.Line2D([], [], alpha=0), f"and {len(entries) - _MOST_ENTRIES} more")]
     for kind in ("lower bound", "questionable"):
         if any(kind in each.certainty for each in chart.series):
-            up = axes.scatter([], [], marker=_UP, s=_area(32), facecolors="none", edgecolors="#333", linewidths=1.3)
-            point = _draw_points(axes, np.array([]), np.array([]), kind, "#333")
-            entries.append(((up, point) if kind == "lower bound" else point, kind))
+            entries.append((_draw_points(axes, np.nan, np.nan, kind, "#333"), kind))
     if not entries:
         return
     width, height = (side / axes.figure.dpi / PX for side in (axes.bbox.width, axes.bbox.height))
