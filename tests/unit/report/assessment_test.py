@@ -37,7 +37,8 @@ class Sampled(Exported):
     def test_it_opens_with_what_a_regulator_asks(self):
         document = self.document()
         self.assertEqual([each.title for each in document.chapters[:2]], ["Dam-breach assessment", "Basis of the assessment"])
-        self.assertEqual(row(document, "assessment", BEYOND)[1:], ["38.5 (32.7 to 43.7)", "24.1 (22.5 to 25.2)", "71 (62.6 to 78.7)", "60 of 64 samples"])
+        self.assertEqual(row(document, "assessment", BEYOND)[1:],
+                         ["38.5 (32.7 to 43.7)", "24.1 (22.5 to 25.2)", "71 (62.6 to 78.7)", "60 of 64 samples"])
         self.assertEqual(document.front.tables[0].rows[0][1], "p50: 38.5 (32.7 to 43.7)")
         self.assertTrue(document.front.limits[0].startswith("Plane strain"), "uncertainty was computed")
         self.assertTrue(row(document, "assessment_what", "When")[1].startswith("Not applicable"))
@@ -49,8 +50,8 @@ class Sampled(Exported):
 
     def test_a_search_for_one_value_has_a_chapter_of_its_own_and_no_distribution(self):
         self.answer |= {"quantities": {}, "sentences": ["A strength of at least 0.484 gives it."], "inverse": {
-            "quantity": "runout_beyond_toe", "unit": "m", "target": 215.0, "vary": "residual strength", "value": 0.484, "bound": "at_least", "low": 0.465,
-            "high": 0.504, "steps": [{"value": 0.4, "results": [232.0, 236.0], "lower_bounds": 1, "result": 234.0, "state": "done"},
+            "quantity": "runout_beyond_toe", "unit": "m", "target": 215.0, "vary": "residual strength", "value": 0.484, "bound": "at_least", 
+            "low": 0.465, "high": 0.504, "steps": [{"value": 0.4, "results": [232.0, 236.0], "lower_bounds": 1, "result": 234.0, "state": "done"},
                                      {"value": 2.5, "results": [], "lower_bounds": 0, "result": None, "state": "failed"}]}}
         document = self.document()
         self.assertEqual(row(document, "back_analysis_steps", "0.4"), ["0.4", "\u2265 234", "232; 236", "1 of 2", "done"])

@@ -33,7 +33,7 @@ class Front(WetRun):
             {"usable": "with_remarks", "code": "same_results", "text": "The same."}]}})
         self.assertEqual(self.document().verdict.notes, ["The same."])
 
-    def test_a_missing_runout_is_told_in_the_headline(self):
+    def test_the_headline_counts_missing_runouts(self):
         self.task("mpm_17", "mpm_solver", SCENE, variant="softened", time=17.0, state="failed")
         self.assertTrue(self.document().front.headline.endswith("; 1 of 4 runouts without a result."))
 
@@ -55,7 +55,8 @@ class Front(WetRun):
                 {"factor_of_safety": intact, "liquefied_depth": 0.0}, {"factor_of_safety": liquefied, "liquefied_depth": 6.0}]}, label[4:])
         self.edit("run.json", stability={"task": "lem_not_softened"})
         self.assertEqual(row(self.document(), "found", "Factor of safety with every"),
-                         ["Factor of safety with every layer liquefied that may", "0.7", "0.6 to 0.7 (2 of 2)", "residual strengths; 0.6 in not_softened"])
+                         ["Factor of safety with every layer liquefied that may", "0.7", "0.6 to 0.7 (2 of 2)",
+                          "residual strengths; 0.6 in not_softened"])
 
     def test_a_distance_has_the_digits_that_its_error_allows(self):
         self.write("results.json", {"rows": [{"variant": "softened", "transfer_time": 16.0, "runout_error": 12.3, "runout_error_from": "repeats"}]})
@@ -72,7 +73,8 @@ class Bounds(WetRun):
 
     def test_lower_bounds_are_marked_wherever_they_are(self):
         document = self.document()
-        for table, begin, column in (("found", "Runout: 99", "governing case"), ("numbers_mpm_solver", LATE, "runout [m]"), ("front_gauges", "largest depth", "toe, x = 2 m"), ("sections", LATE, "passed [m2]"),
+        for table, begin, column in (("found", "Runout: 99", "governing case"), ("numbers_mpm_solver", LATE, "runout [m]"),
+                                     ("front_gauges", "largest depth", "toe, x = 2 m"), ("sections", LATE, "passed [m2]"),
                                      ("variants", "softened", "runout [m]"), ("comparison", "plateau runout (t_T 15.25 to 20 s), softened", "here")):
             self.assertTrue(cell(document, table, begin, column).startswith("\u2265 "), (table, cell(document, table, begin, column)))
         self.assertEqual([each[5] for each in tables(document)["gauges"].rows], ["0.75", "0.75", "\u2265 0.75"])
@@ -124,7 +126,8 @@ class Course(WetRun):
 
     def test_a_trigger_may_ask_for_the_critical_depth(self):
         self.task("lem", "lem_tool", SCENE, {"critical_depth": 12.25, "factor_of_safety": 1.5})
-        self.write("study.json", {**STUDY, "triggers": [{"kind": "window", "lower": "liquefaction_depth >= critical_depth", "upper": "failure_surfaces >= 2"}]})
+        self.write("study.json", {**STUDY, "triggers": [
+            {"kind": "window", "lower": "liquefaction_depth >= critical_depth", "upper": "failure_surfaces >= 2"}]})
         self.assertEqual(row(self.document(), "comparison", "window of transfer times opens")[3], "11")
 
     def test_only_telemetry_that_its_scene_gives_a_meaning_is_drawn(self):
@@ -162,7 +165,8 @@ class Course(WetRun):
 
 class Variants(WetRun):
     def test_their_changes_are_listed_once_for_several_materials(self):
-        self.assertEqual(cell(self.document(), "variants", "not_softened", "changed"), "/materials/{a, b}/viscosity=0; /mpm/terrain=[[0,0],[2,0],[102,-20]]")
+        self.assertEqual(cell(self.document(), "variants", "not_softened", "changed"),
+                         "/materials/{a, b}/viscosity=0; /mpm/terrain=[[0,0],[2,0],[102,-20]]")
         self.assertEqual(changes_of(["/materials/a/c=1", "/materials/b/c=2", "/materials/a/d=3"]), "/materials/{a, b}/c=1, 2; /materials/a/d=3")
         self.assertEqual(cell(self.document(), "variants", "not_softened", "against the first [%]"), "-85.7")
 

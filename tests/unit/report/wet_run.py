@@ -1,5 +1,5 @@
 """An exported run of Mochikoshi's name, written here: one FEM whose mesh entangles, one transfer, three runouts of two variants on two grounds.
-Its numbers are chosen so that each can be told from the others."""
+Each of its numbers occurs once."""
 import copy
 import json
 import os
