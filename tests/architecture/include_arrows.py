@@ -49,7 +49,6 @@ arrows = {
     "services/import": {"services/earthquake", "core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene", "core/words"},
     "services/verify": {"core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
     "services/drawing": {"core/check", "core/command", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/words"},
-    "services/report": {"services/drawing", "services/findings", "services/outflow", "core/check", "core/command", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry", "core/version"},
 }
 # folder -> its subfolders in order: each may include those before it; files of the folder itself come last.
 # Subfolders in one set do not include each other.
@@ -59,7 +58,6 @@ floors = {
     "services/orchestrator": [{"access", "records"}, {"files", "programs"}, {"study", "executors", "store"}, {"ensemble", "triggers"},
                               {"dispatch", "accuracy", "audit"},
                               {"http"}],
-    "services/report": [{"chart"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # folder -> its headers for others; the rest is private
 interfaces = {"services/import": ["services/import/import"],
@@ -73,7 +71,7 @@ owners = {
     "hdf5.h": ["core/exchange/"],
     "sqlite3.h": ["services/orchestrator/store/"],
     "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],
-    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/", "services/report/"],
+    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/"],
     "openssl/": ["core/exchange/", "services/orchestrator/access/"],
 }
 include = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
