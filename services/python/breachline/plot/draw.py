@@ -332,9 +332,10 @@ def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
 
 def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]], beside: float) -> None:
     """Right of the axes, or below those of equal aspect in as many columns as fit."""
-    entries = [(lines.Line2D([], [], **{**look, "linewidth": 3, **({"marker": "o", "linestyle": ""} if each.style == "points" else {})}), each.name)
-               for each, look in zip(chart.series, looks)
-               if each.like is None and each.style != "area"]
+    line: dict[str, Any] = {"linewidth": 3}
+    point: dict[str, Any] = {"marker": "o", "linestyle": ""}
+    entries = [(lines.Line2D([], [], **{**look, **(point if each.style == "points" else line)}), each.name)
+               for each, look in zip(chart.series, looks) if each.like is None and each.style != "area"]
     if len(entries) > _MOST_ENTRIES:
         entries[_MOST_ENTRIES:] = [(lines.Line2D([], [], alpha=0), f"and {len(entries) - _MOST_ENTRIES} more")]
     for kind in ("lower bound", "questionable"):
