@@ -8,8 +8,8 @@
 #include "core/phases/phases.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
+#include "services/drawing/mesh_question.hpp"
 #include "services/estimate/cost.hpp"
-#include "services/report/section/mesh_question.hpp"
 
 namespace breach::cli {
 
@@ -25,7 +25,7 @@ json study_of(const DrawOptions& options, bool is_study) {
 }
 
 /// The fem_solver beside this program; meshes go to the user's cache folder.
-report::Mesher mesher_here() {
+drawing::Mesher mesher_here() {
     const auto value = [](const char* name) {
         const char* found = std::getenv(name);
         return std::filesystem::path(found ? found : "");
@@ -37,21 +37,21 @@ report::Mesher mesher_here() {
             caches / "breachline" / "meshes"};
 }
 
-std::optional<report::DrawnMesh> wanted_mesh(const report::Draft& draft,
-                                             const DrawOptions& options) {
+std::optional<drawing::DrawnMesh> wanted_mesh(const drawing::Draft& draft,
+                                              const DrawOptions& options) {
     const auto& fem = draft.scene.fem;
     if (!draft.faults.empty() || !fem || (!options.mesh && !fem->mesh.msh_file))
         return std::nullopt;
-    return report::mesh_of(draft, mesher_here());
+    return drawing::mesh_of(draft, mesher_here());
 }
 
-std::optional<estimate::MeshCounts> counts_of(const std::optional<report::DrawnMesh>& mesh) {
+std::optional<estimate::MeshCounts> counts_of(const std::optional<drawing::DrawnMesh>& mesh) {
     if (!mesh) return std::nullopt;
     return estimate::MeshCounts{static_cast<double>(mesh->quads.size()),
                                 static_cast<double>(mesh->nodes.size())};
 }
 
-json warnings_of(const report::Draft& draft) {
+json warnings_of(const drawing::Draft& draft) {
     json list = json::array();
     for (const fault::Flag& each : draft.scene.warnings)
         list.push_back({{"code", each.code},
@@ -67,7 +67,7 @@ struct Preview {
 };
 
 /// Asks the server for the cost of earlier runs; without an answer uses the scene alone.
-Preview preview_of(Server& server, const json& document, const report::Draft& draft,
+Preview preview_of(Server& server, const json& document, const drawing::Draft& draft,
                    const std::optional<estimate::MeshCounts>& mesh) {
     std::vector<fault::Fault> faults;
     try {
@@ -87,15 +87,15 @@ Preview preview_of(Server& server, const json& document, const report::Draft& dr
 ExitCode draw(Server& server, const DrawOptions& options, const Console& console) {
     const bool is_study = names_a_scene(options.document);
     const json study = study_of(options, is_study);
-    report::BaseScene base = report::base_scene_of(study);
+    drawing::BaseScene base = drawing::base_scene_of(study);
     if (!is_study) base.pointer = "";
     check::Checked checked = check::checked_document(
         base.scene, options.document.string(), options.document.parent_path(), base.overrides);
-    const report::Draft draft = report::draft_of(std::move(base), std::move(checked));
+    const drawing::Draft draft = drawing::draft_of(std::move(base), std::move(checked));
     std::vector<fault::Fault> faults = draft.faults;
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
-    if (!report::can_be_drawn(draft)) throw fault::BadInput(options.document.string(), faults);
-    report::Additions additions{.mesh = wanted_mesh(draft, options)};
+    if (!drawing::can_be_drawn(draft)) throw fault::BadInput(options.document.string(), faults);
+    drawing::Additions additions{.mesh = wanted_mesh(draft, options)};
     json cost{{"warnings", warnings_of(draft)}};
     if (faults.empty()) {
         Preview preview = preview_of(server, is_study ? study : draft.base.scene, draft,
@@ -114,7 +114,7 @@ ExitCode draw(Server& server, const DrawOptions& options, const Console& console
         additions.warnings.push_back(
             {each.at("code"), fault::Severity::warning, each.at("message"), each.at("pointer")});
     if (!options.picture.empty())
-        exchange::publish_text(options.picture, report::as_svg(draft, additions));
+        exchange::publish_text(options.picture, drawing::as_svg(draft, additions));
     if (faults.empty()) return ExitCode::done;
     console.notes << "breach: "
                   << fault::BadInput(options.document.string(), std::move(faults)).what() << "\n";

@@ -9,8 +9,8 @@
 #include "core/exchange/publish.hpp"
 #include "core/scene/schema.hpp"
 #include "services/cli/new_scene.hpp"
+#include "services/drawing/section_drawing.hpp"
 #include "services/import/import.hpp"
-#include "services/report/section/section_drawing.hpp"
 
 namespace breach::cli {
 
@@ -95,9 +95,9 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
         imported.faults.empty()
             ? imported.scene
             : json{{"title", "What is wrong with " + options.drawing.filename().string()}};
-    const report::Draft draft{{shown, {}, ""}, std::move(imported.sketch), imported.faults};
-    if (!options.picture.empty() && report::can_be_drawn(draft))
-        exchange::publish_text(options.picture, report::as_svg(draft, {}));
+    const drawing::Draft draft{{shown, {}, ""}, std::move(imported.sketch), imported.faults};
+    if (!options.picture.empty() && drawing::can_be_drawn(draft))
+        exchange::publish_text(options.picture, drawing::as_svg(draft, {}));
     if (!imported.faults.empty())
         throw fault::BadInput(options.drawing.string(), std::move(imported.faults));
     Files files = beside(options.output, imported);

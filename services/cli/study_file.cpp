@@ -7,7 +7,7 @@
 #include "core/fault/fault.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/scene/schema.hpp"
-#include "services/report/section/section_drawing.hpp"
+#include "services/drawing/section_drawing.hpp"
 
 namespace breach::cli {
 
@@ -63,10 +63,10 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
 }
 
 json scene_of_study(const std::filesystem::path& file) {
-    report::BaseScene base = report::base_scene_of(read_study(file, {}));
+    drawing::BaseScene base = drawing::base_scene_of(read_study(file, {}));
     check::Checked checked =
         check::checked_document(base.scene, file.string(), file.parent_path(), base.overrides);
-    return report::draft_of(std::move(base), std::move(checked)).base.scene;
+    return drawing::draft_of(std::move(base), std::move(checked)).base.scene;
 }
 
 json study_around(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {

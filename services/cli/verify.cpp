@@ -61,8 +61,7 @@ fault::ExitCode verify(const VerifyOptions& options, const Console& console) {
         });
     verify::write_pages(options.output, catalogue, outcomes, about);
     const verify::Sum sum = verify::sum_of(outcomes);
-    console.out << verify::in_words(sum) << "\n"
-                << (options.output / "index.html").string() << "\n";
+    console.out << verify::in_words(sum) << "\n" << (options.output / "index.md").string() << "\n";
     return sum.passed == sum.comparisons ? fault::ExitCode::done : fault::ExitCode::breakdown;
 }
 

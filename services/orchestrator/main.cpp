@@ -1,4 +1,4 @@
-// breachline serve | check | token | supervise
+// breachline serve | check | token | findings | conditions | inputs | supervise
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -10,6 +10,7 @@
 #include "services/orchestrator/access/token_command.hpp"
 #include "services/orchestrator/audit/check_command.hpp"
 #include "services/orchestrator/executors/supervisor.hpp"
+#include "services/orchestrator/report_questions.hpp"
 #include "services/orchestrator/serve_options.hpp"
 
 using breach::fault::ExitCode;
@@ -17,14 +18,14 @@ using namespace breach::orchestrator;
 
 namespace {
 
-int guarded(const std::function<int()>& work) {
+int guarded(const std::function<int()>& work, ExitCode of_bad_input = ExitCode::usage) {
     spdlog::set_default_logger(spdlog::stderr_color_mt("breachline"));
     spdlog::set_pattern("%H:%M:%S %n %l: %v");
     try {
         return work();
     } catch (const breach::fault::BadInput& error) {
         std::cerr << "breachline: " << error.what() << "\n";
-        return static_cast<int>(ExitCode::usage);
+        return static_cast<int>(of_bad_input);
     } catch (const std::exception& error) {
         std::cerr << "breachline: " << error.what() << "\n";
         return static_cast<int>(ExitCode::io);
@@ -44,6 +45,8 @@ int main(int argc, char** argv) {
     CLI::App* checking = checks.add_to(app);
     TokenCommand tokens;
     CLI::App* token = tokens.add_to(app);
+    ReportQuestions questions;
+    questions.add_to(app);
     CLI::App* supervising = app.add_subcommand("supervise", "run one attempt (started by serve)");
     std::filesystem::path attempt;
     supervising->add_option("folder", attempt, "the attempt's folder")->required();
@@ -63,6 +66,14 @@ int main(int argc, char** argv) {
     if (*serving) return guarded([&] { return serve(options.settings()); });
     if (*checking) return guarded([&] { return static_cast<int>(check(checks)); });
     if (*token) return guarded([&] { return tokens.run(); });
+    if (questions.was_asked()) {
+        return guarded(
+            [&] {
+                questions.answer();
+                return 0;
+            },
+            ExitCode::bad_input);
+    }
     if (ending) {
         end_strays(attempt);
         return 0;

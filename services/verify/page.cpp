@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/exchange/publish.hpp"
 #include "core/words/number.hpp"
-#include "services/report/chart/page.hpp"
-#include "services/report/section/section_drawing.hpp"
 
 namespace breach::verify {
 
@@ -55,61 +52,13 @@ std::vector<std::vector<std::string>> rows_of(const std::vector<const Outcome*>&
     return rows;
 }
 
-/// difference| from the right value against CPU seconds; nothing: no right value is above zero.
-std::optional<report::Figure> error_figure(const Topic& topic,
-                                           const std::vector<const Outcome*>& outcomes) {
-    constexpr double least = 1e-8;  // exact results are drawn here [%]
-    report::Series passed{"passed", {}, {}, report::Style::points},
-        failed{"failed", {}, {}, report::Style::points};
-    for (const Outcome* each : outcomes)
-        for (const Found& found : each->found) {
-            if (!found.value || found.quantity->right == 0.0 || each->cpu_seconds <= 0.0) continue;
-            report::Series& series = found.passed() ? passed : failed;
-            series.x.push_back(each->cpu_seconds);
-            series.y.push_back(
-                std::max(100.0 * std::abs(found.difference() / found.quantity->right), least));
-        }
-    report::Chart chart{topic.title + ": error against run time",
-                        {"CPU time of the case [s]", report::Scale::logarithmic},
-                        {"error [%]", report::Scale::logarithmic},
-                        {}};
-    for (report::Series* each : {&passed, &failed})
-        if (!each->x.empty()) chart.series.push_back(std::move(*each));
-    if (chart.series.empty()) return std::nullopt;
-    return report::Figure{"error_" + topic.id, std::move(chart),
-                          "One point per comparison; exact results are drawn at 1e-8 %."};
-}
-
-std::string drawing_of(const Case& of) {
-    if (of.scene.empty()) return "";
-    std::ifstream stream(of.scene);
-    const json scene = json::parse(stream, nullptr, false);
-    if (!scene.is_object()) return "";
-    report::BaseScene base{.scene = scene, .overrides = {}, .pointer = ""};
-    check::Checked checked =
-        check::checked_document(base.scene, of.scene.string(), of.scene.parent_path(), {});
-    const report::Draft draft = report::draft_of(std::move(base), std::move(checked));
-    return report::can_be_drawn(draft) ? report::as_svg(draft, {}) : "";
-}
-
 std::string tolerances_of(const Case& of) {
     std::string text;
     for (const Quantity& each : of.quantities) {
-        const std::string because =
-            each.what + ": " + allowed_of(each) + ", " + each.because + ". ";
-        if (text.find(because) == std::string::npos) text += because;
+        const std::string because = each.what + ": " + allowed_of(each) + ", " + each.because;
+        if (text.find(because) == std::string::npos) text += (text.empty() ? "" : "; ") + because;
     }
     return text;
-}
-
-report::Chapter chapter_of(const Outcome& outcome) {
-    report::Chapter chapter{outcome.of->id + ": " + outcome.of->question};
-    chapter.text = "Source (" + outcome.of->kind + "): " + outcome.of->source +
-                   ". Allowed: " + tolerances_of(*outcome.of);
-    chapter.drawing = drawing_of(*outcome.of);
-    chapter.tables.push_back(
-        {"case_" + outcome.of->id, outcome.of->id, heads, rows_of({&outcome})});
-    return chapter;
 }
 
 std::string line_of(const About& about) {
@@ -117,25 +66,39 @@ std::string line_of(const About& about) {
            (about.quick ? "; --quick, without the slow cases" : "") + ".";
 }
 
-json as_json(const std::vector<Outcome>& outcomes, const About& about) {
+json as_json(const std::vector<Topic>& catalogue, const std::vector<Outcome>& outcomes,
+             const About& about) {
     json all{{"versions", about.versions},
              {"machine", about.machine},
              {"quick", about.quick},
              {"cases", json::array()}};
-    for (const Outcome& each : outcomes) {
-        json one{
-            {"id", each.of->id}, {"cpu_seconds", each.cpu_seconds}, {"quantities", json::array()}};
-        for (const Found& found : each.found)
-            one["quantities"].push_back(
-                {{"what", found.quantity->what},
-                 {"right", found.quantity->right},
-                 {"value", found.value ? json(*found.value) : json()},
-                 {"problem", found.problem},
-                 {"used", std::isfinite(found.used()) ? json(found.used()) : json()},
-                 {"passed", found.passed()}});
-        all["cases"].push_back(std::move(one));
-    }
+    for (const Topic& topic : catalogue)
+        for (const Outcome* each : of_topic(topic, outcomes)) {
+            json one{{"id", each->of->id},
+                     {"topic", topic.id},
+                     {"cpu_seconds", each->cpu_seconds},
+                     {"quantities", json::array()}};
+            for (const Found& found : each->found)
+                one["quantities"].push_back(
+                    {{"what", found.quantity->what},
+                     {"right", found.quantity->right},
+                     {"value", found.value ? json(*found.value) : json()},
+                     {"problem", found.problem},
+                     {"used", std::isfinite(found.used()) ? json(found.used()) : json()},
+                     {"passed", found.passed()}});
+            all["cases"].push_back(std::move(one));
+        }
     return all;
+}
+
+/// One line each.
+std::string slow_cases(const std::vector<Topic>& catalogue, const std::vector<Outcome>& outcomes) {
+    std::string text;
+    for (const Topic& topic : catalogue)
+        for (const Case& each : topic.cases)
+            if (std::ranges::none_of(outcomes, [&](const Outcome& one) { return one.of == &each; }))
+                text += "- **" + each.id + "**: " + each.question + "\n";
+    return text;
 }
 
 std::string markdown_row(const std::vector<std::string>& cells) {
@@ -165,31 +128,8 @@ std::string in_words(const Sum& sum) {
            " % of what is allowed; " + digits(sum.cpu_seconds, 3) + " CPU seconds.";
 }
 
-report::Document document_of(const std::vector<Topic>& catalogue,
-                             const std::vector<Outcome>& outcomes, const About& about) {
-    report::Document document{"Verification", {in_words(sum_of(outcomes)), line_of(about)}, {}, {}};
-    for (const Topic& topic : catalogue) {
-        const auto own = of_topic(topic, outcomes);
-        if (own.empty()) continue;
-        report::Chapter chapter{topic.title};
-        chapter.text = topic.text;
-        chapter.tables.push_back({"comparisons_" + topic.id, topic.title, heads, rows_of(own)});
-        if (auto figure = error_figure(topic, own)) chapter.figures.push_back(std::move(*figure));
-        document.chapters.push_back(std::move(chapter));
-    }
-    for (const Topic& topic : catalogue)
-        for (const Outcome* each : of_topic(topic, outcomes))
-            document.chapters.push_back(chapter_of(*each));
-    for (const Topic& topic : catalogue)
-        for (const Case& each : topic.cases)
-            if (std::ranges::none_of(outcomes, [&](const Outcome& one) { return one.of == &each; }))
-                document.left_out.push_back(
-                    {each.id + ": " + each.question, "slow; --full runs it"});
-    return document;
-}
-
 std::string as_markdown(const std::vector<Topic>& catalogue, const std::vector<Outcome>& outcomes,
-                        const About& about, const std::string& figures) {
+                        const About& about) {
     std::string page =
         "# Verification\n\nWritten by `breach verify`: " + in_words(sum_of(outcomes)) + "\n" +
         line_of(about) + "\n";
@@ -197,28 +137,24 @@ std::string as_markdown(const std::vector<Topic>& catalogue, const std::vector<O
         const auto own = of_topic(topic, outcomes);
         if (own.empty()) continue;
         page += "\n## " + topic.title + "\n\n" + (topic.text.empty() ? "" : topic.text + "\n\n");
-        if (error_figure(topic, own))
-            page += "![error against run time](" + figures + "/error_" + topic.id + ".svg)\n\n";
         page += markdown_row(heads) + markdown_row(std::vector<std::string>(heads.size(), "---"));
         for (const auto& row : rows_of(own)) page += markdown_row(row);
         page += "\n";
         for (const Outcome* each : own)
             page += "- **" + each->of->id + "**: " + each->of->question + ". " + each->of->source +
-                    " (" + each->of->kind + ").\n";
+                    " (" + each->of->kind + "). Allowed: " + tolerances_of(*each->of) + ".\n";
     }
+    const std::string left_out = slow_cases(catalogue, outcomes);
+    if (!left_out.empty())
+        page += "\n## Left out\n\nSlow cases, which `--full` runs:\n\n" + left_out;
     return page;
 }
 
 void write_pages(const fs::path& folder, const std::vector<Topic>& catalogue,
                  const std::vector<Outcome>& outcomes, const About& about) {
-    const report::Document document = document_of(catalogue, outcomes, about);
-    std::vector<report::Figure> figures;
-    for (const report::Chapter& each : document.chapters)
-        figures.insert(figures.end(), each.figures.begin(), each.figures.end());
-    report::write_figures(folder / "figures", figures);
-    exchange::publish_text(folder / "index.html", report::as_html(document, "figures"));
-    exchange::publish_text(folder / "index.md", as_markdown(catalogue, outcomes, about, "figures"));
-    exchange::publish_text(folder / "results.json", as_json(outcomes, about).dump(1) + "\n");
+    exchange::publish_text(folder / "index.md", as_markdown(catalogue, outcomes, about));
+    exchange::publish_text(folder / "results.json",
+                           as_json(catalogue, outcomes, about).dump(1) + "\n");
 }
 
 }  // namespace breach::verify

@@ -1,9 +1,9 @@
-// Writes the comparisons as one page: HTML with figures, and Markdown for docs.
+// Writes the comparisons as one page of Markdown, and their numbers as JSON, from which
+// workflows/verification/write draws error against run time.
 #pragma once
 
 #include <string>
 
-#include "services/report/chart/document.hpp"
 #include "services/verify/comparison.hpp"
 
 namespace breach::verify {
@@ -23,13 +23,10 @@ Sum sum_of(const std::vector<Outcome>& outcomes);
 /// "161 of 162 comparisons pass, ..."
 std::string in_words(const Sum& sum);
 
-report::Document document_of(const std::vector<Topic>& catalogue,
-                             const std::vector<Outcome>& outcomes, const About& about);
-/// figures: folder of error_TOPIC.svg, relative to the page.
 std::string as_markdown(const std::vector<Topic>& catalogue, const std::vector<Outcome>& outcomes,
-                        const About& about, const std::string& figures);
+                        const About& about);
 
-/// Writes index.html, index.md, results.json and figures/ into the folder.
+/// Writes index.md and results.json into the folder.
 void write_pages(const std::filesystem::path& folder, const std::vector<Topic>& catalogue,
                  const std::vector<Outcome>& outcomes, const About& about);
 

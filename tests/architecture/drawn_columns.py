@@ -31,8 +31,8 @@ def panels():
 
 
 def curves():
-    text = (root / "services/report/chapters/shaking_chapter.cpp").read_text()
-    return re.findall(r'\{"([a-z_A-Z]+)", "', text)
+    text = (root / "services/report/breachline_report/chapters/shaking.py").read_text()
+    return re.findall(r'(?<=[\[ ])\("([a-z_A-Z]+)", f?"', text)
 
 
 def conditions():
@@ -47,7 +47,7 @@ def main():
     faults = [f"panels.js draws {field}, which no phase writes" for field, _ in drawn if field not in known]
     faults += [f"panels.js draws {field} in {unit}; it is in {known[field]}" for field, unit in drawn
                if field in known and unit not in known[field]]
-    faults += [f"shaking_chapter.cpp draws {field}, which no phase writes" for field in curved if field not in known]
+    faults += [f"shaking.py draws {field}, which no phase writes" for field in curved if field not in known]
     faults += [f"advice.cpp asks for {field}, which no phase writes" for field in asked if field not in known]
     print("\n".join(faults) or f"{len(drawn)} fields of panels, {len(curved)} of the report and {len(asked)} of the advice are columns")
     return 1 if faults or len(drawn) < 20 or len(curved) < 10 or len(asked) < 7 else 0

@@ -44,11 +44,11 @@ arrows = {
     "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
     "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
-    "services/orchestrator": {"services/estimate", "services/findings", "services/import", "services/outflow", "services/report", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
-    "services/cli": {"services/estimate", "services/findings", "services/import", "services/report", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
+    "services/orchestrator": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/outflow", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
+    "services/cli": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"services/earthquake", "core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene", "core/words"},
-    "services/verify": {"services/report", "core/check", "core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
-    "services/report": {"services/findings", "services/outflow", "core/check", "core/command", "core/criteria", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/statistics", "core/telemetry", "core/version"},
+    "services/verify": {"core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
+    "services/drawing": {"core/check", "core/command", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/words"},
 }
 # folder -> its subfolders in order: each may include those before it; files of the folder itself come last.
 # Subfolders in one set do not include each other.
@@ -58,11 +58,10 @@ floors = {
     "services/orchestrator": [{"access", "records"}, {"files", "programs"}, {"study", "executors", "store"}, {"ensemble", "triggers"},
                               {"dispatch", "accuracy", "audit"},
                               {"http"}],
-    "services/report": [{"chart"}, {"section"}, {"read"}, {"figures"}, {"chapters"}],
 }
 # folder -> its headers for others; the rest is private
 interfaces = {"services/import": ["services/import/import"],
-         "services/report": ["services/report/section/section_drawing", "services/report/section/mesh_question", "services/report/chart/document", "services/report/chart/page"]}
+         "services/drawing": ["services/drawing/section_drawing", "services/drawing/mesh_question"]}
 # units in several files: an interface included by its own parts
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|beds|reader|reading|plausibility|resolution|words)$"),
              re.compile(r"core/check/(check|findings)$")]
@@ -72,7 +71,7 @@ owners = {
     "hdf5.h": ["core/exchange/"],
     "sqlite3.h": ["services/orchestrator/store/"],
     "httplib.h": ["services/orchestrator/http/", "services/cli/http/"],
-    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/", "services/report/"],
+    "CLI/": ["core/process/", "services/orchestrator/", "services/cli/"],
     "openssl/": ["core/exchange/", "services/orchestrator/access/"],
 }
 include = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -1,8 +1,8 @@
 // A drawing as DXF or CSV: gives a scene that every reader accepts, or faults with places. The
 // first byte selects format and options.
 #include "core/check/check.hpp"
+#include "services/drawing/section_drawing.hpp"
 #include "services/import/import.hpp"
-#include "services/report/section/section_drawing.hpp"
 #include "tests/fuzz/fuzz.hpp"
 
 using namespace breach;
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::require(!each.cause.empty() && !each.remedy.empty() &&
                           nlohmann::json(each.cause + each.pointer).dump().size() > 2,
                       "a fault says why, in UTF-8, and what to write instead");
-    const report::Draft draft{{shown, {}, ""}, imported.sketch, imported.faults};
-    if (report::can_be_drawn(draft)) report::as_svg(draft, {});
+    const drawing::Draft draft{{shown, {}, ""}, imported.sketch, imported.faults};
+    if (drawing::can_be_drawn(draft)) drawing::as_svg(draft, {});
     return 0;
 }

@@ -3,7 +3,9 @@
 #include "core/exchange/csv.hpp"
 #include "services/findings/flags.hpp"
 #include "services/findings/headline.hpp"
+#include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/records/same_results.hpp"
 #include "services/orchestrator/records/time_left.hpp"
 
 namespace breach::orchestrator {
@@ -200,6 +202,46 @@ json described(Columns columns) {
                         {"grows", findings::grows(each.name)}});
     }
     return list;
+}
+
+namespace {
+
+/// Among the study's own variants, without repeats.
+json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
+    std::vector<std::string> variants;
+    for (const json& each : still(store.study_of(run)).value("variants", json::array()))
+        variants.push_back(each.at("name"));
+    if (variants.size() < 2) return json::array();
+    return same_results(all_rows(), variants);
+}
+
+}  // namespace
+
+std::string opened(const json& object) {
+    std::string text = object.dump(-1, ' ', false, json::error_handler_t::replace);
+    text.back() = ',';
+    return text;
+}
+
+std::string results_text(const Store& store, Run run, const std::vector<ResultRow>& rows,
+                         const std::vector<ResultRow>& means, const AllRows& all_rows) {
+    json without = json::array();
+    for (const WithoutTransfer& each : store.without_transfer(run.id))
+        without.push_back({{"variant", each.variant},
+                           {"fem_task", each.fem_task},
+                           {"state", each.state},
+                           {"stood", each.stood},
+                           {"reason", each.reason}});
+    const json same = same_results_of(store, run.id, all_rows);
+    run.facts.same_results = same;
+    const json head{{"run", run.id},
+                    {"verdict", findings::as_json(findings::verdict_of(run.facts))},
+                    {"columns", described(result_columns())},
+                    {"mean_columns", described(mean_columns())},
+                    {"without_transfer", std::move(without)},
+                    {"same_results", same}};
+    return opened(head) + "\"rows\":" + as_json_text(rows, result_columns()) +
+           ",\"means\":" + as_json_text(means, mean_columns()) + "}";
 }
 
 json schema_of_rows(Columns columns) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
+#include "services/orchestrator/accuracy/runout_error.hpp"
 #include "services/orchestrator/dispatch/progress_board.hpp"
 #include "services/orchestrator/records/records.hpp"
 #include "services/orchestrator/records/result_columns.hpp"
@@ -24,6 +25,11 @@ std::string as_json_text(const std::vector<ResultRow>& rows, Columns columns);
 /// Description of the columns of a table of results: [{name, kind, unit, title, meaning}].
 nlohmann::json described(Columns columns);
 nlohmann::json schema_of_rows(Columns columns);
+/// The text of an object to be continued: "{...," instead of "{...}".
+std::string opened(const nlohmann::json& object);
+/// GET /v1/runs/{id}/results as JSON. rows, means: with their errors (accuracy/runout_error.hpp).
+std::string results_text(const Store& store, Run run, const std::vector<ResultRow>& rows,
+                         const std::vector<ResultRow>& means, const AllRows& all_rows);
 
 /// RFC 4180, one line per transfer time, the names of the JSON answer in the first line.
 std::string as_csv(const std::vector<ResultRow>& rows, Columns columns);

@@ -79,13 +79,6 @@ void list_runs(const Service& service, Call& call, Ask ask) {
     reply(call.response, {{filter.sweeps_only ? "sweeps" : "runs", list}, {"next", next}});
 }
 
-/// The text of an object to be continued: "{...," instead of "{...}".
-std::string opened(const json& object) {
-    std::string text = object.dump(-1, ' ', false, json::error_handler_t::replace);
-    text.back() = ',';
-    return text;
-}
-
 /// Sends the tasks of a large run in parts as the reader takes them, so that memory does not grow
 /// with the run. Each task has its state at the time of reading.
 void send_with_tasks(const Service& service, Call& call, const json& head) {
@@ -234,18 +227,9 @@ void add_without_transfer(const Store& store, const std::string& run,
     }
 }
 
-/// Among the study's own variants, without repeats.
-json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
-    std::vector<std::string> variants;
-    for (const json& each : still(store.study_of(run)).value("variants", json::array()))
-        variants.push_back(each.at("name"));
-    if (variants.size() < 2) return json::array();
-    return same_results(all_rows(), variants);
-}
-
 void results(const Service& service, Call& call) {
     call.allow_parameters({"format", "from", "limit", "state", "flag", "table"});
-    Run run = wanted_run(service, call.parts[0]);
+    const Run run = wanted_run(service, call.parts[0]);
     const std::string wanted = call.parameter("table").value_or("runs");
     if (wanted != "runs" && wanted != "means") throw bad_request("table must be runs or means");
     const ResultFilter filter = wanted_results(call);
@@ -278,24 +262,8 @@ void results(const Service& service, Call& call) {
         return;
     }
     if (format != "json") throw bad_request("format must be json, csv or hdf5");
-    json without = json::array();
-    for (const WithoutTransfer& each : service.store.without_transfer(call.parts[0]))
-        without.push_back({{"variant", each.variant},
-                           {"fem_task", each.fem_task},
-                           {"state", each.state},
-                           {"stood", each.stood},
-                           {"reason", each.reason}});
-    const json same = same_results_of(service.store, call.parts[0], all_rows);
-    run.facts.same_results = same;
-    const json head{{"run", call.parts[0]},
-                    {"verdict", findings::as_json(findings::verdict_of(run.facts))},
-                    {"columns", described(runs.columns)},
-                    {"mean_columns", described(means.columns)},
-                    {"without_transfer", std::move(without)},
-                    {"same_results", same}};
     reply_with_text(call.response,
-                    opened(head) + "\"rows\":" + as_json_text(runs.rows, runs.columns) +
-                        ",\"means\":" + as_json_text(means.rows, means.columns) + "}");
+                    results_text(service.store, run, runs.rows, means.rows, all_rows));
 }
 
 // ---------------------------------------------------------------- sweeps

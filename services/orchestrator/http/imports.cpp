@@ -3,8 +3,8 @@
 #include <set>
 
 #include "core/scene/schema.hpp"
+#include "services/drawing/section_drawing.hpp"
 #include "services/import/import.hpp"
-#include "services/report/section/section_drawing.hpp"
 
 namespace breach::orchestrator {
 
@@ -123,9 +123,9 @@ std::string picture_of_import(const std::string& body) {
     const json shown =
         made.faults.empty() ? made.scene : json{{"title", "What is wrong with the drawing"}};
     const fault::BadInput first("drawing", std::move(made.faults));
-    const report::Draft draft{{shown, {}, ""}, std::move(made.sketch), first.faults()};
-    if (!report::can_be_drawn(draft)) throw first;
-    return report::as_svg(draft, {});
+    const drawing::Draft draft{{shown, {}, ""}, std::move(made.sketch), first.faults()};
+    if (!drawing::can_be_drawn(draft)) throw first;
+    return drawing::as_svg(draft, {});
 }
 
 }  // namespace breach::orchestrator

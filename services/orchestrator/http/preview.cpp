@@ -6,13 +6,13 @@
 #include "core/phases/phases.hpp"
 #include "core/scene/schema.hpp"
 #include "core/words/number.hpp"
+#include "services/drawing/mesh_question.hpp"
 #include "services/estimate/cost.hpp"
 #include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
 #include "services/orchestrator/study/graph.hpp"
-#include "services/report/section/mesh_question.hpp"
 
 namespace breach::orchestrator {
 
@@ -22,24 +22,24 @@ namespace {
 
 struct Sent {
     json document;
-    report::Draft draft;
+    drawing::Draft draft;
 };
 
 Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(body, "document");
     if (is_study_document(document) && !document.value("scene", json()).is_object())
         sent_study(document, service);  // throws its faults
-    report::BaseScene base = report::base_scene_of(document);
+    drawing::BaseScene base = drawing::base_scene_of(document);
     check::Recordings recordings;
     check::Checked checked = check_scene_of_study(base.pointer, base.scene, base.overrides,
                                                   files_of(service), recordings);
     checked.faults = seen_from_here(std::move(checked.faults));
-    return {std::move(document), report::draft_of(std::move(base), std::move(checked))};
+    return {std::move(document), drawing::draft_of(std::move(base), std::move(checked))};
 }
 
-bool is_study(const report::Draft& draft) { return !draft.base.pointer.empty(); }
+bool is_study(const drawing::Draft& draft) { return !draft.base.pointer.empty(); }
 
-fault::BadInput refusal_of(const report::Draft& draft, const std::vector<fault::Fault>& of_study) {
+fault::BadInput refusal_of(const drawing::Draft& draft, const std::vector<fault::Fault>& of_study) {
     std::vector<fault::Fault> faults = draft.faults;
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
     faults.insert(faults.end(), of_study.begin(), of_study.end());
@@ -52,7 +52,7 @@ struct Judged {
     std::vector<fault::Flag> warnings;
 };
 
-Judged judged(const Service& service, const json& document, const report::Draft& draft) {
+Judged judged(const Service& service, const json& document, const drawing::Draft& draft) {
     if (!is_study(draft)) return {{}, draft.scene.warnings};
     try {
         return {{}, sent_study(document, service).warnings};
@@ -90,7 +90,7 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     return repeats;
 }
 
-report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) {
+drawing::DrawnMesh mesh_here(const Service& service, const drawing::Draft& draft) {
     constexpr double most_elements = 2e5;  // larger meshes take gmsh too long for a request
     for (const estimate::PhaseCost& each : estimate::cost_of(draft.scene))
         if (each.phase == phases::fem.program && each.counts.at(0).second > most_elements)
@@ -98,8 +98,8 @@ report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) 
                                   {{draft.base.pointer + "/section",
                                     "asks for more elements than are meshed for a picture",
                                     "draw it without its mesh, or use breach draw --mesh"}});
-    return report::mesh_of(draft,
-                           {service.bin / phases::fem.program, service.data.scratch() / "meshes"});
+    return drawing::mesh_of(draft,
+                            {service.bin / phases::fem.program, service.data.scratch() / "meshes"});
 }
 
 }  // namespace
@@ -107,8 +107,8 @@ report::DrawnMesh mesh_here(const Service& service, const report::Draft& draft) 
 std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh) {
     const auto [document, draft] = sent(service, body);
     auto [faults, warnings] = judged(service, document, draft);
-    if (!report::can_be_drawn(draft)) throw refusal_of(draft, faults);
-    report::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
+    if (!drawing::can_be_drawn(draft)) throw refusal_of(draft, faults);
+    drawing::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
     if (draft.faults.empty()) {
         std::optional<estimate::MeshCounts> counts;
         if (mesh == MeshDrawn::yes && draft.scene.fem) {
@@ -119,7 +119,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
         additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
                                             estimate::repeats_of(document));
     }
-    return report::as_svg(draft, additions);
+    return drawing::as_svg(draft, additions);
 }
 
 json cost_of(const Service& service, const std::string& body) {

@@ -31,6 +31,9 @@ class Frame:
     units: dict[str, str]
     quads: Array | None = None  #: [elements, 4] corners of a mesh; None: material points
     cell_fields: dict[str, Array] = field(default_factory=dict)  #: [elements] or [elements, components]
+    stress_of_regions: list[str] = field(default_factory=list)  #: "effective" or "total"; empty: all effective
+    transfer_time: float | None = None  #: of material points [s], on the FEM's clock
+    inputs: list[tuple[str, str]] = field(default_factory=list)  #: path and SHA-256 of the files that it was made from
 
     def __getitem__(self, name: str) -> Array:
         for fields in (self.fields, self.cell_fields):
@@ -124,7 +127,13 @@ def _frame_in(file: Any) -> Frame:
     cell_fields = _fields(grid["CellData"], units)
     quads = grid["Connectivity"][()].reshape(-1, 4) if grid["Types"].shape[0] > 0 and grid["Types"][0] == 9 else None
     return Frame(float(ours.attrs["time"]), grid["Points"][:, :2], list(ours["regions"].asstr()),
-                 list(ours["materials_of_regions"].asstr()), fields, units, quads, cell_fields)
+                 list(ours["materials_of_regions"].asstr()), fields, units, quads, cell_fields, _texts(ours, "stress_of_regions"),
+                 float(ours.attrs["transfer_time"]) if "transfer_time" in ours.attrs else None,
+                 list(zip(_texts(ours, "provenance/input_paths"), _texts(ours, "provenance/input_sha256"))))
+
+
+def _texts(group: Any, name: str) -> list[str]:
+    return list(group[name].asstr()) if name in group else []
 
 
 def _fields(group: Any, units: dict[str, str]) -> dict[str, Array]:

@@ -107,7 +107,7 @@ TEST(Comparison, AProgramThatFailsIsARow) {
     const auto outcomes = bench.outcomes(topics);
     EXPECT_FALSE(outcomes[0].found[0].passed());
     EXPECT_NE(outcomes[0].found[0].problem.find("exit code 70"), std::string::npos);
-    EXPECT_NE(as_markdown(topics, outcomes, {}, "figures").find("**failed**"), std::string::npos);
+    EXPECT_NE(as_markdown(topics, outcomes, {}).find("**failed**"), std::string::npos);
 }
 
 TEST(Comparison, ARefusalIsRightByItsExitCodeAndItsWords) {

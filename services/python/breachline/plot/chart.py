@@ -3,11 +3,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Any, Literal
+
+from numpy.typing import NDArray
 
 Style = Literal["line", "points", "line_and_points", "area", "segments", "dots", "bars"]
 #: Of a point's value. "lower bound" is drawn with an arrow upwards, "questionable" hollow and dashed.
 Certainty = Literal["certain", "lower bound", "questionable"]
+Numbers = Sequence[float] | NDArray[Any]
 
 
 @dataclass
@@ -22,13 +25,13 @@ class Series:
     """segments and bars join the points 0-1, 2-3, ..."""
 
     name: str
-    x: Sequence[float]
-    y: Sequence[float]
+    x: Numbers
+    y: Numbers
     style: Style = "line"
     certainty: Sequence[Certainty] = ()  #: of each point; empty: all are certain
-    error: Sequence[float] = ()  #: up and down in y; NaN: unknown; empty: no error bars
-    low: Sequence[float] = ()  #: range in y of each point; NaN: unknown; empty: no ranges
-    high: Sequence[float] = ()
+    error: Numbers = ()  #: up and down in y; NaN: unknown; empty: no error bars
+    low: Numbers = ()  #: range in y of each point; NaN: unknown; empty: no ranges
+    high: Numbers = ()
     like: int | None = None  #: earlier series with the same colour (computed beside measured); it has no entry in the legend
 
 
@@ -38,9 +41,9 @@ class Field:
 
     label: str  #: of the value, with its unit
     corners: int  #: of each polygon
-    x: Sequence[float]  #: [n * corners], corner after corner
-    y: Sequence[float]
-    value: Sequence[float]  #: [n]
+    x: Numbers  #: [n * corners], corner after corner
+    y: Numbers
+    value: Numbers  #: [n]
     low: float  #: of the colours; values outside have the colour of the nearer end
     high: float
 
@@ -71,11 +74,24 @@ class Figure:
     chart: Chart
     caption: str = ""
 
+    def __repr__(self) -> str:
+        return f"Figure({self.name}: {self.chart.title})"
+
+    def _repr_png_(self) -> bytes:
+        """Shown by a notebook, which keeps it: of a cloud a small one."""
+        return self.png(dots_per_inch=96)
+
     def svg(self) -> str:
         """Self-contained. Raises ValueError for numbers that cannot be drawn."""
         from .draw import as_svg
 
         return as_svg(self.chart)
+
+    def png(self, dots_per_inch: int = 192) -> bytes:
+        """The same; two dots for each of the SVG's pixels unless given otherwise."""
+        from .draw import as_png
+
+        return as_png(self.chart, dots_per_inch)
 
     def csv(self) -> str:
         """As the files of a report have it: series, x, y and what else is known, one row per point; or each polygon of the field."""
