@@ -10,11 +10,6 @@ using fault::Flag;
 using fault::Severity;
 using nlohmann::json;
 
-std::vector<Flag> flags_of(const json& result) {
-    return result.is_object() ? flags_in(result.value("flags", json::array()))
-                              : std::vector<Flag>{};
-}
-
 std::vector<Flag> flags_in(const json& list) {
     std::vector<Flag> flags;
     for (const json& each : list)
@@ -39,16 +34,6 @@ json as_json(const std::vector<Flag>& flags) {
 std::string worded(std::string code) {
     std::ranges::replace(code, '_', ' ');
     return code;
-}
-
-std::string listed(const std::vector<Flag>& flags, Severity severity) {
-    std::vector<std::string> codes;
-    for (const Flag& each : flags)
-        if (each.severity == severity && std::ranges::find(codes, each.code) == codes.end())
-            codes.push_back(each.code);
-    std::string text;
-    for (const std::string& each : codes) text += (text.empty() ? "" : ", ") + worded(each);
-    return text;
 }
 
 bool grows(std::string_view quantity) {

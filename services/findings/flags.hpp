@@ -10,8 +10,6 @@
 
 namespace breach::findings {
 
-/// The flags in a result.json; empty without a result.
-std::vector<fault::Flag> flags_of(const nlohmann::json& result);
 /// The flags of a list as result.json, the API and the database have it.
 std::vector<fault::Flag> flags_in(const nlohmann::json& list);
 /// Such a list: [{"code", "severity", "message", "pointer"}]
@@ -19,9 +17,6 @@ nlohmann::json as_json(const std::vector<fault::Flag>& flags);
 
 /// "still moving"
 std::string worded(std::string code);
-
-/// Codes in words, each once: "still moving, numerical share".
-std::string listed(const std::vector<fault::Flag>& flags, fault::Severity severity);
 
 /// Whether this quantity of a runout can only grow while soil moves.
 bool grows(std::string_view quantity);
