@@ -10,6 +10,7 @@
 
 #include "core/motion/measures.hpp"
 #include "core/phases/files.hpp"
+#include "core/scene/softening.hpp"
 #include "core/words/remedy.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/monitors/upstream_wall.hpp"
@@ -226,6 +227,7 @@ void report_end(Course& course) {
     auto& facts = session.result();
     const auto& entangled = course.entanglement;
     const bool stopped = entangled && entangled->then == scene::AtEntanglement::stop;
+    facts["softening"] = scene::softening_in(session.scene());
     facts["ended"] = stopped ? "entangled" : "complete";
     facts["end_time"] = course.position.time;
     if (entangled) {

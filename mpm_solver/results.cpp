@@ -10,6 +10,7 @@
 
 #include "core/exchange/publish.hpp"
 #include "core/phases/files.hpp"
+#include "core/scene/softening.hpp"
 #include "core/scene/words.hpp"
 #include "mpm_solver/measure/carried_slide.hpp"
 #include "mpm_solver/measure/ending_flags.hpp"
@@ -235,6 +236,8 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["domain_x"] = mpm.domain_x;
     result["domain_y"] = mpm.domain_y;
     result["fill_shift"] = mpm.fill_shift;
+    result["cell_size"] = mpm.cell_size;
+    result["softening"] = scene::softening_in(session.scene());
     result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
     result["wave_speed"] = wave_speed(simulation.body());

@@ -115,12 +115,12 @@ std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model) {
         const Part part = part_within(along.dot(a), along.dot(b), 0.0, length);
         if (part.length() == 0.0) continue;
         ++found;
-        const auto press = [&](std::int32_t node, double share) {
+        const auto add_share = [&](std::int32_t node, double share) {
             model.external_force.segment<2>(2 * static_cast<Eigen::Index>(node)) -=
                 share * load.pressure * edge.outwards;
         };
-        press(edge.a, part.on_a());
-        press(edge.b, part.on_b());
+        add_share(edge.a, part.on_a());
+        add_share(edge.b, part.on_b());
     }
     return found;
 }

@@ -144,7 +144,7 @@ void find_undrained(const scene::Fem& fem, std::size_t stage, Model& model) {
                                      "name regions with water in them, or leave it out"}});
 }
 
-void press(const scene::Fem& fem, std::size_t stage, Model& model) {
+void apply_pressures(const scene::Fem& fem, std::size_t stage, Model& model) {
     std::size_t from = 0;
     for (std::size_t s = 0; s <= stage; ++s)
         if (fem.stages[s].pressures) from = s;
@@ -244,7 +244,7 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     for (std::size_t s = 0; s <= stage; ++s) k_h = fem.stages[s].seismic_coefficient.value_or(k_h);
     set_weights(decided.gravity.value, k_h, model);
     add_ground_loads(now, model);
-    press(fem, stage, model);
+    apply_pressures(fem, stage, model);
     push(fem, stage, model);
     creep(fem, stage, model);
 }

@@ -14,43 +14,43 @@ namespace {
 /// acceleration.
 constexpr double growth = 1.5;
 
-struct Heap {
+struct Cluster {
     double mass = 0.0;
     double momentum = 0.0;  ///< mass times speed
     double moment = 0.0;    ///< mass times x
 };
 
-using Heaps = std::unordered_map<std::int32_t, Heap>;  ///< by cell
+using Clusters = std::unordered_map<std::int32_t, Cluster>;  ///< by cell
 
-Heaps fast_soil(const Body& body, const std::vector<std::uint8_t>& counts, double speed) {
+Clusters fast_soil(const Body& body, const std::vector<std::uint8_t>& counts, double speed) {
     const Points& points = body.points;
     const Grid& grid = body.grid;
-    Heaps heaps;
+    Clusters clusters;
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (!counts[points.region[p]]) continue;
         const double v = std::hypot(points.vx[p], points.vy[p]);
         if (v <= speed) continue;
-        Heap& heap = heaps[grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]))];
-        heap.mass += points.m[p];
-        heap.momentum += points.m[p] * v;
-        heap.moment += points.m[p] * points.x[p];
+        Cluster& cluster = clusters[grid.cell(grid.xi(points.x[p]), grid.eta(points.y[p]))];
+        cluster.mass += points.m[p];
+        cluster.momentum += points.m[p] * v;
+        cluster.moment += points.m[p] * points.x[p];
     }
-    return heaps;
+    return clusters;
 }
 
-/// Removes the connected cells from `heaps` and returns their sum.
-Heap flood(Heaps& heaps, std::int32_t rows) {
-    Heap whole;
-    std::vector<std::int32_t> open{heaps.begin()->first};
+/// Removes the connected cells from `clusters` and returns their sum.
+Cluster flood(Clusters& clusters, std::int32_t rows) {
+    Cluster whole;
+    std::vector<std::int32_t> open{clusters.begin()->first};
     while (!open.empty()) {
         const std::int32_t cell = open.back();
         open.pop_back();
-        const auto found = heaps.find(cell);
-        if (found == heaps.end()) continue;
+        const auto found = clusters.find(cell);
+        if (found == clusters.end()) continue;
         whole.mass += found->second.mass;
         whole.momentum += found->second.momentum;
         whole.moment += found->second.moment;
-        heaps.erase(found);
+        clusters.erase(found);
         for (const std::int32_t column : {-rows, 0, rows}) {
             for (const std::int32_t row : {-1, 0, 1}) open.push_back(cell + column + row);
         }
@@ -101,8 +101,8 @@ std::string within(const scene::Rest& rest) {
 }
 
 /// Checks both limits of the kinetic energy.
-std::optional<std::string> why_lively(const History& history, const Window& window, double scale,
-                                      double mass, const scene::Rest& rest) {
+std::optional<std::string> reason_to_go_on(const History& history, const Window& window,
+                                           double scale, double mass, const scene::Rest& rest) {
     const double kinetic = std::max(window.early, window.late);
     if (kinetic > rest.kinetic_share * scale) {
         return "its kinetic energy was up to " + per_cent(kinetic / scale) +
@@ -123,10 +123,10 @@ std::optional<std::string> why_lively(const History& history, const Window& wind
 
 MovingBody heaviest_moving_body(const Body& body, const std::vector<std::uint8_t>& counts,
                                 double speed) {
-    Heaps heaps = fast_soil(body, counts, speed);
-    Heap heaviest;
-    while (!heaps.empty()) {
-        const Heap each = flood(heaps, body.grid.rows);
+    Clusters clusters = fast_soil(body, counts, speed);
+    Cluster heaviest;
+    while (!clusters.empty()) {
+        const Cluster each = flood(clusters, body.grid.rows);
         if (each.mass > heaviest.mass) heaviest = each;
     }
     if (heaviest.mass == 0.0) return {};
@@ -151,7 +151,7 @@ std::optional<std::string> why_moving(const History& history, const Energy& star
     const Energy then{.gravitational = now.gravitational_energy, .shaking = now.shaking_work};
     const double scale = energy_scale(rest, released(start, then), mass);
     const Window window = window_of(history, from);
-    if (auto reason = why_lively(history, window, scale, mass, rest)) return reason;
+    if (auto reason = reason_to_go_on(history, window, scale, mass, rest)) return reason;
     if (window.change > rest.change) {
         return "its front moved by " + number(window.change) + " m" + within(rest) + " (at rest " +
                number(rest.change) + " m)";

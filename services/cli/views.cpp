@@ -227,7 +227,7 @@ std::string as_run_page(const json& run) {
             as_task_table(run.at("tasks"));
     for (const json& task : run.at("tasks")) {
         if (task.contains("fault") && !task["fault"].is_null())
-            text += "\n" + cell(task, "id") + "  " + fate_of_task(task);
+            text += "\n" + cell(task, "id") + "  " + end_of_task(task);
     }
     if (!text.ends_with('\n')) text += "\n";
     Legend legend;
@@ -240,7 +240,7 @@ std::string as_run_page(const json& run) {
 std::string as_task_page(const json& task) {
     std::string text = name_of_task(task) + "\n";
     text += "task      " + cell(task, "id") + "\n";
-    text += "state     " + fate_of_task(task) + "\n";
+    text += "state     " + end_of_task(task) + "\n";
     text += "done      " + bar(task.value("progress", 0.0)) + "  " + cell(task, "message") + "\n";
     std::vector<Cells> attempts;
     for (const json& each : task.at("attempts")) {
@@ -425,7 +425,7 @@ std::string name_of_task(const json& task) {
     return text;
 }
 
-std::string fate_of_task(const json& task) {
+std::string end_of_task(const json& task) {
     std::string text = state_shown(task);
     if (text == "questionable") text += " (" + codes_of(flags_of(task)) + ")";
     if (const std::string end = unusual_end(task); !end.empty()) text += ", " + end;

@@ -45,6 +45,6 @@ std::string as_progress_line(const nlohmann::json& run);
 std::string name_of_task(const nlohmann::json& task);
 /// "failed (exit code 70): the disk is full", "succeeded, ended: entangled at 6.7 s",
 /// "questionable (still_moving)", or only the state
-std::string fate_of_task(const nlohmann::json& task);
+std::string end_of_task(const nlohmann::json& task);
 
 }  // namespace breach::cli

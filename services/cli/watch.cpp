@@ -115,7 +115,7 @@ class Diary {
             known = task["state"];
             if (known == "blocked" || known == "ready") continue;
             out_ << bar(run.value("progress", 0.0)) << "  " << name_of_task(task) << "  "
-                 << fate_of_task(task) << std::endl;
+                 << end_of_task(task) << std::endl;
         }
     }
 
@@ -181,7 +181,7 @@ ExitCode watch(Server& server, const std::string& name, Questionable questionabl
                         console.out << as_progress_line(run) << "\n";
                     for (const json& task : run.at("tasks"))
                         if (console.screen == Screen::terminal && task.at("state") == "failed")
-                            console.out << name_of_task(task) << "  " << fate_of_task(task) << "\n";
+                            console.out << name_of_task(task) << "  " << end_of_task(task) << "\n";
                 }
                 return code_of_end(run, questionable, console);
             }

@@ -74,7 +74,7 @@ std::string capital(std::string text) {
 std::string ended(const std::string& text) { return text + (text.ends_with('.') ? "" : "."); }
 
 /// An implausible entry makes the result unusable; with other warnings the number can be used.
-Usable worth_of(const fault::Flag& flag) {
+Usable usable_with(const fault::Flag& flag) {
     if (flag.code == "implausible") return Usable::no;
     return flag.severity == Severity::questionable ? Usable::questionable : Usable::with_remarks;
 }
@@ -104,7 +104,7 @@ void add_flags(std::vector<Raised> raised, std::vector<Reason>& reasons) {
             capital(worded(most->flag.code)) + ", " + of + ": " + raised[i].flag.message;
         if (raised[i].results > 1 && !raised[i].first.empty())
             text += " (" + raised[i].first + ", the first of them)";
-        reasons.push_back({worth_of(most->flag), most->flag.code,
+        reasons.push_back({usable_with(most->flag), most->flag.code,
                            std::to_string(most->results) + " of " +
                                std::to_string(most->of_results) + " " + results_of(most->phase) +
                                " " + brief_of(most->flag.code),
@@ -120,7 +120,7 @@ void add_submitted(const Facts& facts, std::vector<Reason>& reasons) {
             return raised.flag.code == each.code && each.message.ends_with(raised.flag.message);
         });
         if (repeated) continue;
-        reasons.push_back({worth_of(each), each.code, brief_of(each.code) + " at submission",
+        reasons.push_back({usable_with(each), each.code, brief_of(each.code) + " at submission",
                            capital(worded(each.code)) + ", at submission" +
                                (each.pointer.empty() ? "" : " (" + each.pointer + ")") + ": " +
                                ended(each.message),

@@ -89,7 +89,7 @@ json findings_in(const fs::path& folder) {
     const NewRun stored = run_of(folder, phases);
     store.write([&](Transaction& transaction) { store_results(transaction, stored, phases); });
     const ProgressBoard board;
-    Run run = still(store.run(stored.id));
+    Run run = unless_removed(store.run(stored.id));
     std::vector<ResultRow> rows = store.results(run.id), means = store.means(run.id);
     const AllRows all_rows = [&]() -> const std::vector<ResultRow>& { return rows; };
     tell_runout_errors(store, data, run.id, rows, means, all_rows);
@@ -100,7 +100,7 @@ json findings_in(const fs::path& folder) {
     for (const char* unknown : {"id", "state", "created", "started", "finished"})
         answer["run"][unknown] = nullptr;  // of the store for this answer alone
     for (std::size_t i = 0; i < phases.size(); ++i) {
-        json task = as_json(still(store.task(task_id(run.id, i))), {}, {}, board);
+        json task = as_json(unless_removed(store.task(task_id(run.id, i))), {}, {}, board);
         task["folder"] = fs::relative(phases[i].files, folder);
         answer["tasks"].push_back(std::move(task));
     }

@@ -56,6 +56,12 @@ TWINS = {
     r"draws|(an?|each|one|per|every|last|previous|new) draw(?! (the|it|them|a)\b)": "repeat",
     r"redrawn": "repeated",
 }
+# Names of functions and types that a reader could not guess, and what the project calls such things now.
+BANNED_NAMES = {
+    "check_company": "what it refuses", "check_companions": "what it refuses", "hangs_on": "depends_on", "press": "send_signals, look_soon",
+    "fate_of": "end_of", "worth_of": "usable_with", r"told_by\w*": "by", r"what_tells\w*": "how_to_measure", "take_apart": "split",
+    "leave_to_the_cache": "answer_from_cache", "still": "unless_removed", "why_lively": "reason_to_go_on", "Heap": "Cluster",
+}
 MESSAGES = ["core", "element_bench", "fem_solver", "lem_tool", "mpm_solver", "services", "transfer_tool"]
 DESCRIPTIONS = ["workflows/schema/scene.schema.json", "workflows/schema/study.schema.json", "workflows/schema/element_test.schema.json",
                 "services/orchestrator/http/openapi.json"]
@@ -66,9 +72,8 @@ TOKEN = re.compile(r'(?P<comment>//[^\n]*(?:\n[ \t]*//[^\n]*)*|/\*.*?\*/)|(?P<ra
                    r"|(?P<literal>\"(?:[^\"\\\n]|\\.)*\"|'(?:[^'\\\n]|\\.)*'|`(?:[^`\\]|\\.)*`)", re.S)
 # Where a banned word is the right one: (file, text around it).
 EXCEPTIONS = [
-    ("services/orchestrator/study/read_study.cpp", "a blind check draws one setting"),
-    ("services/orchestrator/study/read_study.cpp", "give /accuracy/draws and /accuracy/draws_of"),
-    ("services/orchestrator/study/sampled_variants.cpp", "an uncertainty study draws lattices itself"),
+    ("services/orchestrator/study/conflicts.cpp", "give /accuracy/draws and /accuracy/draws_of"),
+    ("services/orchestrator/study/conflicts.cpp", "an uncertainty study draws lattices itself"),
 ]
 
 
@@ -234,6 +239,16 @@ def faults_of_code():
             yield from faults_of_words(f"{name}: name of a test", each, BANNED)
 
 
+def faults_of_names():
+    banned = re.compile(r"\b(?:struct |class )?(" + "|".join(BANNED_NAMES) + r")(?=\(| \{)")
+    for name in tracked("*.cpp", "*.hpp", "*.py"):
+        if name.startswith(FROZEN):
+            continue
+        for found in banned.finditer(TOKEN.sub("", (root / name).read_text())):
+            instead = next(each for word, each in BANNED_NAMES.items() if re.fullmatch(word, found[1]))
+            yield f"{name}: the name {found[1]}: use {instead}"
+
+
 def main():
     if "--count" in sys.argv:
         for name in tracked("*.md"):
@@ -241,7 +256,7 @@ def main():
                 text = (root / name).read_text()
                 print(f"{number_of_words(text):6} {'generated ' if is_generated(text) else ''}{name}")
         return 0
-    faults = [*faults_of_pages(), *faults_of_descriptions(), *faults_of_messages(), *faults_of_code()]
+    faults = [*faults_of_pages(), *faults_of_descriptions(), *faults_of_messages(), *faults_of_code(), *faults_of_names()]
     print("\n".join(faults) or "plain")
     return 1 if faults else 0
 

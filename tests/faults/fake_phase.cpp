@@ -262,6 +262,18 @@ void add_judgement(json& result, bool moves) {
                                    {"pointer", "/mpm/duration"}});
 }
 
+/// As the real phases write it (core/scene/softening.hpp).
+json softening_in(const json& scene) {
+    json soils = json::array();
+    bool has_length = false;
+    for (const auto& [name, soil] : scene.at("materials").items()) {
+        if (!soil.at("law").value("softening", json()).is_object()) continue;
+        soils.push_back(name);
+        has_length |= soil.contains("nonlocal_length");
+    }
+    return soils.empty() ? json() : json{{"soils", soils}, {"has_length", has_length}};
+}
+
 /// A second-order method whose repeats scatter.
 void add_cell_error(const json& scene, double shift, json& result) {
     const double h = scene.at("mpm").at("cell_size");
@@ -313,6 +325,8 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
                 {"runout_beyond_toe", time}, {"runout_largest", 12 + time},
                 {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
                 {"cpu_seconds", 0.5},        {"at_rest", !moves}};
+    result["cell_size"] = own.at("mpm").at("cell_size");
+    result["softening"] = softening_in(own);
     add_judgement(result, moves);
     if (setting(wanted, "by_cell", 0) > 0) add_cell_error(own, shift, result);
     const bool linear = setting(wanted, "linear", 0) > 0;

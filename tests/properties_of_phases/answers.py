@@ -198,10 +198,10 @@ def mpm_numbers(answer, mirrored=False):
     numbers["farthest point [cells]"] = float(x.max())
     numbers["points"] = float(len(x))
     lift = float(data["mass"].sum()) * g * h
-    return numbers if mirrored or answer.phase == "transfer_tool" else numbers | told_by_mpm(answer.result, h, lift)
+    return numbers if mirrored or answer.phase == "transfer_tool" else numbers | facts_of_mpm(answer.result, h, lift)
 
 
-def told_by_mpm(result, h, lift):
+def facts_of_mpm(result, h, lift):
     """Lengths in cells, and energies by what lifts the points by a cell.
 
     For a stable slope the result's own shares are of a fall of 2.5 cm (docs/reference/methods/runout.md), which no similarity scales."""

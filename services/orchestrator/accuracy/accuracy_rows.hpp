@@ -39,6 +39,8 @@ struct AccuracyRow {
     bool is_reference = false;  ///< errors are relative to it; its own error is unknown
     bool below_noise = false;   ///< the error does not exceed the noise of the repeats
     bool questionable = false;  ///< one of its runs has a flag that makes it unreliable
+    bool softens = false;       ///< its soil loses strength with strain (Measured)
+    bool has_length = false;    ///< of the shear bands
     bool on_front = false;      ///< on the Pareto front of error and CPU seconds
     std::string reason = {};    ///< why a repeat has no value, or there is no error
 

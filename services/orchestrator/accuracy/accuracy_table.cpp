@@ -58,6 +58,8 @@ AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
                                                 : found->second);
         if (draws.back().value) values.push_back(*draws.back().value);
         row.questionable |= draws.back().questionable;
+        row.softens |= draws.back().softens;
+        row.has_length |= draws.back().has_length;
     }
     if (!values.empty()) row.value = statistics::repeats_of(values);
     row.cost = mean_cost(draws);
@@ -223,41 +225,26 @@ bool changes(const Ladder& ladder, std::string_view entry) {
                                [&](const std::string& each) { return each.starts_with(entry); });
 }
 
-/// The materials of the base's section that soften.
-std::vector<json> softening_soils(const AccuracyPlan& plan, const json& study_scene) {
-    const json scene = changed(study_scene, plan.base);
-    std::vector<json> soils;
-    for (const json& region : scene.at("section").at("regions")) {
-        const json& soil = scene.at("materials").at(region.at("material").get<std::string>());
-        const json& law = soil.at("law");
-        if (law.contains("softening") && law["softening"].is_object()) soils.push_back(soil);
-    }
-    return soils;
-}
-
 /// Softening without an internal length localises in one element or cell of any size.
-std::string softening_in_words(const AccuracyPlan& plan, const json& scene, const Ladder& ladder,
-                               statistics::Course course) {
+std::string softening_in_words(const AccuracyPlan& plan, const Ladder& ladder,
+                               const AccuracyRow& row, statistics::Course course) {
     const bool of_fem = plan.quantity.reach == Reach::fem || plan.quantity.reach == Reach::chain;
     const bool mesh =
         of_fem && changes(ladder, "/section/") &&
         (course == statistics::Course::not_falling || course == statistics::Course::oscillating);
     const bool cells = has_lattice(plan.quantity.reach) && changes(ladder, "/mpm/cell_size");
-    if (!mesh && !cells) return "";
-    const std::vector<json> soils = softening_soils(plan, scene);
-    if (soils.empty()) return "";
+    if (!row.softens || (!mesh && !cells)) return "";
     if (mesh)
         return "; the soil softens, which in the FEM has no length of its own: every mesh slides "
                "along a band as wide as its elements, and there may be no limit";
-    const bool has_length = std::ranges::any_of(
-        soils, [](const json& soil) { return soil.value("nonlocal_length", json()).is_number(); });
-    return has_length ? ""
-                      : "; the soil softens without a nonlocal_length, in bands as wide as the "
-                        "cells: smaller cells are another soil, too, and rungs that agree may be "
-                        "two errors that cancel";
+    return row.has_length
+               ? ""
+               : "; the soil softens without a nonlocal_length, in bands as wide as the "
+                 "cells: smaller cells are another soil, too, and rungs that agree may be "
+                 "two errors that cancel";
 }
 
-void judge(AccuracyTable& table, const json& scene) {
+void judge(AccuracyTable& table) {
     for (std::size_t i = 0; i < table.plan.ladders.size(); ++i) {
         std::vector<AccuracyRow*> rows;
         for (AccuracyRow& each : table.rows)
@@ -271,8 +258,8 @@ void judge(AccuracyTable& table, const json& scene) {
         ladder.reference_is_questionable =
             table.plan.reference.kind != ReferenceKind::given && rows.back()->questionable;
         ladder.message = course_in_words(ladder.convergence, table.plan, i);
-        ladder.message +=
-            softening_in_words(table.plan, scene, table.plan.ladders[i], ladder.convergence.course);
+        ladder.message += softening_in_words(table.plan, table.plan.ladders[i], *rows.back(),
+                                             ladder.convergence.course);
         if (ladder.reference_is_questionable)
             ladder.message += "; its finest rung is questionable, so nothing of it is recommended";
         tell_errors(table.plan, ladder, rows);
@@ -358,7 +345,7 @@ std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder
                                             std::optional<double> asked_error) {
     const auto study = store.study_of(run);
     if (!study || !study->contains("accuracy")) return std::nullopt;
-    const json scene = json::parse(still(store.scene_of(run)));
+    const json scene = json::parse(unless_removed(store.scene_of(run)));
     std::vector<Fault> none;  // the study was checked when it was accepted
     AccuracyTable table;
     table.plan = read_accuracy(study->at("accuracy"), scene, none);
@@ -369,7 +356,7 @@ std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder
     const auto measured = measured_variants(tasks, table.plan.quantity, data);
     for (const Setting& each : settings_of(table.plan, scene))
         table.rows.push_back(row_of(table.plan, each, measured));
-    judge(table, scene);
+    judge(table);
     return table;
 }
 

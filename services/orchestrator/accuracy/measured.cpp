@@ -68,6 +68,10 @@ Measured measured(const Task& last, const TasksById& tasks, const Quantity& quan
         add(found.cost, *each);
         const json& caution = each->result->value("questionable", json());
         found.questionable |= caution.is_boolean() && caution.get<bool>();
+        if (const json& soft = each->result->value("softening", json()); soft.is_object()) {
+            found.softens = true;
+            found.has_length |= soft.at("has_length").get<bool>();
+        }
     }
     if (!found.value)
         found.reason =

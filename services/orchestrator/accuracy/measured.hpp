@@ -24,6 +24,8 @@ struct Measured {
     std::optional<double> value = {};
     Cost cost = {};
     bool questionable = false;
+    bool softens = false;     ///< soil of one of its phases loses strength with strain
+    bool has_length = false;  ///< and its shear bands have a length of their own
     std::string reason = {};  ///< why there is no value
 };
 

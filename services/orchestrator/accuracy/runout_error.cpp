@@ -258,14 +258,11 @@ class OverTransferTime {
     std::map<Place, double> scatter_;
 };
 
-/// Cell size of a runout [m]; nothing: its recipe is unknown.
+/// Cell size of a runout [m]; nothing: its result does not say it.
 std::optional<double> cell_size_of(const Store& store, const ResultRow& row) {
     const auto task = store.task(value_of(row, "mpm_task").get<std::string>());
-    const auto recipe = task && task->recipe ? store.recipe(*task->recipe) : std::nullopt;
-    if (!recipe) return std::nullopt;
-    const json part = json::parse(recipe->part);
-    const json::json_pointer at("/mpm/cell_size");
-    return part.contains(at) ? std::optional(part.at(at).get<double>()) : std::nullopt;
+    const json size = task && task->result ? task->result->value("cell_size", json()) : json();
+    return size.is_number() ? std::optional(size.get<double>()) : std::nullopt;
 }
 
 /// Runouts at neighbouring transfer times begin with nearly equal points on one lattice. Their
@@ -309,7 +306,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             std::optional<Estimate> found;
             if (!studies.none())
                 found = studies.estimate(
-                    still(store.task(value_of(row, "mpm_task").get<std::string>())));
+                    unless_removed(store.task(value_of(row, "mpm_task").get<std::string>())));
             known = by_variant.emplace(variant, std::move(found)).first;
         }
         std::optional<Estimate> estimate = known->second;
@@ -342,11 +339,12 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         const Place place = place_at(value("variant"), value("transfer_time"));
         auto known = by_repeated.find(place.first);
         if (const auto task = scatter.task_of(place); task && known == by_repeated.end())
-            known = by_repeated
-                        .emplace(place.first, studies.none()
-                                                  ? std::nullopt
-                                                  : studies.estimate(still(store.task(*task))))
-                        .first;
+            known =
+                by_repeated
+                    .emplace(place.first, studies.none()
+                                              ? std::nullopt
+                                              : studies.estimate(unless_removed(store.task(*task))))
+                    .first;
         const Estimate estimate = of_mean(known == by_repeated.end() ? std::nullopt : known->second,
                                           scatter.of_mean(place));
         if (estimate.error) value("runout_error") = *estimate.error;

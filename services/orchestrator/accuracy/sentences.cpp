@@ -25,7 +25,7 @@ std::string with_unit(double value, const Quantity& quantity) {
 }
 
 /// Empty: repeats of the quantity do not scatter.
-std::string what_tells_the_noise(const AccuracyPlan& plan) {
+std::string how_to_measure_noise(const AccuracyPlan& plan) {
     if (can_redraw(Redrawn::points, plan.quantity.reach)) return "set \"draws\" to measure it";
     return can_redraw(Redrawn::fem, plan.quantity.reach)
                ? "set \"draws\" and \"draws_of\": \"fem\" to measure it"
@@ -35,7 +35,7 @@ std::string what_tells_the_noise(const AccuracyPlan& plan) {
 std::string noise_in_words(const statistics::Convergence& convergence, const AccuracyPlan& plan) {
     if (convergence.noise)
         return "; one run scatters by " + with_unit(convergence.noise->deviation, plan.quantity);
-    const std::string remedy = what_tells_the_noise(plan);
+    const std::string remedy = how_to_measure_noise(plan);
     return remedy.empty() ? "" : "; the noise of one run is not known, " + remedy;
 }
 
@@ -127,7 +127,7 @@ std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& 
     const MeanOfDraws& mean = *row.mean_within_asked;
     const std::string setting = setting_in_words(table, row);
     const std::string asked = percent(table.plan.asked_error);
-    const std::string remedy = what_tells_the_noise(table.plan);
+    const std::string remedy = how_to_measure_noise(table.plan);
     if (!row.value->deviation)
         return "The cheapest setting within " + asked + " is " + setting + " (" +
                run_in_words(table, row) + ")" +

@@ -18,13 +18,13 @@ std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
         capacity.free_cores() + look_ahead + in_the_cache_.size() + wait_for_equals_;
     wait_for_equals_ = 0;
     for (Task& task : store_.tasks_to_start(capacity.full_phases(), most)) {
-        if (leave_to_the_cache(task)) continue;
+        if (answer_from_cache(task)) continue;
         if (held_back || capacity.is_full(task.phase)) continue;
         if (waits_for_an_equal(task, chosen)) {
             ++wait_for_equals_;
             continue;
         }
-        if (leave_to_the_cache(task)) continue;  // an equal task may have just ended
+        if (answer_from_cache(task)) continue;  // an equal task may have just ended
         held_back = !capacity.has_room_for(task);
         if (held_back) continue;
         capacity.take(task);
@@ -34,7 +34,7 @@ std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
     return chosen;
 }
 
-bool ReadyTasks::leave_to_the_cache(const Task& task) {
+bool ReadyTasks::answer_from_cache(const Task& task) {
     if (in_the_cache_.contains(task.id)) return true;
     if (!task.recipe) return false;  // a retried breakdown has no recipe
     const auto looked_up = not_cached_.find(task.id);

@@ -22,7 +22,7 @@ class ReadyTasks {
     std::vector<std::string> answered();
 
   private:
-    bool leave_to_the_cache(const Task& task);
+    bool answer_from_cache(const Task& task);
     bool waits_for_an_equal(const Task& task, const std::vector<Task>& chosen) const;
 
     Store& store_;

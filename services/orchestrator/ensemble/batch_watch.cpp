@@ -88,7 +88,7 @@ bool BatchWatch::has_ended(const std::string& run) const {
 bool BatchWatch::settle(const Batches& batches) {
     if (!has_ended(batches.run)) return false;
     if (batches.spec.contains("target")) return search_on(batches);
-    const json study = still(store_.study_of(batches.run));
+    const json study = unless_removed(store_.study_of(batches.run));
     const json& entry = study.at("uncertainty");
     const std::string quantity = batches.spec.at("quantity");
     const auto results = results_of(store_, batches.run, quantity);
@@ -120,7 +120,7 @@ bool BatchWatch::draw_on(const Batches& batches, const json& study) {
 /// Adds the next value of the inverse search.
 bool BatchWatch::search_on(const Batches& batches) {
     const auto ensemble = ensemble_of(store_, batches.run);
-    const json scene = json::parse(still(store_.scene_of(batches.run)));
+    const json scene = json::parse(unless_removed(store_.scene_of(batches.run)));
     const statistics::InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
     if (advice.run_next.empty()) {
         end(batches, advice.found ? "met" : "given_up", advice.refused);
@@ -128,14 +128,14 @@ bool BatchWatch::search_on(const Batches& batches) {
     }
     json wanted = ensemble->entry;
     for (const double each : advice.run_next) wanted["target"]["values"].push_back(each);
-    return extend(batches, still(store_.study_of(batches.run)), wanted);
+    return extend(batches, unless_removed(store_.study_of(batches.run)), wanted);
 }
 
 bool BatchWatch::extend(const Batches& batches, const json& study, const json& entry) {
     bool added = false;
     try {
         const RunSoFar so_far{.study = study,
-                              .scene = still(store_.scene_of(batches.run)),
+                              .scene = unless_removed(store_.scene_of(batches.run)),
                               .tasks = store_.tasks_of(batches.run)};
         const Extension extension = plan_more_variants(so_far, data_, numerics_, entry);
         added = store_.write([&](Transaction& transaction) {

@@ -20,10 +20,10 @@ constexpr std::array<const char*, 6> answers{"runout_beyond_toe", "runout", "run
                                              "area_beyond_toe",   safety,   safety_liquefied};
 
 /// state: of a row of results.
-Fate fate_of(const std::string& state) {
-    if (state == "succeeded" || state == "questionable") return Fate::done;
+SampleEnd end_of_sample(const std::string& state) {
+    if (state == "succeeded" || state == "questionable") return SampleEnd::done;
     constexpr std::array ended{"failed", "skipped", "cancelled", "not_reached"};
-    return std::ranges::find(ended, state) == ended.end() ? Fate::open : Fate::failed;
+    return std::ranges::find(ended, state) == ended.end() ? SampleEnd::open : SampleEnd::failed;
 }
 
 const ResultColumn& column_named(std::string_view name) {
@@ -52,7 +52,7 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
         if (!variant.contains("sample")) continue;
         SampleRow sample{.name = variant.at("name"),
                          .state = "queued",
-                         .fate = Fate::open,
+                         .end = SampleEnd::open,
                          .reason = "",
                          .drawn = variant.at("sample").at("values"),
                          .row = std::nullopt,
@@ -62,12 +62,12 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
                 sample.safety = own->second;
         if (const auto found = rows.find(sample.name); found != rows.end()) {
             sample.state = value_of(found->second, "state");
-            sample.fate = fate_of(sample.state);
+            sample.end = end_of_sample(sample.state);
             sample.row = std::move(found->second);
             sample.reason = value_of(*sample.row, "reason").get<std::string>();
         } else if (const auto none = without.find(sample.name); none != without.end()) {
             sample.state = none->second.state;
-            sample.fate = none->second.stood ? Fate::no_transfer : Fate::failed;
+            sample.end = none->second.stood ? SampleEnd::no_transfer : SampleEnd::failed;
             sample.reason = none->second.reason;
         }
         ensemble.samples.push_back(std::move(sample));
@@ -78,7 +78,7 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
 std::optional<double> result_of(const SampleRow& sample, std::string_view quantity) {
     if (quantity == safety) return sample.safety.intact;
     if (quantity == safety_liquefied) return sample.safety.liquefied;
-    if (sample.fate != Fate::done) return std::nullopt;
+    if (sample.end != SampleEnd::done) return std::nullopt;
     const json& value = value_of(*sample.row, quantity);
     return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
 }

@@ -12,12 +12,12 @@
 
 namespace breach::orchestrator {
 
-enum class Fate { done, failed, no_transfer, open };
+enum class SampleEnd { done, failed, no_transfer, open };
 
 struct SampleRow {
     std::string name;      ///< of its variant, "s0001"
     std::string state;     ///< state of its row of results; "queued": no row yet
-    Fate fate;             ///< failed: ended without a result, for any reason; no_transfer: the FEM
+    SampleEnd end;         ///< failed: ended without a result, for any reason; no_transfer: the FEM
                            ///< ended before the transfer
     std::string reason;    ///< why there is no result
     nlohmann::json drawn;  ///< by parameter: a number, an option's name, a lattice's number

@@ -187,23 +187,23 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
 }
 
 json counts_of(const Ensemble& ensemble) {
-    const auto count = [&](Fate fate) {
-        return std::ranges::count(ensemble.samples, fate, &SampleRow::fate);
+    const auto count = [&](SampleEnd end) {
+        return std::ranges::count(ensemble.samples, end, &SampleRow::end);
     };
     json left_out = json::array();
     std::int64_t questionable = 0, moving = 0;
     for (const SampleRow& each : ensemble.samples) {
         if (each.state == "questionable") ++questionable;
         if (is_lower_bound(each, "runout")) ++moving;
-        if (each.fate == Fate::failed || each.fate == Fate::no_transfer)
+        if (each.end == SampleEnd::failed || each.end == SampleEnd::no_transfer)
             left_out.push_back(
                 {{"sample", each.name}, {"state", each.state}, {"reason", each.reason}});
     }
     return {{"planned", ensemble.samples.size()},
-            {"done", count(Fate::done)},
-            {"failed", count(Fate::failed)},
-            {"open", count(Fate::open)},
-            {"no_transfer", count(Fate::no_transfer)},
+            {"done", count(SampleEnd::done)},
+            {"failed", count(SampleEnd::failed)},
+            {"open", count(SampleEnd::open)},
+            {"no_transfer", count(SampleEnd::no_transfer)},
             {"questionable", questionable},
             {"moving", moving},
             {"doubtful", questionable - moving},

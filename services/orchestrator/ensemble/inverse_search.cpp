@@ -29,8 +29,8 @@ std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json
         statistics::InverseStep step{.value = value, .results = {}};
         for (const SampleRow& each : ensemble.samples) {
             if (each.drawn.at(vary) != value) continue;
-            step.open |= each.fate == Fate::open && !ensemble.run.finished;
-            if (each.fate == Fate::no_transfer && is_none_where_nothing_flows(quantity)) {
+            step.open |= each.end == SampleEnd::open && !ensemble.run.finished;
+            if (each.end == SampleEnd::no_transfer && is_none_where_nothing_flows(quantity)) {
                 step.results.push_back(0.0);
                 ++step.stood;
             }

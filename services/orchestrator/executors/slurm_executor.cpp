@@ -94,8 +94,8 @@ SlurmExecutor::SlurmExecutor(SlurmSettings settings, const std::filesystem::path
 
 SlurmExecutor::~SlurmExecutor() = default;
 
-void SlurmExecutor::press() {
-    pressing_ = true;
+void SlurmExecutor::look_soon() {
+    looks_soon_ = true;
     news_.notify_all();
 }
 
@@ -124,7 +124,7 @@ void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
     write_order(folder, order);
     const std::lock_guard lock(mutex_);
     jobs_[folder.root] = {.folder = folder, .order = order, .since = Clock::now()};
-    press();
+    look_soon();
 }
 
 Vitals SlurmExecutor::probe(const AttemptFolder& folder) {
@@ -163,7 +163,7 @@ SlurmExecutor::Job* SlurmExecutor::find_or_adopt(const AttemptFolder& folder) {
     const bool began = std::filesystem::exists(folder.heartbeat());
     job.stage = began ? Stage::submitted : Stage::doubtful;
     job.since = Clock::now();
-    press();
+    look_soon();
     return &jobs_.emplace(folder.root, std::move(job)).first->second;
 }
 
@@ -235,7 +235,7 @@ void SlurmExecutor::stop(const AttemptFolder& folder, StopReason reason) {
         job->why = "stopped before it was submitted";
     }
     if (!job->unwanted_since) job->unwanted_since = Clock::now();
-    press();
+    look_soon();
 }
 
 void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) {
@@ -254,7 +254,7 @@ void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) 
     }
     if (!job.unwanted_since) job.unwanted_since = Clock::now();
     job.given_up = true;
-    press();
+    look_soon();
 }
 
 // ---------------------------------------------------------------- the clerk
@@ -265,8 +265,8 @@ void SlurmExecutor::serve(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
         {
             std::unique_lock lock(mutex_);
-            news_.wait_until(lock, stop, next_look, [&] { return pressing_; });
-            pressing_ = false;
+            news_.wait_until(lock, stop, next_look, [&] { return looks_soon_; });
+            looks_soon_ = false;
         }
         if (stop.stop_requested()) return;
         try {
@@ -443,7 +443,7 @@ void SlurmExecutor::take_in(Job& job, const std::map<JobName, ListedJob>& listed
     if (job.stage == Stage::doubtful) {  // it did not arrive
         job.stage = job.unwanted_since ? Stage::refused : Stage::waiting;
         if (job.unwanted_since) job.why = "stopped before it was submitted";
-        pressing_ = true;
+        looks_soon_ = true;
         return;
     }
     job.state = "that it knows no such job";

@@ -89,7 +89,7 @@ class SlurmExecutor final : public Executor {
     bool must_be_found();
     bool cancel_the_unwanted();
     /// Requests a look before the next regular one; call with the lock held.
-    void press();
+    void look_soon();
     Job* find_or_adopt(const AttemptFolder& folder);
     Vitals vitals_of(Job& job) const;
     Clock::duration grace() const;
@@ -99,9 +99,9 @@ class SlurmExecutor final : public Executor {
     std::mutex mutex_;
     std::condition_variable_any news_;
     Jobs jobs_;
-    bool pressing_ = false;  ///< a look before the next regular one is due
-    bool answers_ = true;    ///< Slurm answered the last time
-    std::jthread clerk_;     // last: stops before the members it uses are destroyed
+    bool looks_soon_ = false;  ///< a look before the next regular one is due
+    bool answers_ = true;      ///< Slurm answered the last time
+    std::jthread clerk_;       // last: stops before the members it uses are destroyed
 };
 
 }  // namespace breach::orchestrator

@@ -61,7 +61,7 @@ class Supervision {
         while (!phase_ended_) {
             beat();
             look_for_stop();
-            press();
+            send_signals();
             wait_a_little();
             reap();
         }
@@ -146,7 +146,7 @@ class Supervision {
     }
 
     /// Sends TERM once to the phase's group, and KILL to all descendants after the grace time.
-    void press() {
+    void send_signals() {
         if (!record_.stopped) return;
         if (!termed_) {
             kill(-phase_, SIGTERM);

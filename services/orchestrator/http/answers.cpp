@@ -209,7 +209,7 @@ namespace {
 /// Among the study's own variants, without repeats.
 json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
     std::vector<std::string> variants;
-    for (const json& each : still(store.study_of(run)).value("variants", json::array()))
+    for (const json& each : unless_removed(store.study_of(run)).value("variants", json::array()))
         variants.push_back(each.at("name"));
     if (variants.size() < 2) return json::array();
     return same_results(all_rows(), variants);

@@ -120,8 +120,8 @@ void show_run(const Service& service, Call& call) {
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
     json body = run_json(service, run);
-    body["study"] = still(service.store.study_of(id));
-    body["study"]["scene"] = json::parse(still(service.store.scene_of(id)));
+    body["study"] = unless_removed(service.store.study_of(id));
+    body["study"]["scene"] = json::parse(unless_removed(service.store.scene_of(id)));
     body["files"] = files_json(service, id);
     std::tie(body["computing_seconds"], body["idle_seconds"]) =
         service.store.computing_and_idle(run);
@@ -256,7 +256,7 @@ void results(const Service& service, Call& call) {
                                  "attachment; filename=\"" +
                                      std::string(wanted == "runs" ? "results" : "means") + ".h5\"");
         call.response.set_content(
-            as_hdf5(table, call.parts[0], still(service.store.scene_of(call.parts[0])),
+            as_hdf5(table, call.parts[0], unless_removed(service.store.scene_of(call.parts[0])),
                     service.frames, service.data.scratch()),
             "application/x-hdf5");
         return;
@@ -307,8 +307,8 @@ void extend_sweep(Service& service, Call& call) {
             "the body must be {\"transfer_times\": [...] or {from, to, step}} or {\"samples\": N}");
     if (samples && (!body["samples"].is_number_unsigned() || body["samples"] < 1))
         throw bad_request("samples, the new total, must be a whole number above 0");
-    const RunSoFar so_far{.study = still(service.store.study_of(id)),
-                          .scene = still(service.store.scene_of(id)),
+    const RunSoFar so_far{.study = unless_removed(service.store.study_of(id)),
+                          .scene = unless_removed(service.store.scene_of(id)),
                           .tasks = service.store.tasks_of(id)};
     const Extension extension =
         samples ? plan_more_samples(so_far, service.data, service.numerics,
@@ -331,7 +331,7 @@ void show_sweep(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_sweep(service, call.parts[0]);
     json body = sweep_json(service, run);
-    const json study = still(service.store.study_of(run.id));
+    const json study = unless_removed(service.store.study_of(run.id));
     body["transfer_times"] = study.value("transfer_times", json::array());
     body["variants"] = study.value("variants", json::array());
     reply(call.response, body);

@@ -70,7 +70,7 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     std::vector<fault::Fault> faults = scene::complete_and_check(
         entries, scene::study_schema().at("properties").at("triggers"), "trigger");
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
-    const json scene = json::parse(still(service.store.scene_of(run)));
+    const json scene = json::parse(unless_removed(service.store.scene_of(run)));
     if (!scene.contains(phases::fem.part))
         throw Problem{409, "/problems/no-fem", "No FEM to watch", "the run's scene has no FEM"};
     const double span = span_of(scene);
@@ -85,8 +85,8 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
 
 /// A shared FEM has several critical depths, and a trigger needs one.
 void check_fems(const Service& service, const std::string& run, const TriggerPlan& plan) {
-    const RunSoFar so_far{.study = still(service.store.study_of(run)),
-                          .scene = still(service.store.scene_of(run)),
+    const RunSoFar so_far{.study = unless_removed(service.store.study_of(run)),
+                          .scene = unless_removed(service.store.scene_of(run)),
                           .tasks = service.store.tasks_of(run)};
     if (!shares_fems_too_widely(so_far, service.data, service.numerics, plan)) return;
     throw fault::BadInput(
@@ -102,7 +102,7 @@ void add(Service& service, Call& call) {
     const std::string& run = call.parts[0];
     wanted_run(service, run);
     const TriggerPlan plan = checked(service, run, call.json_body());
-    const Draws draws = draws_of(still(service.store.study_of(run)));
+    const Draws draws = draws_of(unless_removed(service.store.study_of(run)));
     if (draws.of == Redrawn::fem && draws.count > 1) throw bad_request(each_fem_has_its_time);
     for (const Trigger& each : service.store.triggers_of(run)) {
         if (each.name == plan.name)

@@ -27,17 +27,18 @@ void uncertainty(const Service& service, Call& call) {
     if (format == "json")
         return reply(
             call.response,
-            findings_of(*ensemble, json::parse(still(service.store.scene_of(run.id))), quantity));
+            findings_of(*ensemble, json::parse(unless_removed(service.store.scene_of(run.id))),
+                        quantity));
     const SampleTable samples = sample_table(*ensemble);
     if (format == "csv")
         return call.response.set_content(as_csv(samples.rows, samples.columns),
                                          "text/csv; charset=utf-8");
     if (format != "hdf5") throw bad_request("format must be json, csv or hdf5");
     call.response.set_header("Content-Disposition", "attachment; filename=\"samples.h5\"");
-    call.response.set_content(
-        as_hdf5({"uncertainty_samples", samples.columns, samples.rows}, run.id,
-                still(service.store.scene_of(run.id)), service.frames, service.data.scratch()),
-        "application/x-hdf5");
+    call.response.set_content(as_hdf5({"uncertainty_samples", samples.columns, samples.rows},
+                                      run.id, unless_removed(service.store.scene_of(run.id)),
+                                      service.frames, service.data.scratch()),
+                              "application/x-hdf5");
 }
 
 }  // namespace

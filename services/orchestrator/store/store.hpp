@@ -34,7 +34,7 @@ struct RemovedMeanwhile : std::runtime_error {
 
 /// The value, which exists unless its run was removed meanwhile.
 template <class T>
-T still(std::optional<T> found) {
+T unless_removed(std::optional<T> found) {
     if (!found) throw RemovedMeanwhile();
     return std::move(*found);
 }

@@ -97,7 +97,7 @@ class Transaction {
     void shrink(std::int64_t pages);
     /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; tasks that were
     /// not reached stay so. Re-arms triggers that the cancellation disarmed, and triggers that
-    /// expired because of a task that now runs again (hangs_on). Returns the number of tasks;
+    /// expired because of a task that now runs again (depends_on). Returns the number of tasks;
     /// nothing: no such run.
     std::optional<std::size_t> retry_run(const std::string& run);
 

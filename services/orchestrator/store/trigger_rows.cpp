@@ -50,7 +50,7 @@ std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> 
 
 /// Whether the trigger depends on these tasks: its FEM, the FEM's stability analysis (as in
 /// Store::stability_of), and for a bisection the runouts.
-bool hangs_on(Connection& database, const Trigger& trigger, const std::set<std::string>& tasks) {
+bool depends_on(Connection& database, const Trigger& trigger, const std::set<std::string>& tasks) {
     const auto has = [&](const std::string& task) { return tasks.contains(task); };
     if (has(trigger.fem_task)) return true;
     const auto lem = database.text(
@@ -223,7 +223,8 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
         database_.select(selected_triggers + "WHERE run=? AND state IN ('disarmed', 'expired')",
                          {run}, trigger_from);
     std::erase_if(found, [&](const Trigger& each) {
-        return each.state == TriggerState::expired && !hangs_on(database_, each, tasks_tried_again);
+        return each.state == TriggerState::expired &&
+               !depends_on(database_, each, tasks_tried_again);
     });
     return found;
 }

@@ -126,7 +126,7 @@ void check_parameters_are_read(const Study& study, const Base& base, std::vector
                               readers + " would run): it would do nothing",
                           "name an entry that one of them reads, or leave the parameter out"});
     }
-    for (Fault& each : told_by_parameter(found, *study.uncertainty))
+    for (Fault& each : faults_by_parameter(found, *study.uncertainty))
         faults.push_back(std::move(each));
 }
 
@@ -147,7 +147,7 @@ void take_samples(Study& study, json& document, const Base& base, std::vector<Fa
                      : variants_of(plan, base.scene, study.reach);
     std::vector<Fault> found;
     study.variants = checked_variants(entries, base, study.transfer_times, found, study.warnings);
-    for (Fault& each : told_by_parameter(found, plan)) faults.push_back(std::move(each));
+    for (Fault& each : faults_by_parameter(found, plan)) faults.push_back(std::move(each));
     document["variants"] = as_json(entries);
     if (study.target) {
         entry["target"]["quantity"] = study.target->question.quantity;

@@ -146,7 +146,8 @@ std::vector<ParameterProbe> probes_of(const UncertaintyPlan& plan, const json& s
     return probes;
 }
 
-std::vector<Fault> told_by_parameter(const std::vector<Fault>& found, const UncertaintyPlan& plan) {
+std::vector<Fault> faults_by_parameter(const std::vector<Fault>& found,
+                                       const UncertaintyPlan& plan) {
     std::vector<Fault> told;
     std::set<std::string> entries;
     for (const Fault& each : found) {

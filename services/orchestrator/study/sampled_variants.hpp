@@ -33,7 +33,7 @@ std::vector<ParameterProbe> probes_of(const UncertaintyPlan& plan, const nlohman
 
 /// Moves faults of the samples' scenes ("/scene/entry: cause") to the parameter that sets the
 /// entry, each once.
-std::vector<fault::Fault> told_by_parameter(const std::vector<fault::Fault>& found,
-                                            const UncertaintyPlan& plan);
+std::vector<fault::Fault> faults_by_parameter(const std::vector<fault::Fault>& found,
+                                              const UncertaintyPlan& plan);
 
 }  // namespace breach::orchestrator

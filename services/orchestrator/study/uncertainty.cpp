@@ -323,7 +323,7 @@ bool meet(const std::string& a, const std::string& b) {
     return holds(a, b) || holds(b, a);
 }
 
-void check_companions(const std::vector<Parameter>& parameters, std::vector<Fault>& faults) {
+void refuse_repeated_entries(const std::vector<Parameter>& parameters, std::vector<Fault>& faults) {
     std::optional<std::size_t> numerical;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
         const std::string at = "/uncertainty/parameters/" + std::to_string(i);
@@ -447,7 +447,7 @@ UncertaintyPlan read_uncertainty(const json& entry, const json& scene, std::vect
         plan.until ? std::min(plan.until->batch, plan.samples) : plan.samples;
     plan.drawn = std::min(plan.samples, entry.value("drawn", at_once));
     plan.first = entry.value("first_block", at_once);
-    check_companions(plan.parameters, faults);
+    refuse_repeated_entries(plan.parameters, faults);
     plan.correlations = read_correlations(entry.at("correlation"), plan.parameters, faults);
     check_correlations(plan, faults);
     if (plan.sampling == Sampling::sobol &&

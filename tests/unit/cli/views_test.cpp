@@ -175,7 +175,7 @@ TEST(TransferBeyondTheFemsEnd, WasNotReachedAndHasNotFailed) {
     task["state"] = "skipped";
     task["not_reached"] = true;
     task["fault"] = {{"exit_code", nullptr}, {"summary", "the FEM ended entangled at 6.7 s"}};
-    EXPECT_EQ(fate_of_task(task), "not_reached: the FEM ended entangled at 6.7 s");
+    EXPECT_EQ(end_of_task(task), "not_reached: the FEM ended entangled at 6.7 s");
 }
 
 TEST(EntangledFem, HasEndedAndHasNotFailed) {
@@ -188,7 +188,7 @@ TEST(EntangledFem, HasEndedAndHasNotFailed) {
     task["questionable"] = false;
     task["flags"] = json::parse(
         R"([{"code": "entangled", "severity": "warning", "message": "element 12 folded", "pointer": ""}])");
-    EXPECT_EQ(fate_of_task(task), "succeeded, ended: entangled at 6.7 s");
+    EXPECT_EQ(end_of_task(task), "succeeded, ended: entangled at 6.7 s");
     const std::string page = as_run_page(run_with(task));
     EXPECT_NE(page.find("ended: entangled at 6.7 s"), std::string::npos) << page;
     EXPECT_NE(page.find("a  entangled (warning), 1 results\n   element 12 folded\n"),
@@ -197,7 +197,7 @@ TEST(EntangledFem, HasEndedAndHasNotFailed) {
     EXPECT_EQ(page.find("exit code"), std::string::npos) << page;
     task["questionable"] = true;
     task["flags"][0]["code"] = "entangled_corner";
-    EXPECT_EQ(fate_of_task(task), "questionable (entangled_corner), ended: entangled at 6.7 s");
+    EXPECT_EQ(end_of_task(task), "questionable (entangled_corner), ended: entangled at 6.7 s");
 }
 
 TEST(TelemetryTable, LeavesOutWhatIsNoNumberOrWord) {
