@@ -32,7 +32,7 @@ def panels():
 
 def curves():
     text = (root / "services/report/breachline_report/chapters/shaking.py").read_text()
-    return re.findall(r'[\[ ]\("([a-z_A-Z]+)", f?"', text)
+    return re.findall(r'(?<=[\[ ])\("([a-z_A-Z]+)", f?"', text)
 
 
 def conditions():

@@ -80,7 +80,10 @@ def conditions_of(run: Run, phase: Phase, paper: Paper | None = None) -> Json:
 
 
 def window_of(run: Run, phase: Phase) -> Window:
-    return Window(**conditions_of(run, phase).get("window", {}))
+    """Asked once of a FEM that variants share."""
+    if phase.label not in run.windows:
+        run.windows[phase.label] = conditions_of(run, phase).get("window", {})
+    return Window(**run.windows[phase.label])
 
 
 class Measures(dict[str, Measure]):

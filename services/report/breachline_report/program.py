@@ -5,9 +5,10 @@ import argparse
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from tempfile import NamedTemporaryFile
+from typing import Any
 
 from breachline import plot
 from breachline.faults import BreachlineError
@@ -138,13 +139,31 @@ class _Version(argparse.Action):
         parser.exit()
 
 
+class _Help(argparse.RawDescriptionHelpFormatter):
+    """As the other programs print it."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, max_help_position=30)
+        self._action_max_length = 28
+
+    def add_usage(self, usage: str | None, actions: Iterable[argparse.Action], groups: Iterable[Any], prefix: str | None = None) -> None:
+        super().add_usage(usage, actions, groups, "Usage: ")
+
+    def start_section(self, heading: str | None) -> None:
+        super().start_section({"positional arguments": "Positionals", "options": "Options"}.get(heading or "", heading))
+
+
+def _parser(usage: str, purpose: str, more: str = "") -> argparse.ArgumentParser:
+    return argparse.ArgumentParser(usage.split(" [")[0], usage=usage, description=purpose, epilog=more, formatter_class=_Help)
+
+
 def _whole_run(arguments: list[str]) -> int:
-    parser = argparse.ArgumentParser("report", description="A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",
-                                     epilog="One phase alone, figures and data only: report " + "|".join(_of_one_phase) + " FOLDER --output FOLDER. "
-                                     "Accuracy studies: report accuracy TABLE... --output F.md.")
+    words = {**{word: purpose for word, (purpose, _) in _of_one_phase.items()}, "accuracy": _accuracy_purpose}
+    parser = _parser("report [OPTIONS] RUN | SUBCOMMAND", "A run as one HTML page with its figures (SVG, PNG) and their data (CSV)",
+                     "Subcommands:\n" + "\n".join(f"  {word:<28}{purpose}" for word, purpose in words.items()))
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version and exit")
-    parser.add_argument("run", type=Path, help="folder of breach export, or with one folder per phase")
-    parser.add_argument("--output", type=Path, required=True, metavar="F.html", help="the page; figures and data go to F_files")
+    parser.add_argument("run", type=Path, metavar="RUN", help="folder of breach export, or with one folder per phase")
+    parser.add_argument("--output", type=Path, required=True, metavar="PAGE", help="the page, F.html; figures and data go to F_files")
     parser.add_argument("--snapshots", type=_numbers, default=[], metavar="TIMES", help="times of contours and meshes [s]: 11,13")
     parser.add_argument("--transfers", type=_numbers, default=[], metavar="TIMES", help="transfer times of the geometries [s]: 13,16")
     parser.add_argument("--element-tests", type=Path, metavar="FOLDER", help="of fem_solver element-test: strength of the scene's soils")
@@ -158,17 +177,17 @@ def _whole_run(arguments: list[str]) -> int:
 
 def _one_phase(word: str, arguments: list[str]) -> int:
     purpose, write = _of_one_phase[word]
-    parser = argparse.ArgumentParser(f"report {word}", description=purpose)
-    parser.add_argument("folder", type=Path, help="output folder of the phase")
-    parser.add_argument("--output", type=Path, required=True, help="folder for figures, made if absent")
+    parser = _parser(f"report {word} [OPTIONS] FOLDER", purpose)
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="output folder of the phase")
+    parser.add_argument("--output", type=Path, required=True, metavar="FIGURES", help="folder for figures, made if absent")
     asked = parser.parse_args(arguments)
     return guarded(asked.folder, lambda: write(asked.folder, asked.output))
 
 
 def _accuracy(arguments: list[str]) -> int:
-    parser = argparse.ArgumentParser("report accuracy", description="Page of accuracy studies, with error against CPU seconds")
-    parser.add_argument("tables", type=Path, nargs="+", help="what breach accuracy --of RUN --json printed, one file each")
-    parser.add_argument("--output", type=Path, required=True, help="the page (Markdown); figures and data go to a folder of its name")
+    parser = _parser("report accuracy [OPTIONS] TABLES ...", _accuracy_purpose)
+    parser.add_argument("tables", type=Path, nargs="+", metavar="TABLES", help="what breach accuracy --of RUN --json printed, one file each")
+    parser.add_argument("--output", type=Path, required=True, metavar="PAGE", help="the page (Markdown); figures and data go to a folder of its name")
     asked = parser.parse_args(arguments)
     return guarded(asked.output, lambda: write_accuracy_page(asked.tables, asked.output))
 
@@ -180,6 +199,7 @@ def main() -> int:
     return _one_phase(word, rest) if word in _of_one_phase else _whole_run(sys.argv[1:])
 
 
+_accuracy_purpose = "Page of accuracy studies, with error against CPU seconds"
 _of_one_phase: dict[str, tuple[str, Callable[[Path, Path], None]]] = {
     "element-test": ("Figures of fem_solver element-test", lambda folder, output: plot.write_figures(output, plot.element_test_figures(folder))),
     "stability": ("Figures of lem_tool", lambda folder, output: plot.write_figures(output, plot.stability_figures(folder))),

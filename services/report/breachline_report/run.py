@@ -144,6 +144,7 @@ class Run:
     envelopes: Json = None
     motions: Json = None  #: of a study of several motions
     means: list[Json] = field(default_factory=list)  #: over repeats
+    windows: dict[str, Json] = field(default_factory=dict)  #: edges by the label of the FEM, once they are known
 
     @property
     def name(self) -> str:

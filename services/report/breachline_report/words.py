@@ -57,7 +57,7 @@ def joined(words: Iterable[str], between: str = ", ") -> str:
 
 
 def with_error(value: float, error: float | None, digits: int = 3) -> str:
-    """With the digits that its error allows: two of the error's; without an error so many in all."""
+    """With the digits that its error allows: two of the error's; without an error `digits` in all."""
     if not error or not math.isfinite(error):
         return rounded(value, digits)
     decimals = max(0, 1 - math.floor(math.log10(error)))

@@ -243,7 +243,8 @@ def _importance(quantity: Json, name: str) -> Table:
 
 def _samples(run: Run, name: str) -> Table:
     parameters = [each["name"] for each in run.uncertainty["parameters"]]
-    moving = {each.variant for each in sampled_runouts(run) if each.still_moves and run.uncertainty["quantities"][name]["grows"]}
+    grows = run.uncertainty["quantities"][name].get("bound_from") is not None
+    moving = {each.variant for each in sampled_runouts(run) if each.still_moves and grows}
     table = Table("assessment_samples", "The samples", ["sample", "state", *parameters, name])
     for row in run.uncertainty["rows"]:
         value = or_dash(entry(row, f"/results/{name}"), 4)
