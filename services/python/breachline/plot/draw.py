@@ -265,7 +265,7 @@ def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: flo
     outline = Outline(pieces.reshape(-1, 2), codes * len(pieces))
     outline.should_simplify = False
     look = {"capstyle": "round", "joinstyle": "round", "antialiased": not dots, **look}  # a PNG of sharp dots is a tenth as large
-    axes.add_patch(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order, **look))
+    axes.add_artist(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order, **look))
 
 
 def _area(diameter: float) -> float:
