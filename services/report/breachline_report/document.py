@@ -86,6 +86,14 @@ class Document:
     chapters: list[Chapter] = field(default_factory=list)
     left_out: list[tuple[str, str]] = field(default_factory=list)  #: what a full report has and this one lacks, and why
 
+    drawn: dict[str, str] = field(default_factory=dict)
+
+    def svg(self, figure: Figure) -> str:
+        """Drawn once, for its file and for the page."""
+        if figure.name not in self.drawn:
+            self.drawn[figure.name] = figure.svg()
+        return self.drawn[figure.name]
+
     def leave_out(self, what: str, why: str) -> None:
         self.left_out.append((what, why))
 

@@ -80,11 +80,11 @@ def _publish(file: Path, content: str | bytes) -> None:
     os.replace(partial.name, file)
 
 
-def publish_figures(figures: list[Figure], folder: Path) -> None:
+def _publish_figures(document: Document, folder: Path) -> None:
     """Each as SVG, PNG and CSV."""
     folder.mkdir(parents=True, exist_ok=True)
-    for each in figures:
-        _publish(folder / f"{each.name}.svg", each.svg())
+    for each in document.front.pictures + [each for chapter in document.chapters for each in chapter.figures]:
+        _publish(folder / f"{each.name}.svg", document.svg(each))
         _publish(folder / f"{each.name}.png", each.png())
         _publish(folder / f"{each.name}.csv", each.csv())
 
@@ -95,7 +95,7 @@ def write_report(document: Document, page: Path, alone: bool) -> None:
         raise OSError(f"{page}: is a folder; give the page's file name")
     folder = page.parent / f"{page.stem}_files"
     if not alone:
-        publish_figures(document.front.pictures + [each for chapter in document.chapters for each in chapter.figures], folder)
+        _publish_figures(document, folder)
         for table in document.front.tables + [each for chapter in document.chapters for each in chapter.tables]:
             _publish(folder / f"{table.name}.csv", table.csv())
     _publish(page, as_html(document, "" if alone else folder.name))

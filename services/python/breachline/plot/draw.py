@@ -1,13 +1,14 @@
 """Draws a chart with matplotlib as SVG or PNG, and writes its data as CSV.
 
 A chart's axes fill the picture; titles, legend and labels of marks lie around them, and saving takes them in. So no label covers a curve,
-and every axis has the same length on paper. Text stays text, which a PDF keeps searchable. Clouds and meshes become one path for each colour,
-with relative tenths of a point: a twentieth of matplotlib's own size."""
+and every axis has the same length on paper. Text stays text, which a PDF keeps searchable. Clouds and meshes are one path for each colour,
+in relative tenths of a point: smaller than an image, and sharp."""
 from __future__ import annotations
 
 import io
 import re
 import textwrap
+import unicodedata
 import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -15,7 +16,7 @@ from typing import Any
 import matplotlib  # type: ignore[import]
 import numpy as np
 from matplotlib import cm, lines, ticker
-from matplotlib.colors import Normalize  # type: ignore[import]
+from matplotlib.colors import ListedColormap, Normalize  # type: ignore[import]
 from matplotlib.figure import Figure as Sheet  # type: ignore[import]
 from matplotlib.patches import PathPatch  # type: ignore[import]
 from matplotlib.path import Path as Outline  # type: ignore[import]
@@ -37,6 +38,7 @@ _STYLE: dict[str, Any] = {
     "text.color": "#222", "axes.labelcolor": "#222", "legend.frameon": False, "lines.linewidth": 1.4, "lines.markersize": 6,
     "xtick.major.size": 0, "ytick.major.size": 0, "xtick.minor.size": 0, "ytick.minor.size": 0, "text.parse_math": False, "svg.fonttype": "none"}
 
+_ROOM = "\u2002"  # behind each letter of Chinese, Japanese and Korean, which matplotlib's font lacks and measures as narrower than it is
 _CIRCLE = Outline.unit_circle()
 _UP = Outline([(0, 1.75), (0, 4), (-0.9, 3.1), (0, 4), (0.9, 3.1)])  # an arrow above the circle
 
@@ -51,7 +53,12 @@ def as_svg(chart: Chart) -> str:
     svg = re.sub(r'(?<= d=")[^"CQ]*(?=")', lambda found: _short_path(found[0]), svg)
     svg = re.sub(r'(?<=<g) id="[^"]*"| transform="rotate\(-0 [^"]*"|(?<=\n)\s+', "", svg)  # nothing refers to these ids, and a page has many pictures
     look = 'stroke-linejoin="round" fill="#222" font-family="DejaVu Sans, Helvetica, Arial, sans-serif"'
-    return svg.replace("xlink:href=", "href=").replace('xmlns:xlink="http://www.w3.org/1999/xlink"', look, 1)
+    return svg.replace(_ROOM, "").replace("xlink:href=", "href=").replace('xmlns:xlink="http://www.w3.org/1999/xlink"', look, 1)
+
+
+def _text(words: str, columns: int = 60) -> str:
+    """Broken into lines of at most `columns`."""
+    return textwrap.fill("".join(each + _ROOM if unicodedata.east_asian_width(each) in "WF" else each for each in words), columns)
 
 
 def _short_path(path: str) -> str:
@@ -176,12 +183,12 @@ def _saved(chart: Chart, **how: Any) -> bytes:
         sheet = Sheet((width * PX, height * PX))
         axes = sheet.add_axes((0, 0, 1, 1), xlim=x, ylim=y, xscale="log" if chart.x.logarithmic else "linear",
                               yscale="log" if chart.y.logarithmic else "linear")
-        axes.set_xlabel(chart.x.label)
-        axes.set_ylabel(chart.y.label + (f", heights x {times}" if times > 1 else ""))
+        axes.set_xlabel(_text(chart.x.label))
+        axes.set_ylabel(_text(chart.y.label + (f", heights x {times}" if times > 1 else ""), 50))
         _ticks(axes.xaxis, chart.x.logarithmic, x, width)
         _ticks(axes.yaxis, chart.y.logarithmic, y, height)
         if chart.y.names:
-            axes.set_yticks(range(len(chart.y.names)), [textwrap.fill(each, 40) for each in chart.y.names])
+            axes.set_yticks(range(len(chart.y.names)), [_text(each, 40) for each in chart.y.names])
             axes.grid(False, axis="y")
         if chart.field:
             _draw_field(axes, chart.field, _dot_size(chart, width * height))
@@ -189,7 +196,7 @@ def _saved(chart: Chart, **how: Any) -> bytes:
         for order, (each, look) in enumerate(zip(chart.series, colours)):
             _draw(axes, each, dict(look, zorder=2 + 0.001 * order), _dot_size(chart, width * height))
         rows, beside = _draw_marks(axes, chart)
-        axes.set_title(textwrap.fill(chart.title, 90), pad=6 + 13 * rows)
+        axes.set_title(_text(chart.title, 90), pad=6 + 13 * rows)
         _draw_legend(axes, chart, colours, beside)
         file = io.BytesIO()
         sheet.savefig(file, bbox_inches="tight", pad_inches=0.08, **how)
@@ -197,12 +204,12 @@ def _saved(chart: Chart, **how: Any) -> bytes:
 
 
 def _ticks(axis: Any, logarithmic: bool, limits: tuple[float, float], length: float) -> None:
-    """Plain numbers; on a logarithmic axis of a few decades also their 2 and 5 folds."""
-    if logarithmic:
+    """Plain numbers; on a logarithmic axis powers of ten, within a few decades also their 2 and 5 folds."""
+    axis.set_minor_locator(ticker.NullLocator())
+    if logarithmic and limits[1] / limits[0] > 5:
         axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if limits[1] / limits[0] < 2e3 else (1,)))
-        axis.set_minor_locator(ticker.NullLocator())
     else:
-        axis.set_major_locator(ticker.MaxNLocator(int(np.clip(length / 45, 2, 10)), steps=[1, 2, 5, 10]))
+        axis.set_major_locator(ticker.MaxNLocator(int(np.clip(length / 45, 3, 10)), steps=[1, 2, 5, 10]))
     axis.set_major_formatter(lambda value, _: f"{value + 0.0:.6g}")
 
 
@@ -234,7 +241,7 @@ def _dot_size(chart: Chart, area: float) -> float:
 
 def _draw_field(axes: Any, field: Field, dot: float) -> None:
     places = np.stack([field.x, field.y], axis=1).reshape(-1, field.corners, 2)
-    colours = matplotlib.colormaps["viridis_r"].resampled(40)  # dark is much, in black and white too; the eye tells no more classes apart
+    colours = ListedColormap(matplotlib.colormaps["YlGnBu"](np.linspace(0.1, 1, 40)))  # dark is much, in print too; the eye tells no more apart
     scale = cm.ScalarMappable(Normalize(field.low, field.high, clip=True), colours)
     shades = scale.to_rgba(np.asarray(field.value, float))
     for shade in np.unique(shades, axis=0):
@@ -243,8 +250,8 @@ def _draw_field(axes: Any, field: Field, dot: float) -> None:
     bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0, -80 / height, 0.45, 14 / height)), orientation="horizontal")
     bar.solids.set_edgecolor("face")
     bar.ax.grid(False)
-    bar.ax.xaxis.set_major_locator(ticker.MaxNLocator(6, steps=[1, 2, 5, 10]))
-    bar.ax.annotate(field.label, (1, 0.5), xytext=(10, 0), xycoords="axes fraction", textcoords="offset points", va="center")
+    _ticks(bar.ax.xaxis, False, (field.low, field.high), 270)
+    bar.ax.annotate(_text(field.label), (1, 0.5), xytext=(10, 0), xycoords="axes fraction", textcoords="offset points", va="center")
 
 
 def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: float, fill: bool = False, **look: Any) -> None:
@@ -258,7 +265,7 @@ def _draw_pieces(axes: Any, pieces: Array, width: float, colour: Any, order: flo
     outline = Outline(pieces.reshape(-1, 2), codes * len(pieces))
     outline.should_simplify = False
     look = {"capstyle": "round", "joinstyle": "round", "antialiased": not dots, **look}  # a PNG of sharp dots is a tenth as large
-    axes.add_patch(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order, **look))
+    axes.add_artist(PathPatch(outline, facecolor=colour if fill else "none", edgecolor=colour, linewidth=0.75 * width, zorder=order, **look))
 
 
 def _area(diameter: float) -> float:
@@ -312,7 +319,7 @@ def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
     begins: list[float] = []  # of each row, its leftmost label
     for mark in sorted((each for each in chart.marks if each.at == "x"), key=lambda each: -each.value):
         place = float(axes.transData.transform((mark.value, axes.get_ylim()[0]))[0] * to_px)
-        text = axes.annotate(mark.label, (mark.value, 1), xycoords=("data", "axes fraction"), textcoords="offset points", xytext=(0, 0))
+        text = axes.annotate(_text(mark.label, 200), (mark.value, 1), xycoords=("data", "axes fraction"), textcoords="offset points", xytext=(0, 0))
         end = place + extent(text) + 8
         row = next((k for k, begin in enumerate(begins) if end < begin), len(begins))
         begins[row:row + 1] = [place]
@@ -323,7 +330,7 @@ def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
     for mark in sorted((each for each in chart.marks if each.at == "y"), key=lambda each: each.value):
         place = float(axes.transData.transform((axes.get_xlim()[0], mark.value))[1] * to_px)
         last = max(place, last + 16)
-        text = axes.annotate(mark.label, (1, mark.value), xycoords=("axes fraction", "data"), textcoords="offset points",
+        text = axes.annotate(_text(mark.label, 200), (1, mark.value), xycoords=("axes fraction", "data"), textcoords="offset points",
                              xytext=(5, 0.75 * (last - place)), va="center")
         beside = max(beside, extent(text) + 8)
         axes.axhline(mark.value, color="#333", linestyle=(0, (6, 4)), linewidth=0.8, zorder=3)
@@ -344,7 +351,7 @@ def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]], beside: f
     if not entries:
         return
     width, height = (side / axes.figure.dpi / PX for side in (axes.bbox.width, axes.bbox.height))
-    handles, names = zip(*[(handle, textwrap.fill(name, 40)) for handle, name in entries])
+    handles, names = zip(*[(handle, _text(name, 40)) for handle, name in entries])
     how: dict[str, Any] = {"loc": "upper left", "borderaxespad": 0, "handlelength": 1.6, "scatterpoints": 1, "scatteryoffsets": [0.3]}
     if not chart.equal:
         axes.legend(handles, names, bbox_to_anchor=(1 + (beside + 12) / width, 1), **how)
