@@ -396,8 +396,8 @@ TEST(Simulation, SoilBetweenWallsRubsNothingAtTheirFeet) {
 TEST(Simulation, StopsAtRestAndSaysSo) {
     const scene::Scene scene = heap();
     Simulation simulation = fresh(scene);
-    while (simulation.verdict() == Verdict::goes_on) advance_looking(simulation, 1);
-    EXPECT_EQ(simulation.verdict(), Verdict::rests);
+    while (simulation.course() == Course::goes_on) advance_looking(simulation, 1);
+    EXPECT_EQ(simulation.course(), Course::rests);
     EXPECT_LT(simulation.clock().time, 10.0);
 }
 
@@ -405,8 +405,8 @@ TEST(Simulation, EndsAtDurationWhenItDoesNotRest) {
     scene::Scene scene = heap();
     scene.mpm->duration = 0.3;
     Simulation simulation = fresh(scene);
-    while (simulation.verdict() == Verdict::goes_on) advance_looking(simulation, 1);
-    EXPECT_EQ(simulation.verdict(), Verdict::time_is_up);
+    while (simulation.course() == Course::goes_on) advance_looking(simulation, 1);
+    EXPECT_EQ(simulation.course(), Course::time_is_up);
     EXPECT_NEAR(simulation.clock().time, 0.3, 1e-12);
 }
 

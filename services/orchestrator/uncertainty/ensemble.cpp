@@ -1,4 +1,4 @@
-#include "services/orchestrator/ensemble/ensemble.hpp"
+#include "services/orchestrator/uncertainty/ensemble.hpp"
 
 #include <algorithm>
 #include <array>

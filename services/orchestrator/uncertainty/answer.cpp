@@ -1,4 +1,4 @@
-#include "services/orchestrator/ensemble/findings.hpp"
+#include "services/orchestrator/uncertainty/answer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,8 +10,8 @@
 #include "core/statistics/surrogate.hpp"
 #include "services/findings/flags.hpp"
 #include "services/findings/uncertainty.hpp"
-#include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 namespace breach::orchestrator {
 
@@ -248,7 +248,7 @@ json until_of(const Ensemble& ensemble) {
 
 }  // namespace
 
-json findings_of(const Ensemble& ensemble, const json& scene, const std::string& quantity) {
+json uncertainty_of(const Ensemble& ensemble, const json& scene, const std::string& quantity) {
     const auto search = inverse_search(ensemble, scene);
     json quantities = json::object();
     for (const ResultColumn* each : quantities_of(ensemble))

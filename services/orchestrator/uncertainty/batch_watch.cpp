@@ -1,4 +1,4 @@
-#include "services/orchestrator/ensemble/batch_watch.hpp"
+#include "services/orchestrator/uncertainty/batch_watch.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -7,9 +7,9 @@
 
 #include "core/fault/fault.hpp"
 #include "core/statistics/percentiles.hpp"
-#include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
+#include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 namespace breach::orchestrator {
 
@@ -48,16 +48,6 @@ Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
 }
 
 }  // namespace
-
-json batches_of(const Study& study) {
-    if (study.target) return {{"target", study.target->question.target}};
-    if (!study.uncertainty || !study.uncertainty->until) return nullptr;
-    const Until& until = *study.uncertainty->until;
-    return {{"quantity", until.quantity},
-            {"percentile", until.percentile},
-            {"half_width", until.half_width},
-            {"batch", until.batch}};
-}
 
 bool BatchWatch::look() {
     const std::int64_t newest = store_.last_event();
