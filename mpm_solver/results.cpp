@@ -235,7 +235,6 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["domain_x"] = mpm.domain_x;
     result["domain_y"] = mpm.domain_y;
     result["fill_shift"] = mpm.fill_shift;
-    result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
     result["wave_speed"] = wave_speed(simulation.body());
     result["mach"] = ending.mach;

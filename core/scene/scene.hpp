@@ -14,7 +14,6 @@
 #include "core/fault/fault.hpp"
 #include "core/fault/flag.hpp"
 #include "core/geometry/section.hpp"
-#include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
 #include "core/materials/strength/profile.hpp"
 
@@ -107,18 +106,6 @@ struct TensionCrack {
     double filled;                ///< share of its height filled with water [-]
 };
 
-/// Slices to which the limit of m_alpha applies, and the treatment of a given circle with a smaller
-/// value.
-enum class MAlphaSlices { frictional, all };
-enum class SmallMAlpha { answered, refused };
-
-/// Lower limit of m_alpha = cos a + sin a tan phi / F of a slice.
-struct MAlphaLimit {
-    double least = 0.2;  ///< Whitman & Bailey (1967) [-]
-    MAlphaSlices slices = MAlphaSlices::frictional;
-    SmallMAlpha given_circle = SmallMAlpha::answered;
-};
-
 /// Polygonal slip surfaces, analysed by Spencer's method.
 struct NonCircular {
     std::vector<Vec2> given;  ///< ascending in x; empty: none [m]
@@ -150,13 +137,6 @@ struct Surcharge {
     double pressure;  ///< [Pa]
 };
 
-/// Force on the ground, per metre of thickness.
-struct LineLoad {
-    double x;      ///< [m]
-    double down;   ///< [N/m]
-    double right;  ///< [N/m]
-};
-
 /// s = constant + coefficient (sigma'_v0 / p_a)^exponent, p_a = 101.325 kPa; phi = 0.
 struct UndrainedStrength {
     double constant;      ///< [Pa]
@@ -180,12 +160,6 @@ struct UndrainedRegion {
 
 /// Slip surface for varied parameters: fixed, or searched again.
 enum class VariedSurface { fixed, searched };
-
-struct Sensitivity {
-    double change;  ///< relative change of each strength parameter [-]
-    VariedSurface surface;
-    std::size_t layers_liquefied;
-};
 
 enum class Parameter {
     cohesion,
@@ -222,18 +196,15 @@ struct Lem {
     std::vector<PorePressureRatio> pore_pressure_ratios;
     double seismic_coefficient;  ///< k_h, towards the sliding direction [-]
     std::vector<Surcharge> surcharge;
-    std::vector<LineLoad> line_loads;
     /// no surface reaches below; ascending in x, level beyond its ends; empty: none [m]
     std::vector<Vec2> floor;
     std::optional<TensionCrack> tension_crack;
-    MAlphaLimit m_alpha;
     std::optional<NonCircular> non_circular;
     std::vector<UndrainedRegion> undrained;
     std::vector<UndrainedRegion> liquefaction;  ///< from the top down; each stage adds one
     /// Regions that were placed too fast for the soil below to consolidate: sigma'_v0 excludes
     /// their weight.
     std::vector<std::size_t> unconsolidated;
-    std::optional<Sensitivity> sensitivity;
     std::optional<Probability> probability;
 
     /// Whether any entry gives pore pressure, be it zero.
@@ -563,8 +534,6 @@ struct Transfer {
 
 // ---------------------------------------------------------------- mpm_solver
 
-using Kernel = grid::KernelKind;
-using grid::UpdateOrder;
 /// automatic: on if the law is plastic or nu > 0.45.
 enum class AntiLocking { on, off, automatic };
 enum class Wall { roller, fixed, open };
@@ -662,10 +631,8 @@ struct Mpm {
     Floor floor;
     /// Ascending in x, linear beyond its ends; empty: the floor [m]
     std::vector<Vec2> terrain{};
-    Kernel kernel;
     double gimp_half_size;  ///< over the cell size [-]
-    UpdateOrder order;
-    double blending_rate;  ///< affine PIC rate beta [1/s]
+    double blending_rate;   ///< affine PIC rate beta [1/s]
     /// Damping of soil that does not yield, over critical, at the frequency of the mobile height
     /// [-]
     double damping_ratio = 0.0;

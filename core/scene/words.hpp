@@ -5,21 +5,6 @@
 #include "core/scene/scene.hpp"
 #include "core/words/words.hpp"
 
-namespace breach::grid {
-
-constexpr auto words_of(KernelKind) {
-    using enum KernelKind;
-    return words::in_order<KernelKind>(
-        {{gimp, "gimp"}, {b_spline, "b_spline"}, {linear, "linear"}});
-}
-
-constexpr auto words_of(UpdateOrder) {
-    using enum UpdateOrder;
-    return words::in_order<UpdateOrder>({{usl, "usl"}, {musl, "musl"}, {usf, "usf"}});
-}
-
-}  // namespace breach::grid
-
 namespace breach::materials {
 
 constexpr auto words_of(SofteningDriver) {
@@ -63,16 +48,6 @@ constexpr auto words_of(RegionMesh) {
 constexpr auto words_of(PhreaticCorrection) {
     using enum PhreaticCorrection;
     return words::in_order<PhreaticCorrection>({{none, "none"}, {cos2, "cos2"}});
-}
-
-constexpr auto words_of(MAlphaSlices) {
-    using enum MAlphaSlices;
-    return words::in_order<MAlphaSlices>({{frictional, "frictional"}, {all, "all"}});
-}
-
-constexpr auto words_of(SmallMAlpha) {
-    using enum SmallMAlpha;
-    return words::in_order<SmallMAlpha>({{answered, "answered"}, {refused, "refused"}});
 }
 
 constexpr auto words_of(VariedSurface) {

@@ -147,8 +147,7 @@ def mpm_scenes(draw):
     friction = draw(st.sampled_from([None, 0.3, 0.5]))
     mpm = {"cell_size": 1, "allow_coarse_cells": True, "domain_x": [x0, x1], "domain_y": [-ground, height + 4], "left": "roller",
            "right": draw(st.sampled_from(["open", "roller"])), "floor": {"level": -ground},
-           "kernel": draw(st.sampled_from(["gimp", "gimp", "b_spline", "linear"])),
-           "order": draw(st.sampled_from(["usl", "musl", "usf"])), "fill_stress": draw(st.sampled_from(["none", "overburden"])),
+           "fill_stress": draw(st.sampled_from(["none", "overburden"])),
            "duration": duration, "snapshot_interval": duration,
            "telemetry_interval": 0.125, "rest_earliest": 100, "envelope": {"arrival_depth": 0.125},
            "runout": {"toe": [toe, 0], "front_depth": 1, "regions": [each["name"] for each in regions if each["name"] != "ground"]},

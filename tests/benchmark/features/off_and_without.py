@@ -31,12 +31,9 @@ EDITS = {
         ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.follow(body.points, body.zones, body.grid);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::trD);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::sigma_m);\n", ""),
-        ("anti-locking", MPM_STEP, "    if (body.order == UpdateOrder::usl) forget_averages(body);\n", ""),
+        ("anti-locking", MPM_STEP, "    forget_averages(body);\n", ""),
         ("anti-locking", MPM_STEP, "/// Totals of one kind in the cells become averages over their volume.\n"
          "void average(", "[[maybe_unused]] void average("),
-        ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);\n", ""),
-        ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::musl) map_again(body, dt);\n", ""),
-        ("another order of the update", MPM_STEP, "    if (body.order != UpdateOrder::usf) update_stress(body, dt);\n", "    update_stress(body, dt);\n"),
         ("friction zones", MPM_STEP, "    if (must & condition::floor) work += rub(m, grid.friction[node / grid.rows], v_before, v);\n", ""),
         ("friction zones", MPM_STEP, "double rub(double m, double mu,", "[[maybe_unused]] double rub(double m, double mu,"),
         ("terrain", MPM_STEP, "    if (must & condition::terrain) {\n        if (must & condition::hold_x) {\n            v.y() = std::max(v.y(), 0.0);\n        } else {\n"

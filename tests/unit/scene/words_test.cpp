@@ -85,11 +85,9 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<PhreaticCorrection>(
         {lem + "/water/properties/correction",
          lem + "/piezometric_lines/items/properties/correction"});
-    words.are_those_of<MAlphaSlices>({lem + "/m_alpha/properties/slices"});
-    words.are_those_of<SmallMAlpha>({lem + "/m_alpha/properties/given_circle"});
     for (const char* list : {"/undrained", "/liquefaction"})
         words.are_those_of<materials::OnPath>({lem + list + "/items/properties/norsand"});
-    words.are_those_of<VariedSurface>({lem + "/sensitivity/properties/surface"});
+    words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<Parameter>({variable + "/parameter"});
     words.are_those_of<Distribution>({variable + "/distribution"});
@@ -116,8 +114,6 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<OutOfPlaneStress>({transfer + "/sigma_zz"});
     words.are_those_of<Entangled>({transfer + "/entangled"});
     words.are_those_of<TransferredStress>({transfer + "/stress"});
-    words.are_those_of<Kernel>({mpm + "/kernel"});
-    words.are_those_of<UpdateOrder>({mpm + "/order"});
     words.are_those_of<AntiLocking>({mpm + "/anti_locking"});
     for (const char* side : {"/left", "/right"}) words.are_those_of<Wall>({mpm + side});
     words.are_those_of<PointField>({mpm + "/output/properties/fields/items"});
