@@ -196,14 +196,11 @@ void tell_progress(const Course& course) {
 
 StageEnd run_dynamic(Course& course, Recorder& recorder) {
     const Newmark newmark{course.fem.newmark_beta, course.fem.newmark_gamma};
-    const bool moves = course.model.kinematics == scene::Kinematics::updated_lagrangian;
     StepControl control(course);
     while (!control.at_end()) {
         if (course.session.stop_requested()) return StageEnd::stopped;
         const double dt = control.next_size();
         const double time = course.position.time + dt;
-        if (moves && course.model.water.any())
-            evaluate_pore_water(course.model, course.motion.u, course.model.water);
         const NewtonOutcome outcome =
             dynamic_step(*course.newton, course.model, course.laws, newmark, course.beginning, dt,
                          time, course.motion, course.prediction, course.trial);

@@ -215,14 +215,12 @@ struct Lem {
 
 // ---------------------------------------------------------------- fem_solver
 
-enum class Kinematics { small_strain, updated_lagrangian };
-
 /// bbar: 2 x 2 Gauss points, mean dilatation. ssp: one point with hourglass stabilisation.
 enum class ElementKind { bbar, ssp };
 /// Modulus of the ssp quad's stabilisation: the current or the elastic one.
 enum class HourglassKind { current, elastic };
-/// At a folded corner the analysis stops, or continues and records an event. Continuing needs small
-/// strain, which computes on the undeformed mesh.
+/// At a folded corner the analysis stops, or continues and records an event. The analysis computes on the
+/// undeformed mesh.
 enum class AtEntanglement { stop, go_on };
 
 struct MeshSource {
@@ -268,20 +266,6 @@ struct EdgePressure {
     double pressure;  ///< into the soil [Pa]
 };
 
-/// A force on the node nearest to a place.
-struct NodeForce {
-    std::string name;
-    Vec2 at;
-    double within;  ///< largest distance of that node [m]
-    Vec2 force;     ///< per metre of thickness [N/m]
-};
-
-/// Creep of a region: strain at constant stress and constant in-plane volume.
-struct Creep {
-    std::size_t region;
-    double epsilon_q;  ///< sqrt(2/3 e:e), along the present in-plane deviator [-]
-};
-
 struct Stage {
     std::string name;
     StageKind kind;
@@ -301,24 +285,19 @@ struct Stage {
     std::optional<std::vector<Surcharge>> surcharge{};
     /// static: from this stage on, replaces the earlier line; ascending in x [m]
     std::optional<std::vector<Vec2>> phreatic_line{};
-    /// static: from this stage on, replaces the earlier boundaries
-    std::optional<std::vector<PressureBoundary>> water_boundaries{};
     /// static: regions without pore water flow in this stage
     std::vector<std::size_t> undrained{};
     /// From this stage on, replaces the earlier value.
     std::optional<double> seismic_coefficient{};  ///< horizontal body force over weight [-]
     std::optional<std::vector<EdgePressure>> pressures{};
-    std::optional<std::vector<NodeForce>> forces{};
     std::vector<Displacement> displacements{};  ///< static: kept from this stage on
-    std::vector<Creep> creep{};                 ///< static: during this stage
     double ramp = 0.0;              ///< dynamic: time over which unbalanced forces are applied [s]
     bool goes_on_at_limit = false;  ///< static: a limit point ends the stage instead of the run
 
-    bool moves_the_water() const { return phreatic_line || water_boundaries; }
     bool changes_the_body() const {
         return !activates.empty() || !removes.empty() || !releases.empty() || surcharge ||
-               moves_the_water() || !undrained.empty() || seismic_coefficient || pressures ||
-               forces || !displacements.empty() || !creep.empty();
+               phreatic_line || !undrained.empty() || seismic_coefficient || pressures ||
+               !displacements.empty();
     }
 };
 
@@ -338,7 +317,6 @@ struct GroundWater {
     double pressure_stabilisation;  ///< alpha in alpha h^2 / (K + 4G/3) [-]
     PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
-    std::string boundaries_at = "/fem/water/boundaries";  ///< scene entry of the boundaries
 };
 
 /// Input motion: of the rock outcrop (twice the upgoing wave), or the upgoing wave.
@@ -380,7 +358,6 @@ struct LiquefactionWatch {
 };
 
 struct Fem {
-    Kinematics kinematics;
     ElementKind element;
     HourglassKind hourglass;  ///< ssp only
     MeshSource mesh;
@@ -420,18 +397,14 @@ struct Fem {
     }
     bool moves_the_water() const {
         for (const Stage& stage : stages)
-            if (stage.moves_the_water()) return true;
+            if (stage.phreatic_line) return true;
         return false;
     }
-    /// The water with the phreatic line and boundaries of a stage.
+    /// The water with the phreatic line of a stage.
     std::optional<GroundWater> water_in(std::size_t stage) const {
         std::optional<GroundWater> now = water;
-        for (std::size_t s = 0; now && s <= stage; ++s) {
+        for (std::size_t s = 0; now && s <= stage; ++s)
             if (stages[s].phreatic_line) now->line = *stages[s].phreatic_line;
-            if (!stages[s].water_boundaries) continue;
-            now->boundaries = *stages[s].water_boundaries;
-            now->boundaries_at = "/fem/stages/" + std::to_string(s) + "/water_boundaries";
-        }
         return now;
     }
     /// [regions] absent in a stage: not yet placed, or removed.

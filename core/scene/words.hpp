@@ -70,12 +70,6 @@ constexpr auto words_of(Distribution) {
     return words::in_order<Distribution>({{normal, "normal"}, {lognormal, "lognormal"}});
 }
 
-constexpr auto words_of(Kinematics) {
-    using enum Kinematics;
-    return words::in_order<Kinematics>(
-        {{small_strain, "small_strain"}, {updated_lagrangian, "updated_lagrangian"}});
-}
-
 constexpr auto words_of(ElementKind) {
     using enum ElementKind;
     return words::in_order<ElementKind>({{bbar, "bbar"}, {ssp, "ssp"}});

@@ -183,8 +183,7 @@ def fem_scenes(draw):
     regions[0]["mesh"] = block(low, [columns + ahead, deep])
     regions[1]["mesh"] = block(high, [columns, rows])
     step = draw(st.sampled_from([1 / 64, 1 / 128]))
-    fem = {"kinematics": draw(st.sampled_from(["small_strain", "updated_lagrangian"])),
-           "element": draw(st.sampled_from(["bbar", "ssp"])),
+    fem = {"element": draw(st.sampled_from(["bbar", "ssp"])),
            "supports": [{"name": "left", "from": [x0, bottom], "to": [x0, height], "fixes": "x"},
                         {"name": "right", "from": [x1, bottom], "to": [x1, 0], "fixes": "x"},
                         {"name": "bottom", "from": [x0, bottom], "to": [x1, bottom], "fixes": "xy"}],
@@ -192,7 +191,7 @@ def fem_scenes(draw):
                       {"type": "dynamic", "name": "failure", "duration": draw(st.integers(8, 24)) * step, "time_step": step}],
            "crest": [crest, height], "force_tolerance": 1e-9, "telemetry_interval": step,
            "failure_surfaces": {"separation": 5}}
-    if fem["kinematics"] == "small_strain" and draw(st.booleans()):
+    if draw(st.booleans()):
         fem["stages"][1] |= {"seismic_coefficient": draw(st.sampled_from([0.1, 0.3])), "ramp": 4 * step}
     if draw(st.booleans()):
         level = draw(st.integers(bottom + 1, height - 1))

@@ -91,7 +91,6 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<Parameter>({variable + "/parameter"});
     words.are_those_of<Distribution>({variable + "/distribution"});
-    words.are_those_of<Kinematics>({fem + "/kinematics"});
     words.are_those_of<ElementKind>({fem + "/element"});
     words.are_those_of<HourglassKind>({fem + "/hourglass"});
     words.are_those_of<StageKind>(

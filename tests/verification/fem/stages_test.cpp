@@ -524,9 +524,6 @@ TEST(Stages, WhatCannotBeIsRefusedWithItsPlace) {
               "/fem/stages/1/phreatic_line")
         << "in soil that is gone";
     EXPECT_EQ(refused_line({{0, 3.5}}, static_stage("dig", {{"remove", {"top"}}})), "");
-    json moving = column({static_stage("a"), static_stage("b", {{"remove", {"top"}}})});
-    moving["fem"]["kinematics"] = "updated_lagrangian";
-    EXPECT_EQ(place_refused(moving), "/fem/stages/1");
     json wet = column({static_stage("a"), static_stage("b", {{"remove", {"top"}}})});
     wet["fem"]["element"] = "ssp";
     wet["fem"]["water"] = {{"line", {{0, 5}}}};
