@@ -130,17 +130,11 @@ Distortion distortion_of_trial(Course& course) {
         "sharp, or take a smaller time step");
 }
 
-/// Records the first folded corner: where, when and in which soil.
+/// Records the folded corner: where, when and in which soil.
 void note_entanglement(const Distortion& folded, double time, Course& course, Recorder& recorder) {
-    if (course.entanglement) return;
-    course.entanglement =
-        entanglement_of(course.session.scene().section, course.model, course.watch, course.motion,
-                        folded, time, course.fem.at_entanglement);
+    course.entanglement = entanglement_of(course.session.scene().section, course.model,
+                                          course.watch, course.motion, folded, time);
     if (course.position.time == 0.0) refuse_the_mesh(*course.entanglement, recorder);
-    if (course.fem.at_entanglement == scene::AtEntanglement::go_on) {
-        spdlog::warn("{}; the analysis goes on with the undeformed mesh",
-                     in_words(*course.entanglement));
-    }
 }
 
 /// Liquefied soil does not regain strength when its pore pressure falls.
@@ -212,8 +206,7 @@ StageEnd run_dynamic(Course& course, Recorder& recorder) {
         const Distortion distortion = distortion_of_trial(course);
         if (distortion.least <= course.fem.least_jacobian_ratio) {
             note_entanglement(distortion, time, course, recorder);
-            if (course.fem.at_entanglement == scene::AtEntanglement::stop)
-                return StageEnd::entangled;
+            return StageEnd::entangled;
         }
         course.distortion = distortion;
         take_trial(course);

@@ -225,8 +225,7 @@ void report_end(Course& course) {
     process::Session& session = course.session;
     auto& facts = session.result();
     const auto& entangled = course.entanglement;
-    const bool stopped = entangled && entangled->then == scene::AtEntanglement::stop;
-    facts["ended"] = stopped ? "entangled" : "complete";
+    facts["ended"] = entangled ? "entangled" : "complete";
     facts["end_time"] = course.position.time;
     if (entangled) {
         facts["entanglement"] = as_json(*entangled);

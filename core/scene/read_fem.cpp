@@ -167,8 +167,7 @@ GroundWater water_from(Reader& reader, const json& water) {
 }
 
 ElasticBase base_from(const json& base) {
-    return {base.at("density"), base.at("V_s"), word_at<MotionAt>(base, "motion_at"),
-            word_at<BaseNodes>(base, "nodes")};
+    return {base.at("density"), base.at("V_s"), word_at<MotionAt>(base, "motion_at")};
 }
 
 BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) {
@@ -307,7 +306,6 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.force_tolerance = fem.at("force_tolerance");
     result.largest_iterations = fem.at("largest_iterations");
     result.least_jacobian_ratio = fem.at("least_jacobian_ratio");
-    result.at_entanglement = word_at<AtEntanglement>(fem, "at_entanglement");
     result.crest = point_from(fem.at("crest"));
     result.strain_threshold = fem.at("strain_threshold");
     result.liquefaction = liquefaction_from(reader, scene, fem);

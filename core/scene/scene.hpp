@@ -219,10 +219,6 @@ struct Lem {
 enum class ElementKind { bbar, ssp };
 /// Modulus of the ssp quad's stabilisation: the current or the elastic one.
 enum class HourglassKind { current, elastic };
-/// At a folded corner the analysis stops, or continues and records an event. The analysis computes on the
-/// undeformed mesh.
-enum class AtEntanglement { stop, go_on };
-
 struct MeshSource {
     std::optional<std::filesystem::path> msh_file;  ///< absolute; none: meshed from the regions
 };
@@ -321,15 +317,12 @@ struct GroundWater {
 
 /// Input motion: of the rock outcrop (twice the upgoing wave), or the upgoing wave.
 enum class MotionAt { outcrop, upgoing };
-/// tied: all base nodes have the same x displacement.
-enum class BaseNodes { tied, free };
 
-/// Elastic half-space below the mesh.
+/// Elastic half-space below the mesh: its nodes have the same x displacement.
 struct ElasticBase {
     double density;  ///< [kg/m3]
     double V_s;      ///< [m/s]
     MotionAt motion_at;
-    BaseNodes nodes;
 };
 
 enum class Baseline { as_recorded, corrected };
@@ -377,9 +370,8 @@ struct Fem {
     double force_tolerance;                     ///< residual norm over reference force norm [-]
     int largest_iterations;
     double least_jacobian_ratio;  ///< a smaller ratio counts as entangled [-]
-    AtEntanglement at_entanglement;
-    Vec2 crest;               ///< monitored point: the nearest node [m]
-    double strain_threshold;  ///< averages include elements with a larger epsilon_q [-]
+    Vec2 crest;                   ///< monitored point: the nearest node [m]
+    double strain_threshold;      ///< averages include elements with a larger epsilon_q [-]
     std::optional<LiquefactionWatch> liquefaction;
     /// connected elements with a larger epsilon_q are a failure surface [-]
     double failure_strain;
@@ -426,7 +418,6 @@ struct Fem {
 // ---------------------------------------------------------------- transfer_tool
 
 enum class Interpolation { local, paper };
-enum class SofteningStart { carried, zero };
 
 /// r_u that decides whether a node is liquefied: the largest since the shaking began, or that at
 /// t_T.
@@ -494,13 +485,10 @@ struct Transfer {
     std::vector<SoilMapping> mapping{};
     std::vector<Vec2> phreatic_line{};  ///< ascending in x, level beyond its ends [m]
     std::optional<LiquefiedZone> liquefied{};
-    SofteningStart softening_start;
     BaseDisplacement base_displacement = BaseDisplacement::kept;
     OutOfPlaneStress sigma_zz = OutOfPlaneStress::carried;
-    std::optional<std::array<double, 2>> keep_x{};  ///< only points in this range of x [m]
-    bool round_trip = false;       ///< measure the error of mapping the points back to the mesh
-    double largest_mass_loss;      ///< relative; a larger loss fails the transfer
-    double largest_momentum_loss;  ///< relative
+    double largest_mass_loss;                    ///< relative; a larger loss fails the transfer
+    double largest_momentum_loss;                ///< relative
     double largest_kinetic_energy_loss = 0.005;  ///< relative
     std::optional<AdviceWindow> window{};
 };

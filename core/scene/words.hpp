@@ -80,11 +80,6 @@ constexpr auto words_of(HourglassKind) {
     return words::in_order<HourglassKind>({{current, "current"}, {elastic, "elastic"}});
 }
 
-constexpr auto words_of(AtEntanglement) {
-    using enum AtEntanglement;
-    return words::in_order<AtEntanglement>({{stop, "stop"}, {go_on, "go_on"}});
-}
-
 constexpr auto words_of(PressureIntegration) {
     using enum PressureIntegration;
     return words::in_order<PressureIntegration>({{full, "full"}, {one_point, "one_point"}});
@@ -115,11 +110,6 @@ constexpr auto words_of(MotionAt) {
     return words::in_order<MotionAt>({{outcrop, "outcrop"}, {upgoing, "upgoing"}});
 }
 
-constexpr auto words_of(BaseNodes) {
-    using enum BaseNodes;
-    return words::in_order<BaseNodes>({{tied, "tied"}, {free, "free"}});
-}
-
 constexpr auto words_of(Baseline) {
     using enum Baseline;
     return words::in_order<Baseline>({{as_recorded, "as_recorded"}, {corrected, "corrected"}});
@@ -146,11 +136,6 @@ constexpr auto words_of(OutOfPlaneStress) {
 constexpr auto words_of(LiquefiedWhen) {
     using enum LiquefiedWhen;
     return words::in_order<LiquefiedWhen>({{ever, "ever"}, {at_transfer, "at_transfer"}});
-}
-
-constexpr auto words_of(SofteningStart) {
-    using enum SofteningStart;
-    return words::in_order<SofteningStart>({{carried, "carried"}, {zero, "zero"}});
 }
 
 constexpr auto words_of(Entangled) {

@@ -10,8 +10,6 @@ from typing import Any, Iterator
 root = pathlib.Path(os.environ.get("BREACH_ROOT", pathlib.Path(__file__).parents[2]))
 largest_kept = 15
 writers = ("services/templates", "services/earthquake", "services/import")
-# Keys that still lack a user: the list may only shrink.
-without_user = set((root / "tests/architecture/without_user.txt").read_text().split())
 
 
 class Schema:
@@ -29,8 +27,7 @@ class Schema:
             node = self.root["$defs"][node["$ref"].split("/")[-1]]
         return node
 
-    def inner(self, node: Any) -> Iterator[Any]:
-        """Schemas of the elements of a list, or of the values under names of the user's own."""
+    def inner(self, node: Any) -> Iterator[Any]:  # schemas of a list's elements, or of values under names of the user's own
         yield from (self.follow(node[key]) for key in ("items", "additionalProperties") if isinstance(node.get(key), dict))
 
     def list_keys(self, node: Any, place: str) -> None:
@@ -42,7 +39,6 @@ class Schema:
             self.list_keys(part, place)
 
     def use(self, value: Any, node: Any, place: str, user: str) -> None:
-        """Marks the keys of a value."""
         node = self.follow(node)
         known = node.get("properties", {})
         if isinstance(value, dict) and any(value.get(key, each.get("const")) != each.get("const", value.get(key)) for key, each in known.items()):
@@ -82,10 +78,8 @@ def find_users(scene: Schema, study: Schema) -> None:
     """In files of people, then in pages and programs that write scenes (there by a key's name, below a used key)."""
     for folder in ("workflows", "docs/tutorials", "docs/how-to", "tests/verification"):
         for path in sorted((root / folder).rglob("*.*")):
-            user, text = str(path.relative_to(root)), path.read_text() if path.suffix in (".json", ".md") else ""
-            if "schema" in path.parts or "results" in path.parts:
-                continue
-            for pointer, value in re.findall(r"[\"`'](/(?:[a-z]\w*/)+\w+)(?:=([^\"`']*))?", text):
+            user, text = str(path.relative_to(root)), path.read_text() if path.suffix in (".json", ".md") and not {"schema", "results"} & {*path.parts} else ""
+            for pointer, value in re.findall(r"[\"`'](/[a-z]\w*(?:/\w+)+)(?:=([^\"`']*))?", text):
                 scene.use_pointer(pointer, readable(value), user)
             document = readable(text)
             kind = document.get("format", "") if isinstance(document, dict) else ""
@@ -112,12 +106,11 @@ def main() -> int:
     lacking = {place for place in keys if place not in users and not any((place + "/").startswith(kept + "/") for kept in reasons)}
     if "--table" in sys.argv:
         print("\n".join(f"{place:60} {users.get(place) or reasons.get(place, '-')}" for place in keys))
-    faults = [f"{place}: no workflow, tutorial, how-to or verification case uses it: remove it" for place in sorted(lacking - without_user)]
-    faults += [f"{place}: has a user now, or is gone: remove it from without_user" for place in sorted(without_user - lacking)]
+    faults = [f"{place}: no workflow, tutorial, how-to or verification case uses it: remove it" for place in sorted(lacking)]
     faults += [f"{place}: remove \"kept_for\" from the schema: {users[place]} uses it" for place in reasons if place in users]
     if len(reasons) > largest_kept:
         faults.append(f"{len(reasons)} keys have \"kept_for\" in the schemas: at most {largest_kept} may")
-    print("\n".join(faults) or f"{len(keys)} keys and entries: {len(reasons)} kept for a reason, {len(without_user)} still without a user")
+    print("\n".join(faults) or f"{len(keys)} keys and entries: {len(reasons)} kept for a reason")
     return 1 if faults or len(keys) < 200 else 0
 
 

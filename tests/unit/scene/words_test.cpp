@@ -100,14 +100,11 @@ TEST(Words, AreTheSchemas) {
         words.are_those_of<StagePermeability>({stage + "/properties/permeability"});
     }
     words.are_those_of<AboveWater>({fem + "/water/properties/above"});
-    words.are_those_of<AtEntanglement>({fem + "/at_entanglement"});
     words.are_those_of<PressureIntegration>({fem + "/water/properties/pressure_integration"});
     words.are_those_of<MotionAt>({fem + "/base/properties/motion_at"});
-    words.are_those_of<BaseNodes>({fem + "/base/properties/nodes"});
     words.are_those_of<Baseline>({fem + "/motion/properties/baseline"});
     words.are_those_of<FreeFieldSides>({fem + "/free_field/properties/sides"});
     words.are_those_of<Interpolation>({transfer + "/interpolation"});
-    words.are_those_of<SofteningStart>({transfer + "/softening_start"});
     words.are_those_of<LiquefiedWhen>({transfer + "/liquefied/properties/when"});
     words.are_those_of<BaseDisplacement>({transfer + "/base_displacement"});
     words.are_those_of<OutOfPlaneStress>({transfer + "/sigma_zz"});

@@ -125,38 +125,6 @@ TEST(Failure, AnEntangledMeshIsARegularEndWithTheLastGoodState) {
     EXPECT_TRUE(std::filesystem::exists(run.folder() / "history.h5"));
 }
 
-TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
-    json scene = unsupported_column();
-    scene["fem"]["stages"][1]["duration"] = 1.5;
-    bench::Run stopping(scene);
-    stopping.go();
-    const json& known = stopping.session().result().at("entanglement");
-    EXPECT_EQ(known.at("went_on"), false);
-    scene["fem"]["at_entanglement"] = "go_on";
-    bench::Run run(scene);
-    const std::vector<Reading>& history = run.go().history;
-    json facts = run.session().result();
-    EXPECT_EQ(facts.at("ended"), "complete");
-    EXPECT_EQ(facts.at("end_time"), 1.5);
-    EXPECT_EQ(facts.at("entanglement").at("went_on"), true);
-    facts["entanglement"].erase("went_on");
-    json same = known;
-    same.erase("went_on");
-    EXPECT_EQ(facts.at("entanglement"), same) << "the first corner that folds, as without";
-    ASSERT_EQ(run.session().flags().size(), 1u);
-    EXPECT_EQ(run.session().flags()[0].code, "entangled");
-    EXPECT_EQ(run.session().flags()[0].pointer, "/fem/at_entanglement");
-    EXPECT_GT(history.back().inverted_elements, 0.0);
-    const json& milestones = facts.at("milestones");
-    const double crest_1 = milestones.at("crest_1_m");
-    for (const Reading& each : history) {
-        EXPECT_EQ(each.crest_displacement >= 1.0, each.time >= crest_1) << each.time << " s";
-    }
-    EXPECT_EQ(milestones.at("kinetic_energy_peak").at("time"), history.back().time)
-        << "it falls faster and faster";
-    EXPECT_EQ(history.back().kinetic_energy_over_peak, 1.0);
-}
-
 /// An elastic column under sudden gravity, with mass-proportional damping.
 TEST(KineticEnergy, OverItsPeakFallsToZeroWithTheMotion) {
     constexpr double H = 10.0, damping = 5.0, duration = 4.0;
@@ -217,8 +185,7 @@ Entanglement judged(const std::function<double(std::size_t)>& epsilon_q) {
     Distortion folded;
     folded.least = 0.0;
     folded.worst_element = 55;
-    return entanglement_of(scene.section, model, watch, motion, folded, 6.7,
-                           scene::AtEntanglement::stop);
+    return entanglement_of(scene.section, model, watch, motion, folded, 6.7);
 }
 
 TEST(Entangled, OneCornerInSoundSoilIsNoFailureOfTheDam) {
@@ -254,8 +221,7 @@ TEST(Entangled, OnAThinBandFromGroundToGroundItIsTheEndOfTheFailure) {
 }
 
 TEST(Entangled, IsReadBackAsItWasWritten) {
-    Entanglement what = judged([](std::size_t) { return 0.3; });
-    what.then = scene::AtEntanglement::go_on;
+    const Entanglement what = judged([](std::size_t) { return 0.3; });
     const scene::Scene scene = bench::parse(bench::scene_of({}));
     EXPECT_EQ(as_json(entanglement_from(as_json(what), scene.section)), as_json(what));
     EXPECT_EQ(entanglement_from(as_json(what), scene.section).region, 0u);

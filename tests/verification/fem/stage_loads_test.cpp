@@ -20,16 +20,6 @@ constexpr double E = 20e6, nu = 0.3, q = 50e3;
 constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));  // one-dimensional [Pa]
 constexpr double G = E / (2.0 * (1.0 + nu));
 
-/// A block on a smooth base and with a smooth wall at its left, free to widen.
-json free_block(bench::Block block, const std::string& element) {
-    json scene = bench::scene_of(block);
-    json& supports = scene["fem"]["supports"];
-    supports.erase(1);
-    supports[1]["fixes"] = "y";
-    scene["fem"]["element"] = element;
-    return scene;
-}
-
 json pressed(double kPa) {
     return {{"surcharge", {{{"from", -1}, {"to", 9}, {"pressure_kPa", kPa}}}}};
 }

@@ -328,8 +328,8 @@ TEST_F(BesideAPit, AFoldedCornerIsJudgedByTheSoilThatIsThere) {
         if (!model_.is_absent(e)) motion.strain[e] = Voigt(0.0, 0.0, 0.0, 0.3);
     Distortion folded;
     folded.worst_element = bank(3, 1);
-    const Entanglement what = entanglement_of(run_.session().scene().section, model_, watch_,
-                                              motion, folded, 1.0, scene::AtEntanglement::stop);
+    const Entanglement what =
+        entanglement_of(run_.session().scene().section, model_, watch_, motion, folded, 1.0);
     EXPECT_NEAR(what.mean_epsilon_q, 0.3 / std::sqrt(3.0), 1e-12);
 }
 

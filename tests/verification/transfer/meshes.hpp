@@ -116,7 +116,6 @@ inline scene::Transfer settings(int n = 3,
     return {.points_per_direction = n,
             .interpolation = mode,
             .neighbours = 40,
-            .softening_start = scene::SofteningStart::carried,
             .largest_mass_loss = 1e-12,
             .largest_momentum_loss = 1e-10};
 }
