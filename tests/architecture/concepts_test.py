@@ -78,7 +78,8 @@ def find_users(scene: Schema, study: Schema) -> None:
     """In files of people, then in pages and programs that write scenes (there by a key's name, below a used key)."""
     for folder in ("workflows", "docs/tutorials", "docs/how-to", "tests/verification"):
         for path in sorted((root / folder).rglob("*.*")):
-            user, text = str(path.relative_to(root)), path.read_text() if path.suffix in (".json", ".md") and not {"schema", "results"} & {*path.parts} else ""
+            ours = path.suffix in (".json", ".md") and not {"schema", "results"} & {*path.parts}
+            user, text = str(path.relative_to(root)), path.read_text() if ours else ""
             for pointer, value in re.findall(r"[\"`'](/[a-z]\w*(?:/\w+)+)(?:=([^\"`']*))?", text):
                 scene.use_pointer(pointer, readable(value), user)
             document = readable(text)
