@@ -19,8 +19,6 @@ struct LiquefactionReport {
     std::vector<LiquefiedGap> gaps;
 };
 
-/// Points outside /transfer/keep.
-
 struct Transferred {
     exchange::ParticleState state;
     exchange::Ledger ledger;

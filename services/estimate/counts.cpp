@@ -108,6 +108,16 @@ bool can_flow(const scene::Scene& scene) {
     });
 }
 
+/// The strength of a material in the LEM, if it has one.
+std::optional<materials::Strength> limit_strength(const scene::Material& material) {
+    if (const auto& own = material.limit_strength)
+        return materials::Strength{own->c, std::tan(own->phi)};
+    if (scene::lem_takes_profile(material))
+        return materials::strength_at(material.strength->peak, {10.0, 0.0, 1e5});
+    if (!materials::traits(material.law).c_and_phi) return std::nullopt;
+    return materials::limit_strength(material.law);
+}
+
 /// Searches for this number of variations, and one for the surface without them.
 double searches_for(scene::VariedSurface surface, double variations, double surfaces) {
     return 1.0 + (surface == scene::VariedSurface::searched ? variations : variations / surfaces);
