@@ -71,8 +71,6 @@ Transferred transferred_with(const scene::Scene& shipped, const exchange::MeshSn
     return *transfer(mesh, scene, {.threads = 2}, "snapshot");
 }
 
-}
-
 TEST_F(MochikoshiShaped, PointsStandWhereTheSectionWasDrawnWithoutTheBasesDisplacement) {
     exchange::MeshSnapshot moved = *mesh_;
     for (auto& each : moved.displacement) each.x() += 0.37;
