@@ -119,8 +119,8 @@ TEST(Words, AreTheSchemas) {
 }
 
 TEST(Words, OfNoEnumAreOurOwnMistake) {
-    EXPECT_FALSE(words::find<Kernel>("spline"));
-    EXPECT_THROW(words::named<Kernel>("spline"), std::logic_error);
+    EXPECT_FALSE(words::find<ElementKind>("spline"));
+    EXPECT_THROW(words::named<ElementKind>("spline"), std::logic_error);
 }
 
 }  // namespace
