@@ -238,7 +238,6 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["fill_shift"] = mpm.fill_shift;
     result["cell_size"] = mpm.cell_size;
     result["softening"] = scene::softening_in(session.scene());
-    result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
     result["wave_speed"] = wave_speed(simulation.body());
     result["mach"] = ending.mach;

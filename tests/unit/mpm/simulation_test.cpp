@@ -59,11 +59,8 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
               b.records().history.back().energy_numerical);
 }
 
-class Resume : public testing::TestWithParam<scene::UpdateOrder> {};
-
-TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
+TEST(Resume, IsBitIdenticalToAnUninterruptedRun) {
     scene::Scene scene = heap();
-    scene.mpm->order = GetParam();
     scene.materials[0].viscosity = 100.0;
     scene.mpm->overlap_correction = {.rate = 5.0, .tolerance = 0.0};
     const exchange::Provenance provenance{
@@ -224,10 +221,6 @@ TEST(ShakenRun, OnGroundAtRestHasTheBitsOfARunWithout) {
     expect_same_bits(without, with);
     EXPECT_EQ(with.body().tally.shaking, 0.0);
 }
-
-INSTANTIATE_TEST_SUITE_P(Orders, Resume,
-                         testing::Values(scene::UpdateOrder::usl, scene::UpdateOrder::musl,
-                                         scene::UpdateOrder::usf));
 
 TEST(Simulation, HitsSnapshotTimesExactly) {
     const scene::Scene scene = heap();
