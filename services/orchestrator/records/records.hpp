@@ -127,9 +127,10 @@ struct Run {
     std::string id;
     std::string name;
     std::string title;
-    /// Derived: queued running budget_exhausted succeeded questionable partial failed cancelled.
+    /// Derived by the view run_summaries, never stored: queued running succeeded questionable
+    /// partial failed cancelled.
     /// questionable: all succeeded, but a result has a flag that makes it unreliable.
-    /// budget_exhausted: tasks wait, and none is started until the budget is raised.
+    /// partial: some results are missing. A run is over when no task, trigger or batch is open.
     std::string state;
     std::string created;
     std::optional<std::string> started;
