@@ -1,3 +1,5 @@
+// `breach verify`: computes the shipped verification cases here and compares them. It needs no
+// server, as an installation is verified before one is set up.
 #include "services/cli/verify.hpp"
 
 #include <fstream>
