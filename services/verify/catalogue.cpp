@@ -1,3 +1,5 @@
+// Reads the catalogue's files and reports all faults of a file at once. Unknown keys are refused,
+// because a misspelt tolerance would otherwise compare with a default.
 #include "services/verify/catalogue.hpp"
 
 #include <algorithm>
@@ -14,7 +16,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One entry of a file, and its faults.
+/// One entry of a file, and its faults. Collects faults and returns neutral values, so that
+/// reading goes on; the faults of a file are thrown at its end.
 class Entry {
   public:
     Entry(const json& of, std::string pointer, std::vector<fault::Fault>& faults)
