@@ -1,5 +1,3 @@
-// Reads the catalogue's files and reports all faults of a file at once. Unknown keys are refused,
-// because a misspelt tolerance would otherwise compare with a default.
 #include "services/verify/catalogue.hpp"
 
 #include <algorithm>
@@ -16,8 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One entry of a file, and its faults. Collects faults and returns neutral values, so that
-/// reading goes on; the faults of a file are thrown at its end.
+/// One entry of a file, and its faults.
 class Entry {
   public:
     Entry(const json& of, std::string pointer, std::vector<fault::Fault>& faults)

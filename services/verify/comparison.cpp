@@ -1,7 +1,3 @@
-// Runs each case of the catalogue as a user would, with the phases' programs on its scene, and
-// reads the quantities from the files that they write. Nothing is linked: what is compared is
-// what is installed. A case that cannot run, or lacks a quantity, counts as failed, never as left
-// out.
 #include "services/verify/comparison.hpp"
 
 #include <atomic>
@@ -22,8 +18,6 @@ namespace breach::verify {
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-/// Share of the allowed difference; above 1 the comparison fails. Infinite for a missing value,
-/// so that no maximum or sum can hide it.
 double Found::used() const {
     if (!value || !std::isfinite(*value)) return std::numeric_limits<double>::infinity();
     const double scale = quantity->relative ? std::abs(quantity->right) : 1.0;
@@ -40,7 +34,6 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 
 /// Runs the program with its output in log.txt. No exit code: it cannot be started.
 command::Result run_program(std::vector<std::string> words, const fs::path& folder) {
-    // Ends a program that hangs.
     constexpr auto longest = std::chrono::hours(2);
     command::Result result;
     try {
@@ -59,8 +52,6 @@ std::optional<double> number_in(const json& document, const std::string& pointer
 }
 
 /// (key, value) of each line that has both.
-/// Reads CSV by its header and telemetry (JSON lines) by pointer. Lines that hold no number there
-/// are not an error: histories begin before some quantities exist.
 std::vector<std::pair<double, double>> lines_in(const fs::path& file, const Place& place) {
     std::vector<std::pair<double, double>> found;
     std::ifstream stream(file);
@@ -103,7 +94,6 @@ std::optional<double> at_key(const std::vector<std::pair<double, double>>& lines
     if (lines.empty()) return std::nullopt;
     if (place.key.empty()) return lines.back().second;
     for (std::size_t k = 0; k < lines.size(); ++k) {
-        // Text has rounded the key; an exact line must not be interpolated.
         const double near = 1e-9 * std::max(std::abs(place.value), 1e-12);
         if (std::abs(lines[k].first - place.value) <= near) return lines[k].second;
         if (k == 0) continue;

@@ -1,5 +1,3 @@
-// What people and CI read after `breach verify`. The JSON beside the page holds the same numbers
-// with all digits; the page rounds them.
 #include "services/verify/page.hpp"
 
 #include <algorithm>
@@ -93,7 +91,7 @@ json as_json(const std::vector<Topic>& catalogue, const std::vector<Outcome>& ou
     return all;
 }
 
-/// One line each. Named on the page, so that a page of --quick shows what it lacks.
+/// One line each.
 std::string slow_cases(const std::vector<Topic>& catalogue, const std::vector<Outcome>& outcomes) {
     std::string text;
     for (const Topic& topic : catalogue)
