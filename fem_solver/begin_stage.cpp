@@ -87,7 +87,7 @@ void begin_motion(Course& course) {
     for (Hourglass& each : course.motion.hourglass) each.energy = 0.0;
     course.beginning = beginning_of(course.model, course.motion);
     set_skeleton_modulus(course.beginning, course.model);
-    evaluate_pore_water(course.model, course.motion.u, course.model.water);
+    evaluate_pore_water(course.model, course.model.water);
     note_free_ground(course);
 }
 

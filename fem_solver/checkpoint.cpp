@@ -98,7 +98,6 @@ void put(exchange::Archive& archive, const Motion& motion) {
     archive.reals["epsilon_q"] = std::move(epsilon_q);
     archive.reals["strain"] = std::move(strain);
     put_memory(archive, motion);
-    if (!motion.turned.empty()) archive.reals["turned"] = motion.turned;
     if (motion.hourglass.empty()) return;
     Reals& hourglass = archive.reals["hourglass"];
     for (const Hourglass& h : motion.hourglass) {
@@ -126,7 +125,6 @@ Motion motion_from(const exchange::Archive& archive, const Model& model) {
         motion.strain.push_back(tensor_at(strain, p));
     }
     take_memory(archive, model, motion);
-    if (archive.reals.contains("turned")) motion.turned = archive.reals.at("turned");
     if (!archive.reals.contains("hourglass")) return motion;
     const Reals& h = archive.reals.at("hourglass");
     for (std::size_t i = 0; i + 3 < h.size(); i += 4) {

@@ -168,7 +168,6 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
                 "/materials"),
         line_of("inertia (Newmark)", use_if(moves), {"a stage is dynamic", "every stage is static"},
                 "/fem/stages"),
-        model.kinematics.line,
         model.element.line,
         model.damping.line,
         line_of("viscosity", use_if(!viscous.empty() && moves),

@@ -130,17 +130,11 @@ Distortion distortion_of_trial(Course& course) {
         "sharp, or take a smaller time step");
 }
 
-/// Records the first folded corner: where, when and in which soil.
+/// Records the folded corner: where, when and in which soil.
 void note_entanglement(const Distortion& folded, double time, Course& course, Recorder& recorder) {
-    if (course.entanglement) return;
-    course.entanglement =
-        entanglement_of(course.session.scene().section, course.model, course.watch, course.motion,
-                        folded, time, course.fem.at_entanglement);
+    course.entanglement = entanglement_of(course.session.scene().section, course.model,
+                                          course.watch, course.motion, folded, time);
     if (course.position.time == 0.0) refuse_the_mesh(*course.entanglement, recorder);
-    if (course.fem.at_entanglement == scene::AtEntanglement::go_on) {
-        spdlog::warn("{}; the analysis goes on with the undeformed mesh",
-                     in_words(*course.entanglement));
-    }
 }
 
 /// Liquefied soil does not regain strength when its pore pressure falls.
@@ -196,14 +190,11 @@ void tell_progress(const Course& course) {
 
 StageEnd run_dynamic(Course& course, Recorder& recorder) {
     const Newmark newmark{course.fem.newmark_beta, course.fem.newmark_gamma};
-    const bool moves = course.model.kinematics == scene::Kinematics::updated_lagrangian;
     StepControl control(course);
     while (!control.at_end()) {
         if (course.session.stop_requested()) return StageEnd::stopped;
         const double dt = control.next_size();
         const double time = course.position.time + dt;
-        if (moves && course.model.water.any())
-            evaluate_pore_water(course.model, course.motion.u, course.model.water);
         const NewtonOutcome outcome =
             dynamic_step(*course.newton, course.model, course.laws, newmark, course.beginning, dt,
                          time, course.motion, course.prediction, course.trial);
@@ -215,8 +206,7 @@ StageEnd run_dynamic(Course& course, Recorder& recorder) {
         const Distortion distortion = distortion_of_trial(course);
         if (distortion.least <= course.fem.least_jacobian_ratio) {
             note_entanglement(distortion, time, course, recorder);
-            if (course.fem.at_entanglement == scene::AtEntanglement::stop)
-                return StageEnd::entangled;
+            return StageEnd::entangled;
         }
         course.distortion = distortion;
         take_trial(course);

@@ -226,9 +226,8 @@ void report_end(Course& course) {
     process::Session& session = course.session;
     auto& facts = session.result();
     const auto& entangled = course.entanglement;
-    const bool stopped = entangled && entangled->then == scene::AtEntanglement::stop;
     facts["softening"] = scene::softening_in(session.scene());
-    facts["ended"] = stopped ? "entangled" : "complete";
+    facts["ended"] = entangled ? "entangled" : "complete";
     facts["end_time"] = course.position.time;
     if (entangled) {
         facts["entanglement"] = as_json(*entangled);

@@ -25,11 +25,10 @@ nlohmann::json& facts_of_stage(Course& course) {
     return course.session.result()["geostatic"][course.stage().name];
 }
 
-/// Applies this share of the stage's displacements and creep.
+/// Applies this share of the stage's displacements.
 void drive(double share, Course& course) {
-    Model& model = course.model;
+    const Model& model = course.model;
     Eigen::VectorXd& driven = course.prediction.driven;
-    set_creep_step(share, course.motion, model);
     driven.resize(0);
     if (model.driven.empty()) return;
     driven = Eigen::VectorXd::Zero(model.dofs());

@@ -188,8 +188,6 @@ process::Plan plan(const scene::Scene& whole) {
          lem.non_circular ? "straight pieces, by Spencer's method"
                           : "not asked for: only from surfaces along thin weak layers",
          "/lem/non_circular"},
-        {"limit on m_alpha", use(lem.m_alpha.least > 0.0),
-         "surfaces below " + spelt("%.3g", lem.m_alpha.least) + " do not count", "/lem/m_alpha"},
         {"strength profiles", use(profiles > 0),
          std::to_string(profiles) + " materials take theirs at each slice's base", "/materials"},
         {"undrained strength", use(!lem.undrained.empty()),
@@ -202,14 +200,10 @@ process::Plan plan(const scene::Scene& whole) {
          "/lem/seismic_coefficient"},
         {"surcharge", use(!lem.surcharge.empty()),
          std::to_string(lem.surcharge.size()) + " loads on the ground", "/lem/surcharge"},
-        {"line loads", use(!lem.line_loads.empty()),
-         std::to_string(lem.line_loads.size()) + " forces on the ground", "/lem/line_loads"},
         {"liquefied layers", use(!lem.liquefaction.empty()),
          std::to_string(lem.liquefaction.size()) +
              " layers, one search per stage, below the phreatic line",
          "/lem/liquefaction"},
-        {"sensitivity", use(lem.sensitivity.has_value()),
-         lem.sensitivity ? "every strength parameter alone" : "not asked for", "/lem/sensitivity"},
         {"probability of failure", use(lem.probability.has_value()),
          lem.probability ? std::to_string(lem.probability->samples) + " samples" : "not asked for",
          "/lem/probability"},
@@ -263,7 +257,6 @@ process::Outcome run(process::Session& session) {
         std::ranges::move(flags_of_stages(result.at("stages")), std::back_inserter(flags));
     }
     flag_each_once(session, flags);
-    if (lem.sensitivity) add_sensitivity(session.scene(), threads, result);
     if (lem.probability) {
         const Samples samples = add_probability(session.scene(), threads, result);
         write_table(session, "samples", table_of(samples));

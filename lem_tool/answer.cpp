@@ -36,19 +36,18 @@ struct Candidate {
 
 std::string name_of(const std::string& surface) { return surface == "circle" ? "bishop" : surface; }
 
-std::string small_m_alpha(double least, double limit) {
-    if (least >= limit) return "";
+std::string small_m_alpha(double least) {
+    if (least >= least_m_alpha) return "";
     char words[120];
-    std::snprintf(words, sizeof words, "m_alpha of a slice is %.3g, below /lem/m_alpha/least, %.3g",
-                  least, limit);
+    std::snprintf(words, sizeof words, "m_alpha of a slice is %.3g, below %g", least,
+                  least_m_alpha);
     return words;
 }
 
-void add_candidates(const std::string& surface, const json& facts, double least_m_alpha,
-                    std::vector<Candidate>& all) {
+void add_candidates(const std::string& surface, const json& facts, std::vector<Candidate>& all) {
     if (facts.is_null()) return;
     all.push_back({facts.at("factor_of_safety"), facts.at("method"), surface,
-                   small_m_alpha(facts.at("least_m_alpha"), least_m_alpha), false});
+                   small_m_alpha(facts.at("least_m_alpha")), false});
     if (facts.contains("points")) {
         all.back().kinked_without_friction = kinks_without_friction(facts);
         if (all.back().kinked_without_friction)
@@ -58,7 +57,7 @@ void add_candidates(const std::string& surface, const json& facts, double least_
     const json& spencer = facts.at("spencer");
     if (spencer.is_null()) return;
     Candidate rigorous{spencer.at("factor_of_safety"), "spencer", surface,
-                       small_m_alpha(spencer.at("least_m_alpha"), least_m_alpha), false};
+                       small_m_alpha(spencer.at("least_m_alpha")), false};
     if (facts.value("follows_floor", false) && rigorous.invalid.empty())
         all.back().invalid =
             "off the arc Bishop's moments depend on the circle's centre, and Spencer's method has "
@@ -66,11 +65,11 @@ void add_candidates(const std::string& surface, const json& facts, double least_
     all.push_back(std::move(rigorous));
 }
 
-std::vector<Candidate> candidates_of(const json& parts, double least_m_alpha) {
+std::vector<Candidate> candidates_of(const json& parts) {
     std::vector<Candidate> all;
     for (const char* surface :
          {"circle", "composite", "given_circle", "non_circular", "given_polyline"})
-        add_candidates(surface, parts.value(name_of(surface), json()), least_m_alpha, all);
+        add_candidates(surface, parts.value(name_of(surface), json()), all);
     return all;
 }
 
@@ -203,7 +202,7 @@ json answer(const scene::Scene& scene, const Families& families, const json& giv
     // An arc crosses a thin weak layer at one angle only, a polyline at those of least resistance.
     if (asks_for_polyline(lem) || !families.composites.empty())
         parts["non_circular"] = polyline_of(scene, families);
-    const auto all = candidates_of(parts, lem.m_alpha.least);
+    const auto all = candidates_of(parts);
     const Candidate& least = least_of(all);
     json result = front_of(least, parts.at(name_of(least.surface)));
     result.update(parts);
@@ -218,7 +217,7 @@ std::vector<fault::Flag> flags_of_weak_layer(const scene::Scene& scene, const Fa
         return {};
     const double reported = answer.at("factor_of_safety");
     const json parts{{"non_circular", polyline_of(scene, families)}};
-    for (const Candidate& each : candidates_of(parts, scene.lem->m_alpha.least)) {
+    for (const Candidate& each : candidates_of(parts)) {
         if (!each.invalid.empty() || each.factor >= reported * (1.0 - telling_difference)) continue;
         char words[256];
         std::snprintf(words, sizeof words,
@@ -233,7 +232,7 @@ std::vector<fault::Flag> flags_of_weak_layer(const scene::Scene& scene, const Fa
 std::vector<fault::Flag> flags_of_answer(const json& answer, const scene::Lem& lem) {
     const double reported = answer.at("factor_of_safety");
     std::vector<fault::Flag> flags;
-    for (const Candidate& each : candidates_of(answer, lem.m_alpha.least)) {
+    for (const Candidate& each : candidates_of(answer)) {
         if (each.invalid.empty() || each.factor >= reported * (1.0 - telling_difference)) continue;
         char words[512];
         std::snprintf(words, sizeof words,

@@ -185,8 +185,8 @@ Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Surface& sur
     if (right != Cut::done) return right;
     const Cut verdict = ArcCutter(strata, soils, surface, wanted, slices).run();
     if (verdict != Cut::done) return verdict;
-    if (!strata.loads.empty())
-        add_loads(strata, surface.circle, surface.left, surface.right, slices);
+    if (!strata.pushes.empty())
+        add_pushes(strata, surface.circle, surface.left, surface.right, slices);
     if (strata.gamma_w > 0.0 || surface.crack != CrackAt::none) {
         add_end(strata, surface.circle, end_of(strata, surface, From::left), From::left, slices);
         add_end(strata, surface.circle, end_of(strata, surface, From::right), From::right, slices);

@@ -32,12 +32,10 @@ Resistance resistance(const Slices& slices, double sense, double F) {
     return total;
 }
 
-double smallest_m_alpha(const Slices& slices, double sense, double F,
-                        scene::MAlphaSlices counting) {
+double smallest_m_alpha(const Slices& slices, double sense, double F) {
     double least = 1.0;
     for (std::size_t i = 0; i < slices.count; ++i) {
-        const bool counts = counting == scene::MAlphaSlices::all || slices.tan_phi[i] != 0.0;
-        if (!counts) continue;
+        if (slices.tan_phi[i] == 0.0) continue;
         least = std::min(least, slices.cos_a[i] + sense * slices.sin_a[i] * slices.tan_phi[i] / F);
     }
     return least;
@@ -58,7 +56,7 @@ Slide slide_of(const Slices& slices) {
     return sum_of_driving(slices) >= 0.0 ? Slide::to_left : Slide::to_right;
 }
 
-Bishop bishop(const Slices& slices, Slide slide, double k_h, const scene::MAlphaLimit& limit) {
+Bishop bishop(const Slices& slices, Slide slide, double k_h) {
     const double sense = slide == Slide::to_left ? 1.0 : -1.0;
     double driving = sense * sum_of_driving(slices);
     for (std::size_t i = 0; k_h != 0.0 && i < slices.count; ++i) driving += k_h * slices.shaking[i];
@@ -89,8 +87,8 @@ Bishop bishop(const Slices& slices, Slide slide, double k_h, const scene::MAlpha
         }
     }
     result.factor_of_safety = F;
-    result.m_alpha = smallest_m_alpha(slices, sense, F, limit.slices);
-    if (result.balance == Balance::found && result.m_alpha < limit.least) {
+    result.m_alpha = smallest_m_alpha(slices, sense, F);
+    if (result.balance == Balance::found && result.m_alpha < least_m_alpha) {
         result.balance = Balance::small_m_alpha;
     }
     return result;

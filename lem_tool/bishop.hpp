@@ -8,6 +8,10 @@ namespace breach::lem {
 /// Direction of sliding; gives the sign of base inclinations.
 enum class Slide { to_left, to_right };
 
+/// Limit of m_alpha = cos a + sin a tan phi / F of slices with friction; without friction, resistance
+/// does not depend on it (Whitman & Bailey 1967).
+constexpr double least_m_alpha = 0.2;
+
 enum class Balance {
     found,
     no_driving_moment,  ///< the weight does not drive the mass in this direction
@@ -18,7 +22,7 @@ enum class Balance {
 struct Bishop {
     Balance balance;
     double factor_of_safety;  ///< for found or small_m_alpha [-]
-    double m_alpha;           ///< minimum over the slices with a limit, at most 1 [-]
+    double m_alpha;           ///< minimum over the slices with friction, at most 1 [-]
     int iterations;
 };
 
@@ -28,6 +32,6 @@ Slide slide_of(const Slices& slices);
 /// F = sum (c l cos a + (W - u l cos a) tan phi) / m_a / (sum of driving moments / R),
 /// m_a = cos a + sin a tan phi / F   (Bishop 1955). k_h: horizontal over vertical acceleration,
 /// towards the slide [-].
-Bishop bishop(const Slices& slices, Slide slide, double k_h, const scene::MAlphaLimit& limit = {});
+Bishop bishop(const Slices& slices, Slide slide, double k_h);
 
 }  // namespace breach::lem

@@ -45,26 +45,9 @@ std::string because(Cut cut) {
     return "cuts nothing off";
 }
 
-/// A small m_alpha is flagged, not refused, unless the scene requests that: the user gave this
-/// circle.
-bool is_answer(const Bishop& result, const scene::MAlphaLimit& limit) {
-    return result.balance == Balance::found || (result.balance == Balance::small_m_alpha &&
-                                                limit.given_circle == scene::SmallMAlpha::answered);
-}
-
-std::string because(const Bishop& result, const scene::MAlphaLimit& limit) {
-    switch (result.balance) {
-        case Balance::no_driving_moment:
-            return "cuts off a mass that its weight does not drive";
-        case Balance::not_converged:
-            return "has a factor of safety on which the iteration does not settle";
-        case Balance::small_m_alpha:
-            return "has a slice with m_alpha = " + std::to_string(result.m_alpha) +
-                   ", below /lem/m_alpha/least = " + std::to_string(limit.least);
-        case Balance::found:
-            break;
-    }
-    return "has no factor of safety";
+/// A small m_alpha is flagged, not refused: the user gave this circle.
+bool is_answer(const Bishop& result) {
+    return result.balance == Balance::found || result.balance == Balance::small_m_alpha;
 }
 
 std::string because(const Unbalanced& mass) {
@@ -138,9 +121,11 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
             why = because(verdict);
             continue;
         }
-        const Bishop result = bishop(slices, slide_of(slices), model.k_h, model.m_alpha);
-        if (!is_answer(result, model.m_alpha)) {
-            why = because(result, model.m_alpha);
+        const Bishop result = bishop(slices, slide_of(slices), model.k_h);
+        if (!is_answer(result)) {
+            why = result.balance == Balance::no_driving_moment
+                      ? "cuts off a mass that its weight does not drive"
+                      : "has a factor of safety on which the iteration does not settle";
             continue;
         }
         if (!best || result.factor_of_safety < best->bishop.factor_of_safety) {

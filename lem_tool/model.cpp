@@ -47,7 +47,7 @@ void make_undrained(const scene::UndrainedRegion& entry, std::vector<Soil>& soil
 
 Model make_model(const scene::Scene& scene) {
     const scene::Lem& lem = scene::lem_of(scene);
-    Model model{make_strata(scene), {}, lem.slices, lem.seismic_coefficient, lem.m_alpha};
+    Model model{make_strata(scene), {}, lem.slices, lem.seismic_coefficient};
     for (const scene::Region& region : scene.section.regions) {
         const scene::Material& material = scene.materials[region.material];
         model.soils.push_back(soil_of(material.law));

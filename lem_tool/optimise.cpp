@@ -155,7 +155,7 @@ class Descent {
         ++analysed_;
         const auto found = analyse(model_, polyline, slices_);
         if (!found || found->depth < least_depth_ * (1.0 - 1e-9)) return no_answer;
-        if (found->spencer.m_alpha < model_.m_alpha.least) return no_answer;
+        if (found->spencer.m_alpha < least_m_alpha) return no_answer;
         if (found->spencer.theta < least_theta_) return no_answer;
         return found->spencer.factor_of_safety;
     }

@@ -146,8 +146,8 @@ Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Polyline& po
     make_room(strata, polyline.points.size(), wanted, slices);
     const Cut verdict = PolylineCutter(strata, soils, polyline, pivot, wanted, slices).run();
     if (verdict != Cut::done) return verdict;
-    if (!strata.loads.empty())
-        add_loads(strata, pivot, polyline.points.front().x(), polyline.points.back().x(), slices);
+    if (!strata.pushes.empty())
+        add_pushes(strata, pivot, polyline.points.front().x(), polyline.points.back().x(), slices);
     if (strata.gamma_w > 0.0 || polyline.crack != CrackAt::none) {
         for (const From side : {From::left, From::right})
             add_end(strata, pivot, end_of(polyline, side), side, slices);

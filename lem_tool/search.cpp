@@ -97,7 +97,7 @@ class Probe {
             return none;
         }
         const Bishop result =
-            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h, model_.m_alpha);
+            bishop(slices_, to_left ? Slide::to_left : Slide::to_right, model_.k_h);
         if (result.balance != Balance::found) {
             ++tally_.no_answer;
             return none;

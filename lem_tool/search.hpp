@@ -18,7 +18,6 @@ struct Model {
     std::vector<Soil> soils;  ///< by region
     int slices;
     double k_h = 0.0;  ///< horizontal seismic coefficient [-]
-    scene::MAlphaLimit m_alpha{};
     /// By region: residual strength of its material's profile, if any
     std::vector<std::optional<materials::StrengthCurve>> residual{};
 };

@@ -9,17 +9,10 @@ double moment(double dx, double w0, double w1, double d0, double d1) {
     return dx * ((w0 + w1) * (d0 + d1) / 4.0 + (w1 - w0) * (d1 - d0) / 12.0);
 }
 
-/// Adds a force to one slice.
-void add_load(const scene::Circle& pivot, const PointLoad& load, std::size_t i, Slices& slices) {
-    const double R = pivot.radius;
-    const double arm = slices.stands_on[i] == Base::arc
-                           ? (load.x - pivot.center.x()) / R
-                           : slices.lever[i] * slices.sin_a[i];  // h tan a / R
-    slices.weight[i] += load.down;
-    slices.push[i] += load.left;
-    if (load.of == PointLoad::Of::water) slices.water_push[i] += load.left;
-    slices.driving[i] += load.down * arm + load.left * (pivot.center.y() - load.level) / R;
-    slices.force[i] += load.down * slices.tan_phi[i] * slices.lever[i];
+/// Adds a push to one slice.
+void add_push(const scene::Circle& pivot, const WaterPush& push, std::size_t i, Slices& slices) {
+    slices.push[i] += push.left;
+    slices.driving[i] += push.left * (pivot.center.y() - push.level) / pivot.radius;
 }
 
 /// An end of the mass with the water in front of it.
@@ -73,7 +66,7 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     slices_.length[i] = chord * (1.0 + bend / 24.0);
     slices_.soil_weight[i] = soil_weight;
     slices_.weight[i] = soil_weight + strip.surcharge * dx;
-    slices_.push[i] = slices_.water_push[i] = 0.0;
+    slices_.push[i] = 0.0;
     slices_.stands_on[i] = kind;
     slices_.driving[i] = (moment(dx, w0, w1, d0, d1) +
                           (layer.gamma * segment + strip.surcharge * dx) * 0.5 * (d0 + d1)) /
@@ -141,22 +134,21 @@ double SliceMaker::add_free_water(const Strip& strip, std::size_t i, const Chord
     const double R = pivot_.radius;
     slices_.weight[i] += 0.5 * dx * (p0 + p1);
     slices_.driving[i] += moment(dx, p0, p1, x0 - center.x(), x1 - center.x()) / R;
-    slices_.push[i] = slices_.water_push[i] = -ground.slope * 0.5 * dx * (p0 + p1);
+    slices_.push[i] = -ground.slope * 0.5 * dx * (p0 + p1);
     return ground.slope *
            moment(dx, p0, p1, ground.at(x0) - center.y(), ground.at(x1) - center.y()) / R;
 }
 
-void add_loads(const Strata& strata, const scene::Circle& pivot, double left, double right,
-               Slices& slices) {
-    for (const PointLoad& load : strata.loads) {
-        if (load.x <= left || load.x >= right) continue;
+void add_pushes(const Strata& strata, const scene::Circle& pivot, double left, double right,
+                Slices& slices) {
+    for (const WaterPush& push : strata.pushes) {
+        if (push.x <= left || push.x >= right) continue;
         const auto end = slices.left.begin() + static_cast<std::ptrdiff_t>(slices.count);
-        const auto next = std::upper_bound(slices.left.begin(), end, load.x);
+        const auto next = std::upper_bound(slices.left.begin(), end, push.x);
         std::size_t i = static_cast<std::size_t>(next - slices.left.begin()) - 1;
         // Water acts on the soil behind the face, not on the slice in front of it.
-        const bool on_left_one = load.left > 0.0 && load.down == 0.0 && load.x <= slices.left[i];
-        if (on_left_one && i > 0) --i;
-        add_load(pivot, load, i, slices);
+        if (push.left > 0.0 && push.x <= slices.left[i] && i > 0) --i;
+        add_push(pivot, push, i, slices);
     }
 }
 
@@ -165,9 +157,7 @@ void add_end(const Strata& strata, const scene::Circle& pivot, const MassEnd& en
     const EndFace face = face_of(strata, end, outside);
     if (face.gamma_w == 0.0 || face.head - face.foot <= 1e-9 * pivot.radius) return;
     const Thrust push = thrust(face.gamma_w, face.water, face.foot, face.head);
-    add_load(pivot,
-             {end.x, push.level, 0.0, outside == From::left ? -push.force : push.force,
-              PointLoad::Of::water},
+    add_push(pivot, {end.x, push.level, outside == From::left ? -push.force : push.force},
              outside == From::left ? 0 : slices.count - 1, slices);
 }
 

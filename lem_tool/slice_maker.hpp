@@ -93,9 +93,9 @@ struct MassEnd {
     enum class Kind { ground, crack } kind;
 };
 
-/// Adds line loads, and water thrust on vertical faces, between the ends.
-void add_loads(const Strata& strata, const scene::Circle& pivot, double left, double right,
-               Slices& slices);
+/// Adds the water's thrust on vertical faces between the ends.
+void add_pushes(const Strata& strata, const scene::Circle& pivot, double left, double right,
+                Slices& slices);
 
 /// Adds the water thrust on the end of the mass, in its crack or in front of its face.
 void add_end(const Strata& strata, const scene::Circle& pivot, const MassEnd& end, From outside,

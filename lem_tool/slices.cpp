@@ -6,7 +6,7 @@ namespace breach::lem {
 
 void Slices::reserve(std::size_t slices, std::size_t most_crossings) {
     for (auto* array : {&left, &width, &base, &sin_a, &cos_a, &length, &weight, &soil_weight, &push,
-                        &water_push, &u, &driving, &shaking, &lever, &force, &c, &tan_phi}) {
+                        &u, &driving, &shaking, &lever, &force, &c, &tan_phi}) {
         array->assign(slices, 0.0);
     }
     stands_on.assign(slices, Base::arc);

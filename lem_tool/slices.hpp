@@ -54,8 +54,7 @@ struct Slices {
     std::vector<double> weight;       ///< soil, surcharge and free water above [N/m]
     std::vector<double> u;            ///< pore pressure at the base [Pa]
     std::vector<double> soil_weight;  ///< part of the soil [N/m]
-    std::vector<double> push;  ///< horizontal load of free water and line loads, to the left [N/m]
-    std::vector<double> water_push;  ///< part of the water [N/m]
+    std::vector<double> push;         ///< horizontal load of free water, to the left [N/m]
     std::vector<Base> stands_on;
     std::vector<double>
         /// driving moment over R: of the loads about the centre; on a straight base W h tan a and

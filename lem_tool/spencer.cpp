@@ -55,7 +55,7 @@ Mass mass_of(const Slices& slices, const scene::Circle& circle, Slide slide, dou
         const double u_l = slices.u[i] * slices.length[i];
         const double c_l = slices.c[i] * slices.length[i];
         const double normal = V * cos_a - H * sin_a;
-        mass.blocks.push_back({sin_a, cos_a, V, H, H - sense * slices.water_push[i], r, f, c_l, u_l,
+        mass.blocks.push_back({sin_a, cos_a, V, H, H - sense * slices.push[i], r, f, c_l, u_l,
                                slices.u[i] * slices.width[i], slices.tan_phi[i], normal,
                                V * sin_a + H * cos_a, c_l + (normal - u_l) * slices.tan_phi[i]});
     }

@@ -257,8 +257,8 @@ void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::s
     strata.strips.push_back(strip);
 }
 
-/// Adds free water on the vertical faces of the ground, and the line loads.
-void add_loads(const scene::Scene& scene, const Extent& extent, Strata& strata) {
+/// Adds free water on the vertical faces of the ground.
+void add_pushes(const Extent& extent, Strata& strata) {
     const double same_level = same_place * (extent.width + extent.height);
     for (std::size_t i = 0; strata.gamma_w > 0.0 && i + 1 < strata.strips.size(); ++i) {
         const double x = strata.strips[i].to;
@@ -270,14 +270,8 @@ void add_loads(const scene::Scene& scene, const Extent& extent, Strata& strata) 
         const Thrust push =
             thrust(strata.gamma_w, water, std::min(left, right), std::max(left, right));
         if (push.force > 0.0) {
-            strata.loads.push_back(
-                {x, push.level, 0.0, faces_left ? -push.force : push.force, PointLoad::Of::water});
+            strata.pushes.push_back({x, push.level, faces_left ? -push.force : push.force});
         }
-    }
-    for (const scene::LineLoad& load : scene::lem_of(scene).line_loads) {
-        const double level = std::max(ground_level(strata, load.x, From::left),
-                                      ground_level(strata, load.x, From::right));
-        strata.loads.push_back({load.x, level, load.down, -load.right, PointLoad::Of::line_load});
     }
 }
 
@@ -341,7 +335,7 @@ Strata make_strata(const scene::Scene& scene) {
         add_strip(scene, lines, borders[i], borders[i + 1], extent, strata);
     }
     strata.crack = crack_of(scene);
-    add_loads(scene, extent, strata);
+    add_pushes(extent, strata);
     return strata;
 }
 

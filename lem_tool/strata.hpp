@@ -52,14 +52,11 @@ struct PorePressure {
     }
 };
 
-/// A force at one abscissa: a line load on the ground, or free water on a vertical face.
-struct PointLoad {
-    enum class Of { line_load, water };
+/// Push of free water on a vertical face.
+struct WaterPush {
     double x;      ///< [m]
     double level;  ///< [m]
-    double down;   ///< [N/m]
     double left;   ///< towards the left [N/m]
-    Of of;
 };
 
 /// Vertical crack at the upper end of every surface.
@@ -78,7 +75,7 @@ struct Strata {
     /// lines of each strip, in order: /lem/water, piezometric_lines
     std::vector<PorePressure> pressures;
     std::size_t lines = 0;
-    std::vector<PointLoad> loads;
+    std::vector<WaterPush> pushes;
     Crack crack;
     double gamma_w = 0.0;  ///< unit weight of free water [N/m3]; 0 without /lem/water
 

@@ -124,7 +124,7 @@ class Variations {
         const Model model = model_of(varied);
         Slices slices = make_slices(model.strata, model.slices);
         cut(model.strata, model.soils, base_.surface, model.slices, slices);
-        const Bishop result = bishop(slices, slide_, model.k_h, model.m_alpha);
+        const Bishop result = bishop(slices, slide_, model.k_h);
         const bool answered =
             result.balance == Balance::found || result.balance == Balance::small_m_alpha;
         return answered ? result.factor_of_safety : stable;
@@ -152,31 +152,6 @@ class Variations {
     double crack_share_ = 1.0;
     Slide slide_ = Slide::to_left;
 };
-
-struct Strength {
-    Parameter parameter;
-    std::size_t of;
-};
-
-/// Every nonzero strength parameter of the scene.
-std::vector<Strength> strengths_of(const Varied& of_scene, std::size_t layers) {
-    const scene::Scene& scene = of_scene.limit;
-    std::vector<Strength> strengths;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const materials::Law& law = scene.materials[i].law;
-        if (!materials::traits(law).c_and_phi) continue;
-        const auto strength = materials::limit_strength(law);
-        if (strength->c > 0.0) strengths.push_back({Parameter::cohesion, i});
-        if (strength->tan_phi > 0.0) strengths.push_back({Parameter::friction_angle, i});
-    }
-    for (std::size_t i = 0; i < of_scene.undrained.size(); ++i) {
-        strengths.push_back({Parameter::undrained_strength, i});
-    }
-    for (std::size_t i = 0; i < layers; ++i) strengths.push_back({Parameter::residual_strength, i});
-    return strengths;
-}
-
-json or_null(double F) { return std::isfinite(F) ? json(F) : json(nullptr); }
 
 /// Distribution of the parameter over its mean.
 statistics::Distribution distribution_of(const scene::RandomVariable& variable) {
@@ -206,31 +181,6 @@ json statistics_of(const std::vector<double>& factors) {
 }
 
 }  // namespace
-
-void add_sensitivity(const scene::Scene& scene, int threads, json& result) {
-    const Varied of_scene(scene);
-    const scene::Sensitivity& asked = *scene.lem->sensitivity;
-    const Variations variations(of_scene.limit, asked.surface, asked.layers_liquefied, threads);
-    const std::vector<Strength> strengths = strengths_of(of_scene, asked.layers_liquefied);
-    std::vector<double> factors(2 * strengths.size());
-    numerics::run_blocks(factors.size(), threads, [&](std::size_t n) {
-        scene::Scene varied = of_scene.limit;
-        const Strength& strength = strengths[n / 2];
-        vary(of_scene, varied, strength.parameter, strength.of,
-             1.0 + (n % 2 ? asked.change : -asked.change));
-        factors[n] = variations.factor_of(std::move(varied));
-    });
-    json list = json::array();
-    for (std::size_t i = 0; i < strengths.size(); ++i) {
-        list.push_back({{"parameter", name_of(of_scene, strengths[i].parameter, strengths[i].of)},
-                        {"lower", or_null(factors[2 * i])},
-                        {"higher", or_null(factors[2 * i + 1])}});
-    }
-    result["sensitivity"] = {{"change", asked.change},
-                             {"layers_liquefied", asked.layers_liquefied},
-                             {"factor_of_safety", variations.unvaried()},
-                             {"parameters", list}};
-}
 
 Samples add_probability(const scene::Scene& scene, int threads, json& result) {
     constexpr std::size_t block = 32;
@@ -270,21 +220,19 @@ Samples add_probability(const scene::Scene& scene, int threads, json& result) {
 std::vector<fault::Flag> flags_of_variations(const json& result) {
     constexpr double telling = 0.03;
     std::vector<fault::Flag> flags;
-    for (const char* part : {"sensitivity", "probability"}) {
-        if (!result.contains(part)) continue;
-        const std::size_t layers = result.at(part).at("layers_liquefied");
-        const json& state = layers == 0 ? result : result.at("stages").at(layers);
-        const double reported = state.at("factor_of_safety");
-        const double varied = result.at(part).at("factor_of_safety");
-        if (reported >= varied * (1.0 - telling)) continue;
-        std::ostringstream words;
-        words.precision(4);
-        words << part << " varies Bishop's factor, " << varied << ", and the least factor is "
-              << reported << " by Spencer's method: failure is likelier than it says. Vary the "
-              << "strengths in a study instead, whose samples have the least factor each";
-        flags.push_back({"varies_higher_factor", fault::Severity::questionable, words.str(),
-                         std::string("/lem/") + part});
-    }
+    if (!result.contains("probability")) return flags;
+    const std::size_t layers = result.at("probability").at("layers_liquefied");
+    const json& state = layers == 0 ? result : result.at("stages").at(layers);
+    const double reported = state.at("factor_of_safety");
+    const double varied = result.at("probability").at("factor_of_safety");
+    if (reported >= varied * (1.0 - telling)) return flags;
+    std::ostringstream words;
+    words.precision(4);
+    words << "probability varies Bishop's factor, " << varied << ", and the least factor is "
+          << reported << " by Spencer's method: failure is likelier than it says. Vary the "
+          << "strengths in a study instead, whose samples have the least factor each";
+    flags.push_back(
+        {"varies_higher_factor", fault::Severity::questionable, words.str(), "/lem/probability"});
     return flags;
 }
 

@@ -1,4 +1,4 @@
-// Variation of parameters: one at a time, or all at random.
+// The probability of failure: parameters of the scene varied at random.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,11 +9,6 @@
 
 namespace breach::lem {
 
-// Both need the original scene, not limit_scene's.
-
-/// Adds "sensitivity": F with each strength parameter decreased and increased by the scene's share.
-void add_sensitivity(const scene::Scene& scene, int threads, nlohmann::json& result);
-
 /// Samples of a probabilistic analysis.
 struct Samples {
     std::vector<std::string> names;            ///< "cohesion of clay"
@@ -21,7 +16,8 @@ struct Samples {
     std::vector<double> factor_of_safety;      ///< infinite: no driving moment [-]
 };
 
-/// Adds "probability": mean, standard deviation, probability_of_failure, reliability indices.
+/// Adds "probability": mean, standard deviation, probability_of_failure, reliability indices. Needs
+/// the original scene, not limit_scene's.
 Samples add_probability(const scene::Scene& scene, int threads, nlohmann::json& result);
 
 /// Flags that Bishop's factor is varied while another method's is lower.

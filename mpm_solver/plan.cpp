@@ -102,8 +102,6 @@ process::PlanLine damping_line(const scene::Scene& scene) {
 void plan_scheme(const scene::Scene& scene, Plan& plan) {
     const scene::Mpm& mpm = *scene.mpm;
     const SchemeDecisions decided = decide(mpm);
-    plan.push_back(decided.kernel.line);
-    plan.push_back(decided.order.line);
     plan.push_back({"drawing to affine PIC", mpm.blending_rate > 0.0 ? Use::on : Use::left_out,
                     "rate " + text_of(mpm.blending_rate) + " 1/s", "/mpm/blending_rate"});
     plan.push_back(damping_line(scene));

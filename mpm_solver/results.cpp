@@ -218,8 +218,8 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["gauges"] = gauges_json(simulation);
     result["envelope"] = envelope_json(simulation, mpm.arrival_depth);
     result["sections"] = sections_json(simulation, mpm);
-    result["at_rest"] = simulation.verdict() == Verdict::rests;
-    result["ended"] = simulation.verdict() == Verdict::rests ? "at_rest" : "duration";
+    result["at_rest"] = simulation.course() == Course::rests;
+    result["ended"] = simulation.course() == Course::rests ? "at_rest" : "duration";
     result["end_time"] = clock.time;
     result["kinetic_share"] = ending.kinetic_share;
     result["rest"] = rest_json(mpm, simulation.rest(), ending);
@@ -238,7 +238,6 @@ void conclude(Session& session, const Simulation& simulation, const Ending& endi
     result["fill_shift"] = mpm.fill_shift;
     result["cell_size"] = mpm.cell_size;
     result["softening"] = scene::softening_in(session.scene());
-    result["order"] = words::name_of(mpm.order);
     result["stiffness_scale"] = mpm.stiffness_scale;
     result["wave_speed"] = wave_speed(simulation.body());
     result["mach"] = ending.mach;

@@ -98,7 +98,7 @@ void look_and_write(Session& session, Simulation& simulation) {
 /// Steps until the end; saves checkpoints.
 Outcome advance_to_the_end(Session& session, Simulation& simulation) {
     double saved = session.wall_seconds();
-    while (simulation.verdict() == Verdict::goes_on) {
+    while (simulation.course() == Course::goes_on) {
         if (session.stop_requested()) {
             save(session, simulation);
             return Outcome::stopped;

@@ -150,9 +150,9 @@ const Row& Simulation::look() {
     return row;
 }
 
-Verdict Simulation::verdict() const {
-    if (!moving_) return Verdict::rests;
-    return clock_.time >= mpm_.duration ? Verdict::time_is_up : Verdict::goes_on;
+Course Simulation::course() const {
+    if (!moving_) return Course::rests;
+    return clock_.time >= mpm_.duration ? Course::time_is_up : Course::goes_on;
 }
 
 double Simulation::scale_of_energy() const {

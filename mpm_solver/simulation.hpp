@@ -45,7 +45,7 @@ struct Records {
     SectionRecords sections;
 };
 
-enum class Verdict { goes_on, rests, time_is_up };
+enum class Course { goes_on, rests, time_is_up };
 
 class Simulation {
   public:
@@ -65,7 +65,7 @@ class Simulation {
     void take_frame();
     /// Measures, checks the budget (throws Breakdown) and adds a row to the history.
     const Row& look();
-    Verdict verdict() const;
+    Course course() const;
     /// Why the soil moved at the last measurement; empty: at rest.
     const std::optional<std::string>& moving() const { return moving_; }
     /// Reference energy at the end (energy_scale) [J].

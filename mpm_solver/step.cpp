@@ -22,21 +22,6 @@ double rub(double m, double mu, const Vec2& v_before, Vec2& v) {
     return m * (free_vx - v.x()) * 0.5 * (v_before.x() + v.x());
 }
 
-/// Removes velocities through walls, floor and terrain; friction is already applied.
-void hold(Grid& grid, std::int32_t node) {
-    Lane& v = grid.motion[node];
-    const std::uint8_t must = grid.conditions[node];
-    if (must & condition::floor) v[1] = std::max(v[1], 0.0);
-    if (must & condition::terrain) {
-        v.head<2>() = kept_out(grid.contacts[grid.contact_of[node]], {v[0], v[1]}).array();
-    }
-    if (must & condition::hold_x) {
-        v[0] = 0.0;
-        if (must & condition::terrain) v[1] = std::max(v[1], 0.0);
-    }
-    if (must & condition::hold_y) v[1] = 0.0;
-}
-
 /// Applies walls, floor and terrain to a node's velocity; returns the work of friction. Walls come
 /// first: what they hold does not slide. Between wall and slope a node cannot move down.
 double bear(const Grid& grid, std::int32_t node, const Vec2& v_before, Vec2& v) {
@@ -106,12 +91,10 @@ void step(Body& body, double dt) {
     keep_sorted(body);
     clear(body.grid);
     particle_to_grid(body, dt);
-    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);
     update_momentum(body, dt);
     if (body.frame_acceleration != 0.0) body.tally.shaking += work_of_frame(body, dt);
     grid_to_particle(body, dt);
-    if (body.order == UpdateOrder::musl) map_again(body, dt);
-    if (body.order != UpdateOrder::usf) update_stress(body, dt);
+    update_stress(body, dt);
 }
 
 void particle_to_grid(Body& body, double dt) {
@@ -138,45 +121,11 @@ void update_momentum(Body& body, double dt) {
 }
 
 void grid_to_particle(Body& body, double dt) {
-    if (body.order == UpdateOrder::usl) forget_averages(body);
+    forget_averages(body);
     const Totals sums = for_all_points(body, &Loops::gather, Writes::nodes, dt);
     body.tally.kinetic = sums.kinetic;
     body.tally.fastest = std::sqrt(sums.fastest_squared);
     move_strayed(body, sums);
-}
-
-void map_again(Body& body, double dt) {
-    Grid& grid = body.grid;
-    for (const std::int32_t node : grid.active) grid.motion[node].setZero();
-    for_all_points(body, &Loops::scatter_again, Writes::nodes, dt);
-    for (const std::int32_t node : grid.active) {
-        if (grid.mass[node] <= 0.0) continue;
-        grid.motion[node] /= grid.mass[node];
-        hold(grid, node);
-    }
-    forget_averages(body);
-    move_strayed(body, for_all_points(body, &Loops::gradient_again, Writes::nodes, dt));
-}
-
-void update_stress_first(Body& body, double dt) {
-    Grid& grid = body.grid;
-    // Store the momentum here if the force comes later.
-    for (const std::int32_t node : grid.active) {
-        Lane& motion = grid.motion[node];
-        motion = Lane{0.0, 0.0, motion[0], motion[1]};
-        if (grid.mass[node] <= 0.0) continue;
-        motion[0] = motion[2] / grid.mass[node];
-        motion[1] = motion[3] / grid.mass[node];
-        hold(grid, node);
-    }
-    forget_averages(body);
-    for_all_points(body, &Loops::gradient, Writes::nodes, dt);
-    update_stress(body, dt);
-    for (const std::int32_t node : grid.active) {
-        Lane& motion = grid.motion[node];
-        motion = Lane{motion[2], motion[3], 0.0, 0.0};
-    }
-    for_all_points(body, &Loops::scatter_force, Writes::nodes, dt);
 }
 
 void update_stress(Body& body, double dt) {

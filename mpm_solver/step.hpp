@@ -13,7 +13,7 @@ void step(Body& body, double dt);
 /// Sorts the points if one has moved too far from its home.
 void keep_sorted(Body& body);
 
-/// Maps mass, affine momentum and (unless USF) internal force of the points to the nodes.
+/// Maps mass, affine momentum and internal force of the points to the nodes.
 void particle_to_grid(Body& body, double dt);
 
 /// Newton's second law at the active nodes, then walls, floor and friction.
@@ -22,12 +22,6 @@ void update_momentum(Body& body, double dt);
 /// Updates velocity (affine FLIP relaxed to affine PIC at the rate beta), its gradient and the
 /// position of the points.
 void grid_to_particle(Body& body, double dt);
-
-/// MUSL: maps the new affine momentum to the nodes again; gradient from there.
-void map_again(Body& body, double dt);
-
-/// USF: gradient from the momentum before forces, stress from it, then the forces.
-void update_stress_first(Body& body, double dt);
 
 /// Strain increment, rotation, law, anti-locking and volume of every zone.
 void update_stress(Body& body, double dt);

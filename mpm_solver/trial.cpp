@@ -53,13 +53,9 @@ void timed_step(Body& body, const scene::Mpm& mpm, OverlapMeter& overlap, std::i
     const double dt = mpm.time_step ? *mpm.time_step : courant_step(body, mpm.cfl);
     laps.time("sorting and clearing", [&] { keep_sorted(body), clear(body.grid); });
     laps.time("particle to grid", [&] { particle_to_grid(body, dt); });
-    if (body.order == UpdateOrder::usf)
-        laps.time("stress and forces", [&] { update_stress_first(body, dt); });
     laps.time("momentum, floor and terrain", [&] { update_momentum(body, dt); });
     laps.time("grid to particle", [&] { grid_to_particle(body, dt); });
-    if (body.order == UpdateOrder::musl) laps.time("second mapping", [&] { map_again(body, dt); });
-    if (body.order != UpdateOrder::usf)
-        laps.time("strain and law", [&] { update_stress(body, dt); });
+    laps.time("strain and law", [&] { update_stress(body, dt); });
 }
 
 template <class T>

@@ -40,31 +40,6 @@ Targets points_as_targets(const MeshSnapshot& mesh, const Points& points) {
     return to;
 }
 
-Targets gauss_as_targets(const MeshSnapshot& mesh, const Points& points) {
-    Targets to = element_groups(mesh, points);
-    to.place = gauss_points(mesh, points).place;
-    to.first.push_back(0);
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        to.first.push_back(to.first.back() + mesh.gauss_positions.size());
-        for (const Vec2& xi : mesh.gauss_positions) {
-            std::int64_t same = -1;
-            for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
-                if ((points.xi[p] - xi).cwiseAbs().maxCoeff() < coinciding)
-                    same = static_cast<std::int64_t>(p);
-            to.same.push_back(same);
-        }
-    }
-    return to;
-}
-
-Sources points_as_sources(const MeshSnapshot& mesh, const Points& points) {
-    Sources from{points.state.position, {}, mesh.regions.size()};
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e)
-        from.region.insert(from.region.end(), points.first[e + 1] - points.first[e],
-                           mesh.region_of_element[e]);
-    return from;
-}
-
 /// epsilon_q is a norm: sets negative interpolated values to zero.
 std::vector<double> not_negative(const Values& values, Eigen::Index column, std::size_t& raised) {
     std::vector<double> result(static_cast<std::size_t>(values.rows()));
@@ -73,31 +48,6 @@ std::vector<double> not_negative(const Values& values, Eigen::Index column, std:
         result[p] = std::max(0.0, values(p, column));
     }
     return result;
-}
-
-/// Compares mass-weighted nodal velocities of the points with the mesh's.
-void measure_velocity(const MeshSnapshot& mesh, const Points& points, RoundTrip& trip) {
-    std::vector<Vec2> momentum(mesh.velocity.size(), Vec2::Zero());
-    std::vector<double> mass(mesh.velocity.size(), 0.0);
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e)
-        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
-            const Eigen::Vector4d N = shape_functions(points.xi[p]);
-            for (int i = 0; i < 4; ++i) {
-                momentum[mesh.quads[e][i]] +=
-                    points.state.mass[p] * N[i] * points.state.velocity[p];
-                mass[mesh.quads[e][i]] += points.state.mass[p] * N[i];
-            }
-        }
-    double square = 0.0;
-    double scale = 0.0;
-    const auto nodes = static_cast<double>(mesh.velocity.size());
-    for (std::size_t i = 0; i < mesh.velocity.size(); ++i) {
-        if (mass[i] == 0.0) continue;
-        square += (momentum[i] / mass[i] - mesh.velocity[i]).squaredNorm() / nodes;
-        scale += mesh.velocity[i].squaredNorm() / nodes;
-    }
-    trip.velocity_rms = std::sqrt(square);
-    trip.velocity_scale = std::sqrt(scale);
 }
 
 }  // namespace
@@ -136,32 +86,6 @@ std::optional<GaussFieldReport> carry_gauss_fields(const MeshSnapshot& mesh,
     s.epsilon_q = not_negative(carried->value, 4, carried->report.raised_strains);
     s.epsilon_q_plastic = not_negative(carried->value, 5, carried->report.raised_strains);
     return carried->report;
-}
-
-std::optional<RoundTrip> round_trip(const MeshSnapshot& mesh, const scene::Transfer& settings,
-                                    const Work& work, const Points& points) {
-    const exchange::ParticleState& s = points.state;
-    Values at_points(static_cast<Eigen::Index>(s.size()), 5);
-    for (Eigen::Index p = 0; p < at_points.rows(); ++p)
-        at_points.row(p) << points.effective_stress[p].transpose(), s.epsilon_q[p];
-    const auto back = interpolate(points_as_sources(mesh, points), at_points,
-                                  gauss_as_targets(mesh, points), settings, work);
-    if (!back) return std::nullopt;
-    RoundTrip trip;
-    const auto places = static_cast<double>(mesh.stress.size());
-    for (std::size_t g = 0; g < mesh.stress.size(); ++g) {
-        const auto row = back->value.row(static_cast<Eigen::Index>(g));
-        const mechanics::Voigt difference =
-            mechanics::Voigt(row.head<4>().transpose()) - mesh.stress[g];
-        trip.stress_rms += difference.squaredNorm() / (4.0 * places);
-        trip.stress_scale += mesh.stress[g].squaredNorm() / (4.0 * places);
-        trip.stress_largest = std::max(trip.stress_largest, difference.cwiseAbs().maxCoeff());
-        trip.epsilon_q_rms += std::pow(row[4] - mesh.epsilon_q[g], 2) / places;
-    }
-    for (double* each : {&trip.stress_rms, &trip.stress_scale, &trip.epsilon_q_rms})
-        *each = std::sqrt(*each);
-    measure_velocity(mesh, points, trip);
-    return trip;
 }
 
 }  // namespace breach::transfer

@@ -20,19 +20,4 @@ std::optional<GaussFieldReport> carry_gauss_fields(const exchange::MeshSnapshot&
                                                    const scene::Transfer& settings,
                                                    const Work& work, Points& points);
 
-/// Error of a round trip: the points' fields interpolated back to the Gauss points, compared with
-/// the snapshot.
-struct RoundTrip {
-    double stress_rms = 0.0;      ///< over Gauss points and components [Pa]
-    double stress_largest = 0.0;  ///< [Pa]
-    double stress_scale = 0.0;    ///< rms of the snapshot [Pa]
-    double epsilon_q_rms = 0.0;   ///< [-]
-    double velocity_rms = 0.0;    ///< at the nodes: sum m N v / sum m N minus the mesh's [m/s]
-    double velocity_scale = 0.0;  ///< rms of the mesh [m/s]
-};
-/// If the points are the Gauss points, their values are recovered exactly.
-std::optional<RoundTrip> round_trip(const exchange::MeshSnapshot& mesh,
-                                    const scene::Transfer& settings, const Work& work,
-                                    const Points& points);
-
 }  // namespace breach::transfer

@@ -33,9 +33,8 @@ class GridOnce {
     }
 
     void add(const Points& points) {
-        grid::with_kernel(mpm_.kernel, mpm_.gimp_half_size, [&](const auto& kernel) {
-            for (std::size_t p = 0; p < points.state.size(); ++p) add(points, p, kernel);
-        });
+        const grid::GimpKernel kernel(mpm_.gimp_half_size);
+        for (std::size_t p = 0; p < points.state.size(); ++p) add(points, p, kernel);
     }
 
     std::vector<GridForce> sums() const {
@@ -56,8 +55,7 @@ class GridOnce {
   private:
     static constexpr long stride = 1L << 31;
 
-    template <class Kernel>
-    void add(const Points& points, std::size_t p, const Kernel& kernel) {
+    void add(const Points& points, std::size_t p, const grid::GimpKernel& kernel) {
         const exchange::ParticleState& s = points.state;
         const double h = mpm_.cell_size;
         const auto x = kernel((s.position[p].x() - mpm_.domain_x[0]) / h,

@@ -37,11 +37,8 @@ std::vector<materials::Law> laws_of(std::span<const SoilOfPoints> soils) {
     return laws;
 }
 
-void start_softening(scene::SofteningStart start, std::span<const materials::Law> laws,
-                     exchange::ParticleState& state) {
+void start_softening(std::span<const materials::Law> laws, exchange::ParticleState& state) {
     for (std::size_t p = 0; p < state.size(); ++p) {
-        if (start == scene::SofteningStart::zero) state.epsilon_q_plastic[p] = 0.0;
-        if (start == scene::SofteningStart::zero) continue;
         const auto* softening = materials::softening(laws[state.region[p]]);
         if (softening != nullptr && softening->driver == materials::SofteningDriver::total)
             state.epsilon_q_plastic[p] = state.epsilon_q[p];

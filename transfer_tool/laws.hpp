@@ -23,10 +23,9 @@ struct YieldShare {
 };
 using YieldReport = std::vector<YieldShare>;  ///< [soils]
 
-/// zero: the softening variable starts at 0. carried: it starts at the FEM's epsilon_q if the law
-/// softens with total strain, else at epsilon_q_plastic.
-void start_softening(scene::SofteningStart start, std::span<const materials::Law> laws,
-                     exchange::ParticleState& state);
+/// The softening variable starts at the FEM's epsilon_q if the law softens with total strain, else
+/// at epsilon_q_plastic.
+void start_softening(std::span<const materials::Law> laws, exchange::ParticleState& state);
 
 /// Softening variable of one soil at the start.
 struct SofteningShare {

@@ -99,12 +99,6 @@ PlanLine entangled_line(const scene::Transfer& settings) {
             "/transfer/entangled"};
 }
 
-PlanLine round_trip_line(const scene::Transfer& settings) {
-    return {"round trip", settings.round_trip ? Use::on : Use::left_out,
-            settings.round_trip ? "points back to the mesh, to measure the error" : "not asked for",
-            "/transfer/round_trip"};
-}
-
 PlanLine balance_line(const scene::Scene& scene) {
     return {"out-of-balance force", scene.mpm ? Use::on : Use::left_out,
             scene.mpm ? "of the points on the MPM's grid" : "the scene has no MPM grid", "/mpm"};
@@ -136,14 +130,10 @@ PlanLine gauss_line(const scene::Transfer& settings) {
             moved ? "/transfer/point_shift" : "/transfer/points_per_direction"};
 }
 
-PlanLine softening_line(const scene::Scene& scene, const scene::Transfer& settings) {
+PlanLine softening_line(const scene::Scene& scene) {
     if (std::ranges::none_of(materials_of_points(scene), softens))
         return {"softening carried over", Use::left_out, "no material softens", "/materials"};
-    if (settings.softening_start == scene::SofteningStart::zero)
-        return {"softening carried over", Use::left_out, "\"zero\": it starts anew in the MPM",
-                "/transfer/softening_start"};
-    return {"softening carried over", Use::on, "\"carried\": the FEM's epsilon_q goes on",
-            "/transfer/softening_start"};
+    return {"softening carried over", Use::on, "the FEM's epsilon_q goes on", "/materials"};
 }
 
 }  // namespace
@@ -153,7 +143,7 @@ process::Plan plan(const scene::Scene& scene) {
     const std::string yielding = names_of_yielding(scene);
     return {{"return to the yield surface", yielding.empty() ? Use::left_out : Use::on,
              yielding.empty() ? "all materials are elastic" : "of " + yielding, "/materials"},
-            softening_line(scene, settings),
+            softening_line(scene),
             gauss_line(settings),
             interpolation_line(settings),
             stress_line(scene, settings),
@@ -161,7 +151,6 @@ process::Plan plan(const scene::Scene& scene) {
             collapse_line(scene),
             cells_line(settings),
             entangled_line(settings),
-            round_trip_line(settings),
             balance_line(scene)};
 }
 

@@ -56,12 +56,11 @@ YieldShare outside_yield_surface(const YieldReport& report) {
     return all;
 }
 
-nlohmann::json softening_as_json(const Transferred& t, scene::SofteningStart start) {
+nlohmann::json softening_as_json(const Transferred& t) {
     nlohmann::json softening = nlohmann::json::array();
     for (const SofteningShare& each : t.softening) {
         softening.push_back({{"region", t.soils[each.soil].region},
                              {"material", t.soils[each.soil].material},
-                             {"start", words::name_of(start)},
                              {"driver", words::name_of(each.driver)},
                              {"mean_epsilon_q", each.mean},
                              {"largest_epsilon_q", each.largest}});
@@ -107,17 +106,6 @@ void report_options(const Transferred& t, nlohmann::json& result) {
                               {"collapsed", t.collapse->collapsed},
                               {"collapsed_mass", t.collapse->mass}};
     if (t.base_displacement != 0.0) result["base_displacement_subtracted"] = t.base_displacement;
-    if (t.left_out)
-        result["left_out"] = {{"points", t.left_out->points},
-                              {"mass", t.left_out->mass},
-                              {"largest_epsilon_q", t.left_out->largest_epsilon_q}};
-    if (t.round_trip)
-        result["round_trip"] = {{"stress_rms", t.round_trip->stress_rms},
-                                {"stress_largest", t.round_trip->stress_largest},
-                                {"stress_scale", t.round_trip->stress_scale},
-                                {"epsilon_q_rms", t.round_trip->epsilon_q_rms},
-                                {"velocity_rms", t.round_trip->velocity_rms},
-                                {"velocity_scale", t.round_trip->velocity_scale}};
 }
 
 void log(const Transferred& t) {
@@ -162,9 +150,8 @@ void report(process::Session& session, const Transferred& t) {
     result["points_per_direction"] = settings.points_per_direction;
     result["point_shift"] = settings.point_shift;
     result["interpolation"] = words::name_of(settings.interpolation);
-    result["softening_start"] = words::name_of(settings.softening_start);
     result["soils"] = soils_as_json(t);
-    result["softening"] = softening_as_json(t, settings.softening_start);
+    result["softening"] = softening_as_json(t);
     result["rebuilt_elements"] = rebuilt_as_json(t.rebuilt);
     const YieldShare outside = outside_yield_surface(t.yield);
     result["returned_to_yield_surface"] = outside.returned;
@@ -198,7 +185,6 @@ process::Outcome run(process::Session& session) {
     const auto transferred = transfer(mesh, session.scene(), work, file);
     if (!transferred) return process::Outcome::stopped;
     report(session, *transferred);
-    if (transferred->left_out) refuse_cut(*transferred->left_out);
     refuse_losses(transferred->ledger, scene::transfer_of(session.scene()));
 
     exchange::write_particle_state(output, transferred->state, session.provenance(),

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/fault/fault.hpp"
-#include "core/words/number.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -40,37 +39,7 @@ double displacement_of_base(const exchange::MeshSnapshot& mesh) {
     return mesh.displacement[lowest - mesh.position_0.begin()].x();
 }
 
-LeftOut leave_out(const std::array<double, 2>& keep_x, exchange::ParticleState& state) {
-    LeftOut out;
-    std::vector<std::size_t> kept;
-    for (std::size_t p = 0; p < state.size(); ++p) {
-        const double x = state.position[p].x();
-        if (x >= keep_x[0] && x <= keep_x[1]) {
-            kept.push_back(p);
-            continue;
-        }
-        ++out.points;
-        out.mass += state.mass[p];
-        if (state.epsilon_q[p] < out.largest_epsilon_q) continue;
-        out.largest_epsilon_q = state.epsilon_q[p];
-        out.place = state.position[p];
-    }
-    state.keep(kept);
-    return out;
-}
-
 }  // namespace
-
-void refuse_cut(const LeftOut& out) {
-    constexpr double failing = 0.05;  // epsilon_q
-    if (out.largest_epsilon_q <= failing) return;
-    throw fault::BadInput("scene", {{"/transfer/keep/x",
-                                     "leaves out soil that fails: epsilon_q is " +
-                                         words::text_of(out.largest_epsilon_q, 3) + " at (" +
-                                         words::text_of(out.place.x(), 4) + ", " +
-                                         words::text_of(out.place.y(), 4) + ") m",
-                                     "widen the range until that place lies inside"}});
-}
 
 std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
                                     const Work& work, const std::string& file) {
@@ -89,16 +58,12 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     const auto gauss_fields = carry_gauss_fields(mesh, settings, work, points);
     if (!gauss_fields) return std::nullopt;
     t.gauss_fields = *gauss_fields;
-    if (settings.round_trip) {
-        t.round_trip = round_trip(mesh, settings, work, points);
-        if (!t.round_trip) return std::nullopt;
-    }
 
     assign_soils(map, points);
     settle_stress(map, points);
     if (settings.sigma_zz == scene::OutOfPlaneStress::zero)
         for (mechanics::Voigt& stress : points.state.stress) stress[2] = 0.0;
-    start_softening(settings.softening_start, laws, points.state);
+    start_softening(laws, points.state);
     start_at_state(map, points);
     t.yield = return_to_yield_surface(laws, points.state);
     find_reference_volumes(laws, points.state);
@@ -115,7 +80,6 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
         t.base_displacement = displacement_of_base(mesh);
         for (mechanics::Vec2& place : t.state.position) place.x() -= t.base_displacement;
     }
-    if (settings.keep_x) t.left_out = leave_out(*settings.keep_x, t.state);
     return t;
 }
 

@@ -19,17 +19,6 @@ struct LiquefactionReport {
     std::vector<LiquefiedGap> gaps;
 };
 
-/// Points outside /transfer/keep.
-struct LeftOut {
-    std::size_t points = 0;
-    double mass = 0.0;               ///< [kg]
-    double largest_epsilon_q = 0.0;  ///< [-]
-    mechanics::Vec2 place{};         ///< of the largest strain [m]
-};
-
-/// Throws BadInput if a part of the failing soil is left out.
-void refuse_cut(const LeftOut& out);
-
 struct Transferred {
     exchange::ParticleState state;
     exchange::Ledger ledger;
@@ -42,9 +31,7 @@ struct Transferred {
     std::optional<CollapseReport> collapse;
     GaussFieldReport gauss_fields;
     YieldReport yield;
-    std::optional<RoundTrip> round_trip;
     double base_displacement = 0.0;  ///< subtracted [m]
-    std::optional<LeftOut> left_out;
 };
 
 /// `file`: for messages. None if stopped by the watch. Throws Breakdown if the mesh is entangled,

@@ -138,9 +138,6 @@ void check_loads(const scene::Scene& scene, Findings& findings) {
     for (std::size_t i = 0; i < lem.surcharge.size(); ++i)
         check_range(scene, {lem.surcharge[i].from, lem.surcharge[i].to},
                     "/lem/surcharge/" + std::to_string(i), findings);
-    for (std::size_t i = 0; i < lem.line_loads.size(); ++i)
-        check_range(scene, {lem.line_loads[i].x, lem.line_loads[i].x},
-                    "/lem/line_loads/" + std::to_string(i) + "/x", findings);
 }
 
 /// Every layer must be part of its region, and no two may overlap.

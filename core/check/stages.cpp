@@ -71,11 +71,6 @@ void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& fil
     }
 }
 
-/// Entry of a stage that changes the water.
-std::string moved_water_of(const scene::Stage& stage, const std::string& pointer) {
-    return pointer + (stage.phreatic_line ? "/phreatic_line" : "/water_boundaries");
-}
-
 /// Undrained stages need water at rest before them, and no changes that need drainage.
 void check_undrained(const scene::Scene& scene, Findings& findings) {
     const scene::Fem& fem = *scene.fem;
@@ -98,8 +93,8 @@ void check_undrained(const scene::Scene& scene, Findings& findings) {
             refuse(findings, pointer + "/undrained",
                    "is of the stage in which the scene's laws begin",
                    "put a drained stage with \"laws\": \"scene\" before it");
-        if (stage.moves_the_water())
-            refuse(findings, moved_water_of(stage, pointer), "moves in a stage that does not drain",
+        if (stage.phreatic_line)
+            refuse(findings, pointer + "/phreatic_line", "moves in a stage that does not drain",
                    "move the water in a stage of its own");
     }
 }
@@ -151,15 +146,11 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const scene::Stage& stage = fem.stages[i];
         const std::string pointer = "/fem/stages/" + std::to_string(i);
-        if (stage.changes_the_body() && fem.kinematics == scene::Kinematics::updated_lagrangian)
-            refuse(findings, pointer, "changes the body of a moving mesh",
-                   "take /fem/kinematics small_strain");
         if (stage.changes_the_body() && fem.free_field)
             refuse(findings, pointer, "changes the body between free-field columns",
                    "leave out /fem/free_field: it is for shaking");
-        if (stage.moves_the_water() && !fem.water)
-            refuse(findings, moved_water_of(stage, pointer),
-                   "moves water that the scene does not have",
+        if (stage.phreatic_line && !fem.water)
+            refuse(findings, pointer + "/phreatic_line", "moves water that the scene does not have",
                    "give /fem/water with the line before this stage");
         for (std::size_t k = 0; k < stage.activates.size(); ++k) {
             const std::size_t r = stage.activates[k];
@@ -177,11 +168,6 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
                            materials::traits(material->law).name +
                            ", which cannot begin without stress",
                        "place it in an elastic stage, or give it another law");
-        }
-        for (const scene::Creep& each : stage.creep) {
-            if (each.region >= there.size() || there[each.region]) continue;
-            refuse(findings, pointer + "/creep/" + regions[each.region].name,
-                   "creeps in a stage in which it is not there", "let it creep once it is placed");
         }
         for (std::size_t k = 0; k < stage.removes.size(); ++k) {
             const std::size_t r = stage.removes[k];

@@ -157,8 +157,8 @@ void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
                  " ends at the transfer: material points run out under gravity alone; what goes "
                  "with the soil must be drawn as soil");
     };
-    std::string of_surcharge = "/fem/surcharge", of_pressures, of_forces;
-    bool loaded = !fem.surcharge.empty(), pressed = false, pushed = false;
+    std::string of_surcharge = "/fem/surcharge", of_pressures;
+    bool loaded = !fem.surcharge.empty(), pressed = false;
     for (std::size_t s = 0; s < fem.stages.size(); ++s) {
         const scene::Stage& stage = fem.stages[s];
         const auto take = [&](const auto& given, const char* name, bool& acts, std::string& where) {
@@ -168,11 +168,9 @@ void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
         };
         take(stage.surcharge, "/surcharge", loaded, of_surcharge);
         take(stage.pressures, "/pressures", pressed, of_pressures);
-        take(stage.forces, "/forces", pushed, of_forces);
     }
     if (loaded) tell(of_surcharge, "the surcharge");
     if (pressed) tell(of_pressures, "the pressure on the edges");
-    if (pushed) tell(of_forces, "the force on the nodes");
     if (!fem.water || fem.stages.empty()) return;
     const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());

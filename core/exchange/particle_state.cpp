@@ -217,17 +217,6 @@ void ParticleState::resize(std::size_t n) {
     });
 }
 
-void ParticleState::keep(const std::vector<std::size_t>& points) {
-    const auto take = [&](auto& values) {
-        if (values.empty()) return;
-        for (std::size_t i = 0; i < points.size(); ++i) values[i] = values[points[i]];
-        values.resize(points.size());
-    };
-    take(position);
-    take(region);
-    for_each_field(*this, [&](auto, auto, auto, auto& values) { take(values); });
-}
-
 double ParticleState::pressure_beside(std::size_t p) const {
     const bool is_total =
         !stress_of_regions.empty() && stress_of_regions[region[p]] == StressMeasure::total;

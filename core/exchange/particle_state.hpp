@@ -105,8 +105,6 @@ struct ParticleState : PointFields {
     std::size_t size() const { return position.size(); }
     /// New points have zeros in the fields that every point has.
     void resize(std::size_t n);
-    /// Keeps only these points, in this order.
-    void keep(const std::vector<std::size_t>& points);
     /// u of a point with effective stress [Pa]; 0 if its stress is total.
     double pressure_beside(std::size_t p) const;
 };

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/grid/scheme.hpp"
 #include "core/materials/lanes.hpp"
 
 namespace breach::grid {
@@ -53,7 +52,7 @@ struct NearestRow {
     static constexpr double beside = 1e-6;  ///< tolerance for a point on a wall [cells]
 };
 
-/// Hat functions at the nearest row, exact for a domain that ends there; all kernels reduce to them
+/// Hat functions at the nearest row, exact for a domain that ends there; the kernel reduces to them
 /// at a wall. `reach` >= 0: distance of the centroid from the wall [cells].
 template <class Real>
 [[gnu::always_inline]] inline void clip_at_low_wall(Stencil<Real>& s,
@@ -123,63 +122,5 @@ class GimpKernel {
     double half_over_l_;
     double quarter_over_l_;
 };
-
-/// Quadratic B-spline. Within half a cell of a wall, the row beyond the wall is replaced by the
-/// linear extrapolation v_-1 = 2 v_0 - v_1, which gives hat functions. Value and slope are
-/// continuous there, and linear fields stay exact.
-class BSplineKernel {
-  public:
-    template <class Real>
-    [[gnu::always_inline]] Stencil<Real> operator()(const Real& xi, const WallRows& walls) const {
-        using namespace materials::lanes;
-        const NearestRow<Real> at(xi, walls);
-        const Real& d = at.d;
-        const Real to_right = Real(0.5) + d;
-        const Real to_left = Real(0.5) - d;
-        Stencil<Real> s{
-            at.row - Real(1.0),
-            {Real(0.5) * to_left * to_left, Real(0.75) - d * d, Real(0.5) * to_right * to_right},
-            {-to_left, Real(-2.0) * d, to_right},
-            xi};
-        if (any(materials::MaskOf<Real>(at.low_wall | at.high_wall))) [[unlikely]] {
-            clip_at_low_wall(s, at.low_wall, d);
-            clip_at_high_wall(s, at.high_wall, -d);
-            s.centre = xi;
-        }
-        return s;
-    }
-};
-
-/// Hat functions: for tests. Points on a node belong to the cell above it, except at the far wall.
-class LinearKernel {
-  public:
-    template <class Real>
-    [[gnu::always_inline]] Stencil<Real> operator()(const Real& xi, const WallRows& walls) const {
-        using namespace materials::lanes;
-        const NearestRow<Real> at(xi, walls);
-        const Real& d = at.d;
-        const materials::MaskOf<Real> above = (d >= Real(0.0)) & !at.high_wall;
-        const Real none(0.0);
-        const Real one(1.0);
-        return {at.row - one,
-                {select(above, none, -d), select(above, one - d, one + d), select(above, d, none)},
-                {select(above, none, -one), select(above, -one, one), select(above, one, none)},
-                xi};
-    }
-};
-
-/// Calls visit(kernel) with the kernel of this kind.
-template <class Visit>
-auto with_kernel(KernelKind kind, double gimp_half_size, Visit&& visit) {
-    switch (kind) {
-        case KernelKind::gimp:
-            return visit(GimpKernel(gimp_half_size));
-        case KernelKind::b_spline:
-            return visit(BSplineKernel{});
-        case KernelKind::linear:
-            break;
-    }
-    return visit(LinearKernel{});
-}
 
 }  // namespace breach::grid

@@ -276,7 +276,6 @@ scene::Mpm grid_alone(const scene::Mpm& mpm) {
     grid.right = mpm.right;
     grid.floor = mpm.floor;
     grid.terrain = mpm.terrain;
-    grid.kernel = mpm.kernel;
     grid.gimp_half_size = mpm.gimp_half_size;
     return grid;
 }

@@ -109,19 +109,12 @@ void read_edges(Reader& reader, const json& entry, const std::string& pointer, S
         if (!each.contains("x") && !each.contains("y"))
             reader.add(here, "moves in no direction", "give x, y or both");
     }
-    if (entry.contains("pressures")) {
-        stage.pressures.emplace();
-        for (const json& each : entry.at("pressures"))
-            stage.pressures->push_back({each.at("name"), point_from(each.at("from")),
-                                        point_from(each.at("to")),
-                                        1e3 * each.at("pressure_kPa").get<double>()});
-    }
-    if (!entry.contains("forces")) return;
-    stage.forces.emplace();
-    for (const json& each : entry.at("forces"))
-        stage.forces->push_back(
-            {each.at("name"), point_from(each.at("at")), each.at("within"),
-             1e3 * Vec2(each.at("right_kN"), -each.at("down_kN").get<double>())});
+    if (!entry.contains("pressures")) return;
+    stage.pressures.emplace();
+    for (const json& each : entry.at("pressures"))
+        stage.pressures->push_back({each.at("name"), point_from(each.at("from")),
+                                    point_from(each.at("to")),
+                                    1e3 * each.at("pressure_kPa").get<double>()});
 }
 
 /// Reads a stage's changes of regions, supports and loads.
@@ -144,17 +137,10 @@ void read_changes(Reader& reader, const Scene& scene, const std::vector<Support>
     if (entry.contains("phreatic_line"))
         stage.phreatic_line =
             line_from(reader, entry.at("phreatic_line"), pointer + "/phreatic_line");
-    if (entry.contains("water_boundaries"))
-        stage.water_boundaries = boundaries_from(entry.at("water_boundaries"));
     stage.undrained = names("undrained", scene.section.regions, "/section/regions");
     stage.seismic_coefficient = if_given(entry, "seismic_coefficient");
     read_edges(reader, entry, pointer, stage);
     read_softening(reader, scene, entry, pointer, stage);
-    const json creep = entry.value("creep", json::object());
-    for (const auto& [name, epsilon_q] : creep.items())
-        stage.creep.push_back({named_at(reader, scene.section.regions, name,
-                                        pointer + "/creep/" + name, "/section/regions"),
-                               epsilon_q});
     if (entry.contains("ramp")) stage.ramp = entry.at("ramp");
     stage.goes_on_at_limit = entry.value("at_limit", "stop") == "go_on";
 }
@@ -181,8 +167,7 @@ GroundWater water_from(Reader& reader, const json& water) {
 }
 
 ElasticBase base_from(const json& base) {
-    return {base.at("density"), base.at("V_s"), word_at<MotionAt>(base, "motion_at"),
-            word_at<BaseNodes>(base, "nodes")};
+    return {base.at("density"), base.at("V_s"), word_at<MotionAt>(base, "motion_at")};
 }
 
 BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) {
@@ -245,12 +230,6 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
         reader.add("/fem/newmark_beta", "makes the scheme unstable at large steps",
                    "give at least (newmark_gamma + 0.5)^2 / 4 = " + std::to_string(stable));
     }
-    if (fem.at_entanglement == AtEntanglement::go_on &&
-        fem.kinematics != Kinematics::small_strain) {
-        reader.add("/fem/at_entanglement",
-                   "goes on where elements are inverted, which a moving mesh cannot compute",
-                   "take kinematics small_strain, or leave it out");
-    }
     if (fem.mesh.msh_file) return;
     for (std::size_t i = 0; i < scene.section.regions.size(); ++i) {
         const std::string pointer = "/section/regions/" + std::to_string(i);
@@ -306,7 +285,6 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     if (!reader.sound("/fem")) return;
     const json& fem = reader.document().at("fem");
     Fem result{};
-    result.kinematics = word_at<Kinematics>(fem, "kinematics");
     result.element = word_at<ElementKind>(fem, "element");
     result.hourglass = word_at<HourglassKind>(fem, "hourglass");
     if (fem.contains("msh_file")) {
@@ -328,7 +306,6 @@ void read_fem(Reader& reader, const std::filesystem::path& folder, Scene& scene)
     result.force_tolerance = fem.at("force_tolerance");
     result.largest_iterations = fem.at("largest_iterations");
     result.least_jacobian_ratio = fem.at("least_jacobian_ratio");
-    result.at_entanglement = word_at<AtEntanglement>(fem, "at_entanglement");
     result.crest = point_from(fem.at("crest"));
     result.strain_threshold = fem.at("strain_threshold");
     result.liquefaction = liquefaction_from(reader, scene, fem);

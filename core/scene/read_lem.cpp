@@ -26,18 +26,12 @@ std::optional<std::size_t> region_named(Reader& reader, const Scene& scene, cons
                     "give the name of one of /section/regions");
 }
 
-constexpr double kN = 1e3;
-
 void read_loads(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
     for (const json& load : lem.at("surcharge")) {
         const std::string pointer = "/lem/surcharge/" + std::to_string(result.surcharge.size());
         check_ascending(reader, {load.at("from"), load.at("to")}, pointer);
         result.surcharge.push_back(
             {load.at("from"), load.at("to"), load.at("pressure_kPa").get<double>() * kPa});
-    }
-    for (const json& load : lem.at("line_loads")) {
-        result.line_loads.push_back({load.at("x"), load.at("down_kN").get<double>() * kN,
-                                     load.at("right_kN").get<double>() * kN});
     }
     for (std::size_t i = 0; i < lem.at("pore_pressure_ratios").size(); ++i) {
         const json& each = lem.at("pore_pressure_ratios")[i];
@@ -101,14 +95,6 @@ TensionCrack crack_from(Reader& reader, const json& crack) {
                    result.depth ? "has a depth and a level" : "has neither a depth nor a level",
                    "give one of them");
     return result;
-}
-
-MAlphaLimit m_alpha_from(const json& limit) {
-    return {
-        limit.at("least"),
-        word_at<MAlphaSlices>(limit, "slices"),
-        word_at<SmallMAlpha>(limit, "given_circle"),
-    };
 }
 
 NonCircular non_circular_from(Reader& reader, const json& part) {
@@ -179,11 +165,10 @@ std::vector<UndrainedRegion> undrained_from(Reader& reader, const Scene& scene, 
     return result;
 }
 
-std::size_t layers_liquefied(Reader& reader, const json& part, const Lem& lem,
-                             const std::string& pointer) {
+std::size_t layers_liquefied(Reader& reader, const json& part, const Lem& lem) {
     const std::size_t count = part.at("layers_liquefied");
     if (count > lem.liquefaction.size()) {
-        reader.add(pointer + "/layers_liquefied", "is more than /lem/liquefaction has",
+        reader.add("/lem/probability/layers_liquefied", "is more than /lem/liquefaction has",
                    "give at most " + std::to_string(lem.liquefaction.size()));
     }
     return count;
@@ -226,19 +211,13 @@ std::optional<std::size_t> varied(Reader& reader, const Scene& scene, const Lem&
     return std::nullopt;
 }
 
-void read_variations(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
-    if (lem.contains("sensitivity")) {
-        const json& part = lem.at("sensitivity");
-        result.sensitivity =
-            Sensitivity{part.at("change"), word_at<VariedSurface>(part, "surface"),
-                        layers_liquefied(reader, part, result, "/lem/sensitivity")};
-    }
+void read_probability(Reader& reader, const Scene& scene, const json& lem, Lem& result) {
     if (!lem.contains("probability")) return;
     const json& part = lem.at("probability");
     Probability probability{part.at("samples"),
                             part.at("seed"),
                             word_at<VariedSurface>(part, "surface"),
-                            layers_liquefied(reader, part, result, "/lem/probability"),
+                            layers_liquefied(reader, part, result),
                             {}};
     for (std::size_t i = 0; i < part.at("variables").size(); ++i) {
         const json& each = part.at("variables")[i];
@@ -288,7 +267,6 @@ void read_lem(Reader& reader, Scene& scene) {
     if (lem.contains("tension_crack")) {
         result.tension_crack = crack_from(reader, lem.at("tension_crack"));
     }
-    result.m_alpha = m_alpha_from(lem.at("m_alpha"));
     if (lem.contains("non_circular"))
         result.non_circular = non_circular_from(reader, lem.at("non_circular"));
     result.undrained = undrained_from(reader, scene, lem,
@@ -301,7 +279,7 @@ void read_lem(Reader& reader, Scene& scene) {
                                          "/lem/unconsolidated/" + std::to_string(i));
         if (region) result.unconsolidated.push_back(*region);
     }
-    read_variations(reader, scene, lem, result);
+    read_probability(reader, scene, lem, result);
     if (lem.contains("circle")) {
         result.circle =
             Circle{point_from(lem.at("circle").at("center")), lem.at("circle").at("radius")};

@@ -237,9 +237,7 @@ void read_mpm(Reader& reader, Scene& scene) {
     if (mpm.contains("terrain")) {
         result.terrain = line_from(reader, mpm.at("terrain"), "/mpm/terrain");
     }
-    result.kernel = word_at<Kernel>(mpm, "kernel");
     result.gimp_half_size = mpm.at("gimp_half_size");
-    result.order = word_at<UpdateOrder>(mpm, "order");
     result.tension_share = mpm.at("tension_share");
     result.damping_ratio = mpm.at("damping_ratio");
     result.anti_locking = word_at<AntiLocking>(mpm, "anti_locking");

@@ -228,10 +228,8 @@ void read_transfer(Reader& reader, Scene& scene) {
         .neighbours = transfer.at("neighbours"),
         .entangled = word_at<Entangled>(transfer, "entangled"),
         .stress = word_at<TransferredStress>(transfer, "stress"),
-        .softening_start = word_at<SofteningStart>(transfer, "softening_start"),
         .base_displacement = word_at<BaseDisplacement>(transfer, "base_displacement"),
         .sigma_zz = word_at<OutOfPlaneStress>(transfer, "sigma_zz"),
-        .round_trip = transfer.at("round_trip"),
         .largest_mass_loss = transfer.at("largest_mass_loss"),
         .largest_momentum_loss = transfer.at("largest_momentum_loss"),
         .largest_kinetic_energy_loss = transfer.at("largest_kinetic_energy_loss"),
@@ -242,10 +240,6 @@ void read_transfer(Reader& reader, Scene& scene) {
         if (!reader.document().contains("mpm"))
             reader.add("/transfer/points_per_cell", "needs the MPM's cells",
                        "give /mpm, or leave points_per_cell out");
-    }
-    if (transfer.contains("keep")) {
-        result.keep_x = range_from(transfer.at("keep").at("x"));
-        check_ascending(reader, *result.keep_x, "/transfer/keep/x");
     }
     if (result.sigma_zz == OutOfPlaneStress::zero && result.interpolation != Interpolation::paper)
         reader.add("/transfer/sigma_zz", "is zero only as the paper's transfer leaves it",

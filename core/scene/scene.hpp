@@ -14,7 +14,6 @@
 #include "core/fault/fault.hpp"
 #include "core/fault/flag.hpp"
 #include "core/geometry/section.hpp"
-#include "core/grid/scheme.hpp"
 #include "core/materials/law.hpp"
 #include "core/materials/strength/profile.hpp"
 
@@ -107,18 +106,6 @@ struct TensionCrack {
     double filled;                ///< share of its height filled with water [-]
 };
 
-/// Slices to which the limit of m_alpha applies, and the treatment of a given circle with a smaller
-/// value.
-enum class MAlphaSlices { frictional, all };
-enum class SmallMAlpha { answered, refused };
-
-/// Lower limit of m_alpha = cos a + sin a tan phi / F of a slice.
-struct MAlphaLimit {
-    double least = 0.2;  ///< Whitman & Bailey (1967) [-]
-    MAlphaSlices slices = MAlphaSlices::frictional;
-    SmallMAlpha given_circle = SmallMAlpha::answered;
-};
-
 /// Polygonal slip surfaces, analysed by Spencer's method.
 struct NonCircular {
     std::vector<Vec2> given;  ///< ascending in x; empty: none [m]
@@ -150,13 +137,6 @@ struct Surcharge {
     double pressure;  ///< [Pa]
 };
 
-/// Force on the ground, per metre of thickness.
-struct LineLoad {
-    double x;      ///< [m]
-    double down;   ///< [N/m]
-    double right;  ///< [N/m]
-};
-
 /// s = constant + coefficient (sigma'_v0 / p_a)^exponent, p_a = 101.325 kPa; phi = 0.
 struct UndrainedStrength {
     double constant;      ///< [Pa]
@@ -180,12 +160,6 @@ struct UndrainedRegion {
 
 /// Slip surface for varied parameters: fixed, or searched again.
 enum class VariedSurface { fixed, searched };
-
-struct Sensitivity {
-    double change;  ///< relative change of each strength parameter [-]
-    VariedSurface surface;
-    std::size_t layers_liquefied;
-};
 
 enum class Parameter {
     cohesion,
@@ -222,18 +196,15 @@ struct Lem {
     std::vector<PorePressureRatio> pore_pressure_ratios;
     double seismic_coefficient;  ///< k_h, towards the sliding direction [-]
     std::vector<Surcharge> surcharge;
-    std::vector<LineLoad> line_loads;
     /// no surface reaches below; ascending in x, level beyond its ends; empty: none [m]
     std::vector<Vec2> floor;
     std::optional<TensionCrack> tension_crack;
-    MAlphaLimit m_alpha;
     std::optional<NonCircular> non_circular;
     std::vector<UndrainedRegion> undrained;
     std::vector<UndrainedRegion> liquefaction;  ///< from the top down; each stage adds one
     /// Regions that were placed too fast for the soil below to consolidate: sigma'_v0 excludes
     /// their weight.
     std::vector<std::size_t> unconsolidated;
-    std::optional<Sensitivity> sensitivity;
     std::optional<Probability> probability;
 
     /// Whether any entry gives pore pressure, be it zero.
@@ -244,16 +215,10 @@ struct Lem {
 
 // ---------------------------------------------------------------- fem_solver
 
-enum class Kinematics { small_strain, updated_lagrangian };
-
 /// bbar: 2 x 2 Gauss points, mean dilatation. ssp: one point with hourglass stabilisation.
 enum class ElementKind { bbar, ssp };
 /// Modulus of the ssp quad's stabilisation: the current or the elastic one.
 enum class HourglassKind { current, elastic };
-/// At a folded corner the analysis stops, or continues and records an event. Continuing needs small
-/// strain, which computes on the undeformed mesh.
-enum class AtEntanglement { stop, go_on };
-
 struct MeshSource {
     std::optional<std::filesystem::path> msh_file;  ///< absolute; none: meshed from the regions
 };
@@ -297,20 +262,6 @@ struct EdgePressure {
     double pressure;  ///< into the soil [Pa]
 };
 
-/// A force on the node nearest to a place.
-struct NodeForce {
-    std::string name;
-    Vec2 at;
-    double within;  ///< largest distance of that node [m]
-    Vec2 force;     ///< per metre of thickness [N/m]
-};
-
-/// Creep of a region: strain at constant stress and constant in-plane volume.
-struct Creep {
-    std::size_t region;
-    double epsilon_q;  ///< sqrt(2/3 e:e), along the present in-plane deviator [-]
-};
-
 struct Stage {
     std::string name;
     StageKind kind;
@@ -330,24 +281,19 @@ struct Stage {
     std::optional<std::vector<Surcharge>> surcharge{};
     /// static: from this stage on, replaces the earlier line; ascending in x [m]
     std::optional<std::vector<Vec2>> phreatic_line{};
-    /// static: from this stage on, replaces the earlier boundaries
-    std::optional<std::vector<PressureBoundary>> water_boundaries{};
     /// static: regions without pore water flow in this stage
     std::vector<std::size_t> undrained{};
     /// From this stage on, replaces the earlier value.
     std::optional<double> seismic_coefficient{};  ///< horizontal body force over weight [-]
     std::optional<std::vector<EdgePressure>> pressures{};
-    std::optional<std::vector<NodeForce>> forces{};
     std::vector<Displacement> displacements{};  ///< static: kept from this stage on
-    std::vector<Creep> creep{};                 ///< static: during this stage
     double ramp = 0.0;              ///< dynamic: time over which unbalanced forces are applied [s]
     bool goes_on_at_limit = false;  ///< static: a limit point ends the stage instead of the run
 
-    bool moves_the_water() const { return phreatic_line || water_boundaries; }
     bool changes_the_body() const {
         return !activates.empty() || !removes.empty() || !releases.empty() || surcharge ||
-               moves_the_water() || !undrained.empty() || seismic_coefficient || pressures ||
-               forces || !displacements.empty() || !creep.empty();
+               phreatic_line || !undrained.empty() || seismic_coefficient || pressures ||
+               !displacements.empty();
     }
 };
 
@@ -367,20 +313,16 @@ struct GroundWater {
     double pressure_stabilisation;  ///< alpha in alpha h^2 / (K + 4G/3) [-]
     PressureIntegration pressure_integration;
     std::vector<PressureBoundary> boundaries;
-    std::string boundaries_at = "/fem/water/boundaries";  ///< scene entry of the boundaries
 };
 
 /// Input motion: of the rock outcrop (twice the upgoing wave), or the upgoing wave.
 enum class MotionAt { outcrop, upgoing };
-/// tied: all base nodes have the same x displacement.
-enum class BaseNodes { tied, free };
 
-/// Elastic half-space below the mesh.
+/// Elastic half-space below the mesh: its nodes have the same x displacement.
 struct ElasticBase {
     double density;  ///< [kg/m3]
     double V_s;      ///< [m/s]
     MotionAt motion_at;
-    BaseNodes nodes;
 };
 
 enum class Baseline { as_recorded, corrected };
@@ -409,7 +351,6 @@ struct LiquefactionWatch {
 };
 
 struct Fem {
-    Kinematics kinematics;
     ElementKind element;
     HourglassKind hourglass;  ///< ssp only
     MeshSource mesh;
@@ -429,9 +370,8 @@ struct Fem {
     double force_tolerance;                     ///< residual norm over reference force norm [-]
     int largest_iterations;
     double least_jacobian_ratio;  ///< a smaller ratio counts as entangled [-]
-    AtEntanglement at_entanglement;
-    Vec2 crest;               ///< monitored point: the nearest node [m]
-    double strain_threshold;  ///< averages include elements with a larger epsilon_q [-]
+    Vec2 crest;                   ///< monitored point: the nearest node [m]
+    double strain_threshold;      ///< averages include elements with a larger epsilon_q [-]
     std::optional<LiquefactionWatch> liquefaction;
     /// connected elements with a larger epsilon_q are a failure surface [-]
     double failure_strain;
@@ -449,18 +389,14 @@ struct Fem {
     }
     bool moves_the_water() const {
         for (const Stage& stage : stages)
-            if (stage.moves_the_water()) return true;
+            if (stage.phreatic_line) return true;
         return false;
     }
-    /// The water with the phreatic line and boundaries of a stage.
+    /// The water with the phreatic line of a stage.
     std::optional<GroundWater> water_in(std::size_t stage) const {
         std::optional<GroundWater> now = water;
-        for (std::size_t s = 0; now && s <= stage; ++s) {
+        for (std::size_t s = 0; now && s <= stage; ++s)
             if (stages[s].phreatic_line) now->line = *stages[s].phreatic_line;
-            if (!stages[s].water_boundaries) continue;
-            now->boundaries = *stages[s].water_boundaries;
-            now->boundaries_at = "/fem/stages/" + std::to_string(s) + "/water_boundaries";
-        }
         return now;
     }
     /// [regions] absent in a stage: not yet placed, or removed.
@@ -482,7 +418,6 @@ struct Fem {
 // ---------------------------------------------------------------- transfer_tool
 
 enum class Interpolation { local, paper };
-enum class SofteningStart { carried, zero };
 
 /// r_u that decides whether a node is liquefied: the largest since the shaking began, or that at
 /// t_T.
@@ -550,21 +485,16 @@ struct Transfer {
     std::vector<SoilMapping> mapping{};
     std::vector<Vec2> phreatic_line{};  ///< ascending in x, level beyond its ends [m]
     std::optional<LiquefiedZone> liquefied{};
-    SofteningStart softening_start;
     BaseDisplacement base_displacement = BaseDisplacement::kept;
     OutOfPlaneStress sigma_zz = OutOfPlaneStress::carried;
-    std::optional<std::array<double, 2>> keep_x{};  ///< only points in this range of x [m]
-    bool round_trip = false;       ///< measure the error of mapping the points back to the mesh
-    double largest_mass_loss;      ///< relative; a larger loss fails the transfer
-    double largest_momentum_loss;  ///< relative
+    double largest_mass_loss;                    ///< relative; a larger loss fails the transfer
+    double largest_momentum_loss;                ///< relative
     double largest_kinetic_energy_loss = 0.005;  ///< relative
     std::optional<AdviceWindow> window{};
 };
 
 // ---------------------------------------------------------------- mpm_solver
 
-using Kernel = grid::KernelKind;
-using grid::UpdateOrder;
 /// automatic: on if the law is plastic or nu > 0.45.
 enum class AntiLocking { on, off, automatic };
 enum class Wall { roller, fixed, open };
@@ -662,10 +592,8 @@ struct Mpm {
     Floor floor;
     /// Ascending in x, linear beyond its ends; empty: the floor [m]
     std::vector<Vec2> terrain{};
-    Kernel kernel;
     double gimp_half_size;  ///< over the cell size [-]
-    UpdateOrder order;
-    double blending_rate;  ///< affine PIC rate beta [1/s]
+    double blending_rate;   ///< affine PIC rate beta [1/s]
     /// Damping of soil that does not yield, over critical, at the frequency of the mobile height
     /// [-]
     double damping_ratio = 0.0;

@@ -5,21 +5,6 @@
 #include "core/scene/scene.hpp"
 #include "core/words/words.hpp"
 
-namespace breach::grid {
-
-constexpr auto words_of(KernelKind) {
-    using enum KernelKind;
-    return words::in_order<KernelKind>(
-        {{gimp, "gimp"}, {b_spline, "b_spline"}, {linear, "linear"}});
-}
-
-constexpr auto words_of(UpdateOrder) {
-    using enum UpdateOrder;
-    return words::in_order<UpdateOrder>({{usl, "usl"}, {musl, "musl"}, {usf, "usf"}});
-}
-
-}  // namespace breach::grid
-
 namespace breach::materials {
 
 constexpr auto words_of(SofteningDriver) {
@@ -65,16 +50,6 @@ constexpr auto words_of(PhreaticCorrection) {
     return words::in_order<PhreaticCorrection>({{none, "none"}, {cos2, "cos2"}});
 }
 
-constexpr auto words_of(MAlphaSlices) {
-    using enum MAlphaSlices;
-    return words::in_order<MAlphaSlices>({{frictional, "frictional"}, {all, "all"}});
-}
-
-constexpr auto words_of(SmallMAlpha) {
-    using enum SmallMAlpha;
-    return words::in_order<SmallMAlpha>({{answered, "answered"}, {refused, "refused"}});
-}
-
 constexpr auto words_of(VariedSurface) {
     using enum VariedSurface;
     return words::in_order<VariedSurface>({{fixed, "fixed"}, {searched, "searched"}});
@@ -95,12 +70,6 @@ constexpr auto words_of(Distribution) {
     return words::in_order<Distribution>({{normal, "normal"}, {lognormal, "lognormal"}});
 }
 
-constexpr auto words_of(Kinematics) {
-    using enum Kinematics;
-    return words::in_order<Kinematics>(
-        {{small_strain, "small_strain"}, {updated_lagrangian, "updated_lagrangian"}});
-}
-
 constexpr auto words_of(ElementKind) {
     using enum ElementKind;
     return words::in_order<ElementKind>({{bbar, "bbar"}, {ssp, "ssp"}});
@@ -109,11 +78,6 @@ constexpr auto words_of(ElementKind) {
 constexpr auto words_of(HourglassKind) {
     using enum HourglassKind;
     return words::in_order<HourglassKind>({{current, "current"}, {elastic, "elastic"}});
-}
-
-constexpr auto words_of(AtEntanglement) {
-    using enum AtEntanglement;
-    return words::in_order<AtEntanglement>({{stop, "stop"}, {go_on, "go_on"}});
 }
 
 constexpr auto words_of(PressureIntegration) {
@@ -146,11 +110,6 @@ constexpr auto words_of(MotionAt) {
     return words::in_order<MotionAt>({{outcrop, "outcrop"}, {upgoing, "upgoing"}});
 }
 
-constexpr auto words_of(BaseNodes) {
-    using enum BaseNodes;
-    return words::in_order<BaseNodes>({{tied, "tied"}, {free, "free"}});
-}
-
 constexpr auto words_of(Baseline) {
     using enum Baseline;
     return words::in_order<Baseline>({{as_recorded, "as_recorded"}, {corrected, "corrected"}});
@@ -177,11 +136,6 @@ constexpr auto words_of(OutOfPlaneStress) {
 constexpr auto words_of(LiquefiedWhen) {
     using enum LiquefiedWhen;
     return words::in_order<LiquefiedWhen>({{ever, "ever"}, {at_transfer, "at_transfer"}});
-}
-
-constexpr auto words_of(SofteningStart) {
-    using enum SofteningStart;
-    return words::in_order<SofteningStart>({{carried, "carried"}, {zero, "zero"}});
 }
 
 constexpr auto words_of(Entangled) {

@@ -67,7 +67,6 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
         constraints_of(scene::fem_of(scene), base, mesh, columns.ties, columns.pressure_ties);
     model.zones = zones_of(scene, mesh);
     model.thickness = scene.thickness;
-    model.kinematics = decided.kinematics.value;
     model.rayleigh = decided.damping.value;
     model.reference.resize(mesh.quads.size());
     model.volume.resize(mesh.quads.size());

@@ -41,7 +41,6 @@ Decided<ElementChoice> element_of(const scene::Fem& fem) {
 
 ModelDecisions decide_model(const scene::Scene& scene) {
     const scene::Fem& fem = scene::fem_of(scene);
-    const bool moves = fem.kinematics == scene::Kinematics::updated_lagrangian;
     const bool damped = fem.rayleigh_mass > 0.0 || fem.rayleigh_stiffness > 0.0;
     const std::string no_motion =
         fem.base ? "none is given: the base is at rest" : "there is no base to carry it";
@@ -49,8 +48,6 @@ ModelDecisions decide_model(const scene::Scene& scene) {
         .gravity = {scene.gravity,
                     line_of("gravity", use_if(scene.gravity > 0.0),
                             {"the load of every stage", "gravity is zero"}, "/gravity")},
-        .kinematics = {fem.kinematics, line_of("moving mesh (updated Lagrangian)", use_if(moves),
-                                               {"asked for", "small strains"}, "/fem/kinematics")},
         .element = element_of(fem),
         .damping = {{fem.rayleigh_mass, fem.rayleigh_stiffness},
                     line_of("Rayleigh damping", use_if(damped),

@@ -13,7 +13,6 @@ using ElementChoice = std::optional<HourglassModulus>;
 /// A part without a value is not in the model.
 struct ModelDecisions {
     process::Decided<double> gravity;  ///< [m/s2]
-    process::Decided<scene::Kinematics> kinematics;
     /// single-point quad, or 2 x 2 points with mean dilatation
     process::Decided<ElementChoice> element;
     process::Decided<Rayleigh> damping;

@@ -128,7 +128,6 @@ Model columns_alone(const Model& whole) {
     alone.hourglass = rest_of(whole.hourglass, elements);
     alone.hourglass_modulus = whole.hourglass_modulus;
     alone.volume = rest_of(whole.volume, elements);
-    alone.kinematics = whole.kinematics;
     alone.rayleigh = whole.rayleigh;
     return alone;
 }
@@ -136,18 +135,16 @@ Model columns_alone(const Model& whole) {
 Motion columns_alone(const Model& whole, const Motion& motion) {
     const std::size_t elements = whole.body.elements, nodes = whole.body.nodes;
     const std::size_t points = elements * whole.points_per_element;
-    Motion alone{
-        .u = rest_of(motion.u, 2 * nodes),
-        .v = rest_of(motion.v, 2 * nodes),
-        .a = rest_of(motion.a, 2 * nodes),
-        .force = rest_of(motion.force, 2 * nodes),
-        .p = rest_of(motion.p, nodes),
-        .p_rate = rest_of(motion.p_rate, nodes),
-        .points = rest_of(motion.points, points),
-        .strain = rest_of(motion.strain, points),
-        .memory = {},
-        .turned = motion.turned.empty() ? std::vector<double>() : rest_of(motion.turned, points),
-        .hourglass = rest_of(motion.hourglass, elements)};
+    Motion alone{.u = rest_of(motion.u, 2 * nodes),
+                 .v = rest_of(motion.v, 2 * nodes),
+                 .a = rest_of(motion.a, 2 * nodes),
+                 .force = rest_of(motion.force, 2 * nodes),
+                 .p = rest_of(motion.p, nodes),
+                 .p_rate = rest_of(motion.p_rate, nodes),
+                 .points = rest_of(motion.points, points),
+                 .strain = rest_of(motion.strain, points),
+                 .memory = {},
+                 .hourglass = rest_of(motion.hourglass, elements)};
     if (motion.memory.empty()) return alone;
     for (const ZonePart& part : zone_parts(whole)) {
         const std::size_t before =

@@ -105,7 +105,6 @@ Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::Ela
     for (const auto& [master, slave] : pressure_ties) tie(c.pressure_master, master, slave);
     if (!base) return c;
     c.is_base = is_lowest;
-    if (base->nodes == scene::BaseNodes::free) return c;
     const auto first = std::find(is_lowest.begin(), is_lowest.end(), true) - is_lowest.begin();
     for (std::size_t i = 0; i < is_lowest.size(); ++i) {
         if (!is_lowest[i]) continue;

@@ -59,7 +59,7 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
             if (p > 0.0 || !prescribed[i] || *prescribed[i] > 0.0) prescribed[i] = p;
         }
         if (found) continue;
-        faults.push_back({water.boundaries_at + "/" + std::to_string(b),
+        faults.push_back({"/fem/water/boundaries/" + std::to_string(b),
                           "boundary '" + boundary.name + "' holds no node of the mesh",
                           "let its segment run along an edge of a region"});
     }
@@ -178,13 +178,13 @@ void set_permeability(const scene::Scene& scene, scene::StagePermeability permea
         }
         fluid->mobility = conductivity / unit_weight(scene);
     }
-    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), model.water);
+    evaluate_pore_water(model, model.water);
 }
 
 void close_to_flow(Model& model) {
     for (auto& fluid : model.water.fluids)
         if (fluid) fluid->mobility.setZero();
-    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), model.water);
+    evaluate_pore_water(model, model.water);
 }
 
 }  // namespace breach::fem

@@ -72,7 +72,6 @@ struct Model {
     std::vector<SspGeometry> hourglass;  ///< for single-point quads; else empty
     HourglassModulus hourglass_modulus = HourglassModulus::current;
     std::vector<double> volume;  ///< of the undeformed elements [m3]
-    scene::Kinematics kinematics = scene::Kinematics::small_strain;
     Rayleigh rayleigh;
     std::vector<char> absent;  ///< [elements] not placed yet or removed; empty: all are present
     /// Force per dof withheld at the beginning of a stage [N], from when and over which time it is
@@ -87,10 +86,6 @@ struct Model {
         double by;
     };
     std::vector<Driven> driven;
-    /// Creep of a static stage: epsilon_q over its load per element, and the strain of the present
-    /// load step per point; empty: none [-]
-    std::vector<double> creep;
-    std::vector<Voigt> creep_step;
 
     bool is_absent(std::size_t element) const { return !absent.empty() && absent[element] != 0; }
     std::size_t points() const { return mesh.quads.size() * points_per_element; }
@@ -127,9 +122,6 @@ struct Motion {
     std::vector<Voigt> strain;  ///< total, sum of increments [-]
     /// [zones] memory of the points besides State; empty if no law has one, and in elastic stages
     std::vector<materials::LawMemory> memory;
-    /// [points] rotation of the axes of a point's memory [rad]; empty without memory or with small
-    /// strain
-    std::vector<double> turned;
     std::vector<Hourglass> hourglass;  ///< [elements] of single-point quads; else empty
 };
 

@@ -124,15 +124,14 @@ PoreWater build_pore_water(const Model& model, Wetness wetness) {
         water.is_unknown[i] = touched[i] && !p;
         if (touched[i] && p) water.prescribed[static_cast<Eigen::Index>(i)] = *p;
     }
-    evaluate_pore_water(model, Eigen::VectorXd::Zero(model.dofs()), water);
+    evaluate_pore_water(model, water);
     return water;
 }
 
-void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater& water) {
-    const bool moves = model.kinematics == scene::Kinematics::updated_lagrangian;
+void evaluate_pore_water(const Model& model, PoreWater& water) {
     for (PorousElement& each : water.elements) {
         const std::size_t e = each.element;
-        const Corners x = moves ? displaced_corners(model, e, u) : corners_of(model.mesh, e);
+        const Corners x = corners_of(model.mesh, e);
         const Fluid& fluid = *water.fluids[each.zone];
         if (model.hourglass.empty()) {
             Gradients gradients;

@@ -23,7 +23,7 @@ struct Wetness {
 PoreWater build_pore_water(const Model& model, Wetness wetness);
 
 /// Recomputes all operators for the undeformed mesh or, if it moves, for displacements u.
-void evaluate_pore_water(const Model& model, const Eigen::VectorXd& u, PoreWater& water);
+void evaluate_pore_water(const Model& model, PoreWater& water);
 
 /// f += Q p, the force of the pore pressure on the nodes [N].
 void add_pressure_force(const Model& model, const Eigen::VectorXd& p, Eigen::VectorXd& f);

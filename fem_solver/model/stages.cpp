@@ -1,11 +1,7 @@
 #include "fem_solver/model/stages.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 
-#include "core/words/number.hpp"
 #include "fem_solver/model/build_model.hpp"
 #include "fem_solver/model/ground.hpp"
 #include "fem_solver/model/ground_water.hpp"
@@ -162,57 +158,6 @@ void apply_pressures(const scene::Fem& fem, std::size_t stage, Model& model) {
     }
 }
 
-/// Nodal forces, of this stage or the last one that set them.
-void push(const scene::Fem& fem, std::size_t stage, Model& model) {
-    std::size_t from = 0;
-    for (std::size_t s = 0; s <= stage; ++s)
-        if (fem.stages[s].forces) from = s;
-    if (!fem.stages[from].forces) return;
-    const std::vector<bool> lonely = lonely_nodes(model);
-    for (std::size_t k = 0; k < fem.stages[from].forces->size(); ++k) {
-        const scene::NodeForce& each = (*fem.stages[from].forces)[k];
-        const auto refuse = [&](const std::string& cause, const std::string& remedy) {
-            throw fault::BadInput(
-                "scene", {{"/fem/stages/" + std::to_string(from) + "/forces/" + std::to_string(k),
-                           "'" + each.name + "' " + cause, remedy}});
-        };
-        std::size_t nearest = model.body.nodes;
-        double distance = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < model.body.nodes; ++i) {
-            const double here = (model.mesh.nodes[i] - each.at).norm();
-            if (lonely[i] || here >= distance) continue;
-            nearest = i;
-            distance = here;
-        }
-        if (distance > each.within)
-            refuse("finds no node within " + words::text_of(each.within) +
-                       " m in the soil that is there in stage " + std::to_string(stage) +
-                       "; the nearest is " + words::text_of(distance) + " m away",
-                   "move it to the soil, or raise \"within\"");
-        for (const Eigen::Index y : {0, 1}) {
-            if (each.force[y] != 0.0 && model.constraints.held[2 * nearest + y])
-                refuse(std::string("acts along ") + (y ? "y" : "x") +
-                           " on a node that is held in that direction",
-                       "let it act on a free node, or release the support");
-        }
-        model.external_force.segment<2>(2 * static_cast<Eigen::Index>(nearest)) +=
-            model.thickness * each.force;
-    }
-}
-
-/// epsilon_q of creep in this stage, per element.
-void creep(const scene::Fem& fem, std::size_t stage, Model& model) {
-    model.creep.clear();
-    model.creep_step.clear();
-    if (fem.stages[stage].creep.empty()) return;
-    model.creep.assign(model.mesh.quads.size(), 0.0);
-    for (const scene::Creep& each : fem.stages[stage].creep)
-        for (std::size_t e = 0; e < model.creep.size(); ++e)
-            if (!model.is_absent(e) &&
-                model.mesh.region_of_element[e] == static_cast<std::int32_t>(each.region))
-                model.creep[e] = each.epsilon_q;
-}
-
 }  // namespace
 
 std::vector<bool> lonely_nodes(const Model& model) {
@@ -245,8 +190,6 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     set_weights(decided.gravity.value, k_h, model);
     add_ground_loads(now, model);
     apply_pressures(fem, stage, model);
-    push(fem, stage, model);
-    creep(fem, stage, model);
 }
 
 void set_softening(const scene::Stage& stage, const Model& model,
@@ -263,22 +206,6 @@ void set_softening(const scene::Stage& stage, const Model& model,
         const bool asked = stage.S && (undrained || stage.undrained.empty());
         if (asked) laws[z] = materials::with_S(laws[z], *stage.S);
         if (!asked && !undrained) laws[z] = materials::with_S(laws[z], 0.0);
-    }
-}
-
-void set_creep_step(double share, const Motion& motion, Model& model) {
-    if (model.creep.empty()) return;
-    model.creep_step.assign(model.points(), Voigt::Zero());
-    constexpr double no_deviator = 1e-7;  // of the mean stress
-    for (std::size_t p = 0; p < model.points(); ++p) {
-        const Voigt& sigma = motion.points[p].sigma;
-        const double half = 0.5 * (sigma[0] - sigma[1]);
-        const double size = std::hypot(half, sigma[3]);
-        if (size <= no_deviator * std::abs(sigma.head<3>().sum())) continue;
-        // epsilon_q of (1, -1, 0) is 2 / sqrt 3.
-        const double amount =
-            0.5 * std::numbers::sqrt3 * share * model.creep[p / model.points_per_element] / size;
-        model.creep_step[p] = amount * Voigt(half, -half, 0.0, 2.0 * sigma[3]);
     }
 }
 

@@ -13,10 +13,6 @@ namespace breach::fem {
 void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::size_t stage,
                Model& model);
 
-/// Sets the creep strain for this share of the stage, along the in-plane deviators of `motion`;
-/// points without deviator do not creep.
-void set_creep_step(double share, const Motion& motion, Model& model);
-
 /// Sets S of the laws with a state parameter. 0 where water drains, unless the stage requests S in
 /// this region, or drains everywhere and requests S.
 void set_softening(const scene::Stage& stage, const Model& model,

@@ -33,8 +33,7 @@ std::string surfaces_of(const Entanglement& what) {
 }  // namespace
 
 Entanglement entanglement_of(const scene::Section& section, const Model& model, const Watch& watch,
-                             const Motion& last_good, const Distortion& folded, double time,
-                             scene::AtEntanglement then) {
+                             const Motion& last_good, const Distortion& folded, double time) {
     const std::size_t e = folded.worst_element;
     const std::vector<double> epsilon_q = epsilon_q_of_elements(model, last_good);
     const FailureSurfaces surfaces = watch.failure_surfaces(epsilon_q);
@@ -56,8 +55,7 @@ Entanglement entanglement_of(const scene::Section& section, const Model& model, 
             .least_ratio = folded.least,
             .mean_epsilon_q = mean,
             .failure_surfaces = surfaces.count,
-            .kind = failed ? Entanglement::Kind::band : Entanglement::Kind::corner,
-            .then = then};
+            .kind = failed ? Entanglement::Kind::band : Entanglement::Kind::corner};
 }
 
 nlohmann::json as_json(const Entanglement& what) {
@@ -69,14 +67,13 @@ nlohmann::json as_json(const Entanglement& what) {
             {"least_jacobian_ratio", what.least_ratio},
             {"mean_epsilon_q", what.mean_epsilon_q},
             {"failure_surfaces", what.failure_surfaces},
-            {"kind", what.kind == Entanglement::Kind::band ? "band" : "corner"},
-            {"went_on", what.then == scene::AtEntanglement::go_on}};
+            {"kind", what.kind == Entanglement::Kind::band ? "band" : "corner"}};
 }
 
 Entanglement entanglement_from(const nlohmann::json& facts, const scene::Section& section) {
     const std::string name = facts.at("region");
     const auto region = std::ranges::find(section.regions, name, &scene::Region::name);
-    const bool band = facts.at("kind") == "band", went_on = facts.at("went_on");
+    const bool band = facts.at("kind") == "band";
     return {.time = facts.at("time"),
             .element = facts.at("element"),
             .region = static_cast<std::size_t>(region - section.regions.begin()),
@@ -85,8 +82,7 @@ Entanglement entanglement_from(const nlohmann::json& facts, const scene::Section
             .least_ratio = facts.at("least_jacobian_ratio"),
             .mean_epsilon_q = facts.at("mean_epsilon_q"),
             .failure_surfaces = facts.at("failure_surfaces"),
-            .kind = band ? Entanglement::Kind::band : Entanglement::Kind::corner,
-            .then = went_on ? scene::AtEntanglement::go_on : scene::AtEntanglement::stop};
+            .kind = band ? Entanglement::Kind::band : Entanglement::Kind::corner};
 }
 
 std::string in_words(const Entanglement& what) {
@@ -108,14 +104,11 @@ std::string in_words(const Entanglement& what) {
 }
 
 fault::Flag flag_of(const Entanglement& what) {
-    const bool went_on = what.then == scene::AtEntanglement::go_on;
-    std::string words = in_words(what);
-    if (went_on) words += "; what comes after that is small strain on the undeformed mesh";
+    const std::string words = in_words(what);
     if (what.kind == Entanglement::Kind::corner) {
         return {"entangled_corner", fault::Severity::questionable, words,
                 "/section/regions/" + std::to_string(what.region)};
     }
-    if (went_on) return {"entangled", fault::Severity::warning, words, "/fem/at_entanglement"};
     return {"entangled", fault::Severity::warning,
             words + "; what comes after that is unknown to the FEM", "/fem/least_jacobian_ratio"};
 }

@@ -24,7 +24,6 @@ struct Entanglement {
     double mean_epsilon_q;  ///< of the elements that share a node with it, by volume [-]
     std::size_t failure_surfaces;
     Kind kind;
-    scene::AtEntanglement then;  ///< the scene's choice
 };
 
 /// Evaluates the last good state, which is the last snapshot. band: the elements around the folded
@@ -32,8 +31,7 @@ struct Entanglement {
 /// belongs to a failure surface. Its own strain does not count: it is large because the corner
 /// folded.
 Entanglement entanglement_of(const scene::Section& section, const Model& model, const Watch& watch,
-                             const Motion& last_good, const Distortion& folded, double time,
-                             scene::AtEntanglement then);
+                             const Motion& last_good, const Distortion& folded, double time);
 
 nlohmann::json as_json(const Entanglement& what);
 /// Inverse of as_json, for the same section.

@@ -64,12 +64,10 @@ class Columns {
     bool advance_to(double end) {
         double dt = stage_->time_step;
         const Newmark newmark{fem_.newmark_beta, fem_.newmark_gamma};
-        const bool moves = model_.kinematics == scene::Kinematics::updated_lagrangian;
         while (time_ < end) {
             const double left = end - time_;
             const bool arrives = dt >= left * (1.0 - 1e-9);
             const double taken = arrives ? left : dt;
-            if (moves && model_.water.any()) evaluate_pore_water(model_, motion_.u, model_.water);
             const NewtonOutcome outcome =
                 dynamic_step(*newton_, model_, laws_, newmark, rest_, taken, time_ + taken, motion_,
                              prediction_, trial_);

@@ -1,9 +1,6 @@
 #include "fem_solver/solve/internal_force.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "fem_solver/solve/ranges.hpp"
@@ -11,7 +8,6 @@
 
 namespace breach::fem {
 
-using mechanics::Matrix2;
 using mechanics::Matrix4;
 
 namespace {
@@ -41,12 +37,6 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds,
       memory_(model, team_) {
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
-    if (model.kinematics == scene::Kinematics::updated_lagrangian) {
-        half_angle_.resize(model.points());
-        current_.resize(model.mesh.quads.size());
-        gradients_.resize(model.mesh.quads.size());
-        hourglass_ = model.hourglass;
-    }
     d_q_.resize(model.hourglass.size());
     if (team_->threads() > 1) nodal_.resize(model.mesh.quads.size());
     for (const Zone& zone : model.zones) {
@@ -55,41 +45,12 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds,
     }
 }
 
-std::string InternalForce::why_degenerate() const {
-    if (folded_) return "element " + std::to_string(*folded_) + " turned inside out";
-    return in_words(memory_.refusal());
-}
+std::string InternalForce::why_degenerate() const { return in_words(memory_.refusal()); }
 
-const std::vector<Quadrature>& InternalForce::quadratures() const {
-    return current_.empty() ? model_.reference : current_;
-}
-
-const std::vector<SspGeometry>& InternalForce::hourglasses() const {
-    return hourglass_.empty() ? model_.hourglass : hourglass_;
-}
-
-Geometry InternalForce::strain_pass(const Motion& old, const Motion& trial) {
-    const std::size_t elements = model_.mesh.quads.size();
-    folded_.reset();
-    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {
-        // The first one, for any number of threads: nothing behind a known one counts.
-        std::atomic<std::size_t> first = elements;
-        for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t e = begin; e < end && e < first; ++e) {
-                if (moving_strains(e, old, trial) == Geometry::sound) continue;
-                std::size_t known = first;
-                while (e < known && !first.compare_exchange_weak(known, e)) {
-                }
-            }
-        });
-        if (first == elements) return Geometry::sound;
-        folded_ = first;
-        return Geometry::degenerate;
-    }
-    for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {
+void InternalForce::strain_pass(const Motion& old, const Motion& trial) {
+    for_ranges(model_.mesh.quads.size(), *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) small_strains(e, old, trial);
     });
-    return Geometry::sound;
 }
 
 void InternalForce::small_strains(std::size_t element, const Motion& old, const Motion& trial) {
@@ -98,53 +59,10 @@ void InternalForce::small_strains(std::size_t element, const Motion& old, const 
     for (std::size_t g = 0; g < points_; ++g) {
         d_epsilon_[element * points_ + g] = strain_of(model_.reference[element].B[g], d_u);
     }
-    // Strain without creep.
-    for (std::size_t g = 0; g < points_ && !model_.creep_step.empty(); ++g)
-        d_epsilon_[element * points_ + g] -= model_.creep_step[element * points_ + g];
     if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
     if (!model_.is_absent(element)) return;
     for (std::size_t g = 0; g < points_; ++g) d_epsilon_[element * points_ + g].setZero();
     if (!d_q_.empty()) d_q_[element].setZero();
-}
-
-/// Strain increment and rotation from the mid-configuration, exact for rigid rotation (Hughes &
-/// Winget 1980, with the exact angle). Leaves the quadrature of the end configuration for the
-/// forces.
-Geometry InternalForce::moving_strains(std::size_t element, const Motion& old,
-                                       const Motion& trial) {
-    const Quad& quad = model_.mesh.quads[element];
-    const Dofs8 d_u = gather(quad, trial.u) - gather(quad, old.u);
-    const Corners end = displaced_corners(model_, element, trial.u);
-    const Corners middle = end - 0.5 * Eigen::Map<const Corners>(d_u.data());
-    Gradients& gradients = gradients_[element];
-    Quadrature& current = current_[element];
-    if (evaluate_element(element, middle) == Geometry::degenerate) return Geometry::degenerate;
-    if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(hourglass_[element], d_u);
-    for (std::size_t g = 0; g < points_; ++g) {
-        const std::size_t p = element * points_ + g;
-        d_epsilon_[p] = strain_of(current.B[g], d_u);
-        const Matrix2 L = Eigen::Map<const Corners>(d_u.data()) * gradients.dN[g].transpose();
-        const Matrix2 half = 0.5 * L;
-        const Matrix2 F = (Matrix2::Identity() - half).inverse() * (Matrix2::Identity() + half);
-        half_angle_[p] = 0.5 * mechanics::rotation_angle(F);
-    }
-    return evaluate_element(element, end);
-}
-
-/// Gradients and quadrature on the moving mesh.
-Geometry InternalForce::evaluate_element(std::size_t element, const Corners& x) {
-    Gradients& gradients = gradients_[element];
-    evaluate_gradients(x, model_.thickness_of(element), gradients);
-    for (const double weight : gradients.weight) {
-        if (!(weight > 0.0)) return Geometry::degenerate;
-    }
-    if (hourglass_.empty()) {
-        evaluate_quadrature(gradients, current_[element]);
-    } else {
-        evaluate_ssp(x, model_.thickness_of(element), hourglass_[element]);
-        use_centre_only(hourglass_[element], gradients, current_[element]);
-    }
-    return Geometry::sound;
 }
 
 template <class Law>
@@ -152,23 +70,10 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
                                        Motion& trial) {
     const Zone& zone = model_.zones[z];
     const std::size_t first = zone.first * points_;
-    const auto still = [&](std::size_t begin, std::size_t end) {
+    for_ranges(zone.count * points_, *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = first + begin; p < first + end; ++p)
             trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
-    };
-    const auto turning = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = first + begin; p < first + end; ++p) {
-            State turned = old.points[p];
-            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
-            turned = materials::integrate(law, turned, d_epsilon_[p]).state;
-            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);
-            trial.points[p] = turned;
-        }
-    };
-    if (half_angle_.empty())
-        for_ranges(zone.count * points_, *team_, still);
-    else
-        for_ranges(zone.count * points_, *team_, turning);
+    });
     return Geometry::sound;
 }
 
@@ -177,15 +82,10 @@ Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t 
                                                     const Motion& old, Motion& trial) {
     const Zone& zone = model_.zones[z];
     const std::size_t first = zone.first * points_;
-    const bool turns = !half_angle_.empty();
     for_ranges(zone.count * points_, *team_, [&](std::size_t begin, std::size_t end) {
         Matrix4 D;
         for (std::size_t p = first + begin; p < first + end; ++p) {
-            State start = old.points[p];
-            if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);
-            State reached = materials::integrate(law, start, d_epsilon_[p], D).state;
-            if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);
-            trial.points[p] = reached;
+            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p], D).state;
             tangent_[p] = in_plane(D);
         }
     });
@@ -198,11 +98,7 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
     const Zone& zone = model_.zones[z];
     const std::span all(d_epsilon_);
     const std::span d_epsilon = all.subspan(zone.first * points_, zone.count * points_);
-    const std::span half_angles =
-        half_angle_.empty()
-            ? std::span<const double>()
-            : std::span(half_angle_).subspan(zone.first * points_, d_epsilon.size());
-    return memory_.integrate(law, z, d_epsilon, half_angles, old, trial) == MemoryPass::Answer::done
+    return memory_.integrate(law, z, d_epsilon, old, trial) == MemoryPass::Answer::done
                ? Geometry::sound
                : Geometry::degenerate;
 }
@@ -240,43 +136,21 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
 
 void InternalForce::accumulate_strain(std::size_t begin, std::size_t end, const Motion& old,
                                       Motion& trial) const {
-    if (half_angle_.empty()) {
-        for (std::size_t p = begin * points_; p < end * points_; ++p)
-            trial.strain[p] = old.strain[p] + d_epsilon_[p];
-        for (std::size_t p = begin * points_; p < end * points_ && !model_.creep_step.empty(); ++p)
-            trial.strain[p] += model_.creep_step[p];
-        return;
-    }
-    for (std::size_t p = begin * points_; p < end * points_; ++p) {
-        const double half = half_angle_[p];
-        const Voigt turned = mechanics::rotated_strain(old.strain[p], half) + d_epsilon_[p];
-        trial.strain[p] = mechanics::rotated_strain(turned, half);
-    }
+    for (std::size_t p = begin * points_; p < end * points_; ++p)
+        trial.strain[p] = old.strain[p] + d_epsilon_[p];
 }
 
 /// Q += c_s H dq with the modulus of the last accepted step: the tangent is exact and symmetric,
-/// and the force is continuous when the modulus changes. On a moving mesh Q rotates with the
-/// element. H of the end configuration replaces that of the middle, as in the tangent.
+/// and the force is continuous when the modulus changes.
 void InternalForce::advance_hourglass(std::size_t begin, std::size_t end, const Motion& old,
                                       Motion& trial) const {
-    const std::vector<SspGeometry>& geometries = hourglasses();
-    const auto pass = [&](const auto& turned) {
-        for (std::size_t e = begin; e < end; ++e) {
-            const Hourglass& before = old.hourglass[e];
-            Hourglass& after = trial.hourglass[e];
-            const Vec2 first = turned(e, before.force);
-            const Vec2 last = first + before.c_s * (geometries[e].H * d_q_[e]);
-            after.energy = before.energy + 0.5 * (first + last).dot(d_q_[e]);
-            after.force = turned(e, last);
-            after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
-        }
-    };
-    if (half_angle_.empty()) {
-        pass([](std::size_t, const Vec2& force) { return force; });
-    } else {
-        pass([&](std::size_t e, const Vec2& force) -> Vec2 {
-            return Eigen::Rotation2Dd(half_angle_[e]) * force;
-        });
+    for (std::size_t e = begin; e < end; ++e) {
+        const Hourglass& before = old.hourglass[e];
+        Hourglass& after = trial.hourglass[e];
+        const Vec2 last = before.force + before.c_s * (model_.hourglass[e].H * d_q_[e]);
+        after.energy = before.energy + 0.5 * (before.force + last).dot(d_q_[e]);
+        after.force = last;
+        after.c_s = next_hourglass_modulus(e, before.c_s, old, trial);
     }
 }
 
@@ -289,11 +163,7 @@ double InternalForce::next_hourglass_modulus(std::size_t e, double now, const Mo
     constexpr double floor = 0.02, no_strain = 1e-12;
     const Vec2 d(d_epsilon_[e][0] - d_epsilon_[e][1], d_epsilon_[e][3]);
     if (d.squaredNorm() < no_strain * no_strain) return now;
-    Voigt d_sigma = trial.points[e].sigma - old.points[e].sigma;
-    if (!half_angle_.empty()) {
-        d_sigma = mechanics::rotated_stress(trial.points[e].sigma, -half_angle_[e]) -
-                  mechanics::rotated_stress(old.points[e].sigma, half_angle_[e]);
-    }
+    const Voigt d_sigma = trial.points[e].sigma - old.points[e].sigma;
     const Vec2 s(d_sigma[0] - d_sigma[1], 2.0 * d_sigma[3]);
     const double elastic = elastic_c_s_[e];
     return std::clamp(2.0 * s.dot(d) / d.squaredNorm(), floor * elastic, elastic);
@@ -324,50 +194,33 @@ void InternalForce::force_pass(const Motion& old, Motion& trial) {
 template <class Take>
 void InternalForce::visit_nodal_forces(std::size_t begin, std::size_t end, const Motion& trial,
                                        const Take& take) const {
-    const std::vector<Quadrature>& current = quadratures();
-    const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = begin; e < end; ++e) {
-        const Quadrature& q = current[e];
+        const Quadrature& q = model_.reference[e];
         Dofs8 f = Dofs8::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
             const Voigt& s = trial.points[e * points_ + g].sigma;
             const Eigen::Vector3d sigma = q.weight[g] * Eigen::Vector3d(s[0], s[1], s[3]);
             f.noalias() += q.B[g].transpose() * sigma;
         }
-        if (!d_q_.empty()) f += hourglass_forces(geometries[e], trial.hourglass[e].force);
+        if (!d_q_.empty()) f += hourglass_forces(model_.hourglass[e], trial.hourglass[e].force);
         if (model_.is_absent(e)) f.setZero();
         take(e, f);
     }
 }
 
-void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const {
+void InternalForce::stiffness_pass(const Motion& old, LinearSystem& A) const {
     const bool symmetric = A.symmetry() == Symmetry::symmetric;
-    const std::vector<Quadrature>& current = quadratures();
-    const std::vector<SspGeometry>& geometries = hourglasses();
     for (std::size_t e = 0; e < model_.mesh.quads.size(); ++e) {
         if (model_.is_absent(e)) continue;
-        const Quadrature& q = current[e];
+        const Quadrature& q = model_.reference[e];
         Stiffness K = Stiffness::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
-            const std::size_t p = e * points_ + g;
-            Tangent C = q.weight[g] * tangent_[p];
+            Tangent C = q.weight[g] * tangent_[e * points_ + g];
             if (symmetric) C = (0.5 * (C + C.transpose())).eval();
             const StrainOperator CB = C * q.B[g];
             K.noalias() += q.B[g].transpose() * CB;
-            if (current_.empty()) continue;
-            const Voigt& s = trial.points[p].sigma;
-            Matrix2 sigma;
-            sigma << s[0], s[3], s[3], s[1];
-            const Gradient& dN = gradients_[e].dN[g];
-            const Eigen::Matrix4d initial = q.weight[g] * dN.transpose() * sigma * dN;
-            for (int j = 0; j < 4; ++j) {
-                for (int i = 0; i < 4; ++i) {
-                    K(2 * i, 2 * j) += initial(i, j);
-                    K(2 * i + 1, 2 * j + 1) += initial(i, j);
-                }
-            }
         }
-        if (!d_q_.empty()) K += hourglass_stiffness(geometries[e], old.hourglass[e].c_s);
+        if (!d_q_.empty()) K += hourglass_stiffness(model_.hourglass[e], old.hourglass[e].c_s);
         A.add_element(e, K);
     }
 }
@@ -376,7 +229,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
                                  Motion& trial) {
     {
         const Stopwatch watch(seconds_, &Seconds::assembly);
-        if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
+        strain_pass(old, trial);
     }
     if (law_pass(laws, old, trial, Wanted::stress) == Geometry::degenerate) {
         return Geometry::degenerate;
@@ -390,14 +243,14 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
                                  Motion& trial, LinearSystem& A) {
     {
         const Stopwatch watch(seconds_, &Seconds::assembly);
-        if (strain_pass(old, trial) == Geometry::degenerate) return Geometry::degenerate;
+        strain_pass(old, trial);
     }
     if (law_pass(laws, old, trial, Wanted::stress_and_tangent) == Geometry::degenerate) {
         return Geometry::degenerate;
     }
     const Stopwatch watch(seconds_, &Seconds::assembly);
     force_pass(old, trial);
-    stiffness_pass(old, trial, A);
+    stiffness_pass(old, A);
     return Geometry::sound;
 }
 
@@ -437,8 +290,8 @@ void InternalForce::visit_viscous_elements(Visit visit) const {
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
             if (model_.is_absent(e)) continue;
             visit(e,
-                  ElementOperators{quadratures()[e], points_,
-                                   d_q_.empty() ? nullptr : &hourglasses()[e]},
+                  ElementOperators{model_.reference[e], points_,
+                                   d_q_.empty() ? nullptr : &model_.hourglass[e]},
                   zone.viscosity);
         }
     }

@@ -1,9 +1,8 @@
 // Stresses and nodal forces from displacements, and the tangent, in passes over strains, laws and
-// forces. Small strain on the undeformed mesh, or updated Lagrangian on the moving one.
+// forces. Small strain on the undeformed mesh.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace breach::fem {
 
 enum class Geometry {
     sound,
-    degenerate,  ///< det J <= 0 at a Gauss point, or a law refused the strain increment: no forces
+    degenerate,  ///< a law refused the strain increment: no forces
 };
 
 class InternalForce {
@@ -32,13 +31,12 @@ class InternalForce {
                       LinearSystem& A);
     /// Laws with memory: cost of their calls, reason of the last refusal.
     const MemoryPass& memory_pass() const { return memory_; }
-    /// After a degenerate evaluation: the element that is inside out, or the one whose law refused,
-    /// and why.
+    /// After a degenerate evaluation: the element whose law refused, and why.
     std::string why_degenerate() const;
     /// Adds `factor` times the elastic stiffness of the undeformed mesh to A.
     void add_elastic_stiffness(double factor, LinearSystem& A) const;
 
-    /// Whether a zone has viscosity. The functions below use the mesh of the last evaluation.
+    /// Whether a zone has viscosity.
     bool is_viscous() const;
     /// Adds `factor` times the viscous forces of the zones at the velocity v to f [N].
     void add_viscous_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f) const;
@@ -50,10 +48,8 @@ class InternalForce {
   private:
     using Tangent = Eigen::Matrix3d;  ///< rows and columns xx, yy, xy
 
-    Geometry strain_pass(const Motion& old, const Motion& trial);
+    void strain_pass(const Motion& old, const Motion& trial);
     void small_strains(std::size_t element, const Motion& old, const Motion& trial);
-    Geometry moving_strains(std::size_t element, const Motion& old, const Motion& trial);
-    Geometry evaluate_element(std::size_t element, const Corners& x);
     enum class Wanted { stress, stress_and_tangent };
     Geometry law_pass(const std::vector<materials::Law>& laws, const Motion& old, Motion& trial,
                       Wanted wanted);
@@ -78,12 +74,9 @@ class InternalForce {
     template <class Take>
     void visit_nodal_forces(std::size_t begin, std::size_t end, const Motion& trial,
                             const Take& take) const;
-    void stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A) const;
+    void stiffness_pass(const Motion& old, LinearSystem& A) const;
     template <typename Visit>
     void visit_viscous_elements(Visit visit) const;
-    /// [elements] for the present mesh.
-    const std::vector<Quadrature>& quadratures() const;
-    const std::vector<SspGeometry>& hourglasses() const;
 
     const Model& model_;
     const std::size_t points_;  ///< per element
@@ -92,13 +85,7 @@ class InternalForce {
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     MemoryPass memory_;
-    std::optional<std::size_t> folded_;  ///< first degenerate element of the last evaluation
-    /// Updated Lagrangian: [points] half the rotation of the step [rad]
-    std::vector<double> half_angle_;
-    std::vector<Quadrature> current_;     ///< updated Lagrangian: [elements]
-    std::vector<Gradients> gradients_;    ///< updated Lagrangian: [elements]
-    std::vector<SspGeometry> hourglass_;  ///< updated Lagrangian, single point: [elements]
-    std::vector<double> elastic_c_s_;     ///< single point: [elements] 4 G [Pa]
+    std::vector<double> elastic_c_s_;  ///< single point: [elements] 4 G [Pa]
     std::vector<Vec2> d_q_;     ///< single point: [elements] hourglass amplitude of the step [m]
     std::vector<Dofs8> nodal_;  ///< several threads: [elements] forces, then summed in order [N]
 };

@@ -64,8 +64,6 @@ std::size_t points_with_memory(const Model& model, const Motion& motion) {
 StressBias begin_memory(const Model& model, Motion& motion) {
     if (!motion.memory.empty() || !has_memory(model)) return stress_bias(model, motion);
     StressBias cut;
-    if (model.kinematics == scene::Kinematics::updated_lagrangian)
-        motion.turned.assign(model.points(), 0.0);
     const Overburden overburden(model);
     for (const Zone& zone : model.zones) {
         motion.memory.push_back(
@@ -110,19 +108,6 @@ std::size_t MemoryPass::first_too_large(std::span<const Voigt> d_epsilon) {
         return !(each.cwiseAbs().maxCoeff() <= largest_strain);
     });
     return static_cast<std::size_t>(found - d_epsilon.begin());
-}
-
-std::span<const Voigt> MemoryPass::turn(std::size_t first, std::span<const Voigt> d_epsilon,
-                                        std::span<const double> half_angles, const Motion& old,
-                                        Motion& trial) {
-    if (trial.turned.size() != old.turned.size()) trial.turned = old.turned;
-    in_own_axes_.resize(d_epsilon.size());
-    for (std::size_t i = 0; i < d_epsilon.size(); ++i) {
-        const double halfway = old.turned[first + i] + half_angles[i];
-        in_own_axes_[i] = mechanics::rotated_strain(d_epsilon[i], -halfway);
-        trial.turned[first + i] = halfway + half_angles[i];
-    }
-    return in_own_axes_;
 }
 
 MemoryPass::Answer MemoryPass::refuse(Refusal::Why why, const char* law, const Zone& zone,

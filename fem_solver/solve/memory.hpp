@@ -52,12 +52,10 @@ class MemoryPass {
         /// step
         refused,
     };
-    /// New memories and stresses of zone `z` after strain increments and, on a moving mesh, half
-    /// rotations [rad] of its points. The law works in axes that rotate with the point, which
-    /// rotates every part of its memory exactly.
+    /// New memories and stresses of zone `z` after strain increments of its points.
     template <materials::Remembers Law>
     Answer integrate(const Law& law, std::size_t z, std::span<const Voigt> d_epsilon,
-                     std::span<const double> half_angles, const Motion& old, Motion& trial);
+                     const Motion& old, Motion& trial);
 
     /// Larger strain increments belong to a diverged trial [-]; integrating them would be expensive
     /// and useless.
@@ -90,10 +88,6 @@ class MemoryPass {
 
     Answer refuse(Refusal::Why why, const char* law, const Zone& zone, std::size_t point,
                   const Voigt& d_epsilon);
-    /// Increments in the rotated axes of the points; stores the rotation of these.
-    std::span<const Voigt> turn(std::size_t first, std::span<const Voigt> d_epsilon,
-                                std::span<const double> half_angles, const Motion& old,
-                                Motion& trial);
     /// The first increment that is too large for the laws; the number of increments if none is.
     static std::size_t first_too_large(std::span<const Voigt> d_epsilon);
 
@@ -102,14 +96,12 @@ class MemoryPass {
     std::shared_ptr<numerics::Team> team_;
     Refusal refusal_;
     decltype(buffers_of(static_cast<const materials::Law*>(nullptr))) buffers_;
-    std::vector<Voigt> in_own_axes_;  ///< increments of a zone, moving mesh only
     std::int64_t evaluations_ = 0;
 };
 
 template <materials::Remembers Law>
 MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
-                                         std::span<const Voigt> d_epsilon,
-                                         std::span<const double> half_angles, const Motion& old,
+                                         std::span<const Voigt> d_epsilon, const Motion& old,
                                          Motion& trial) {
     const Zone& zone = model_.zones[z];
     const char* name = traits(law).name;
@@ -121,7 +113,6 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
     const std::span updates =
         std::span(std::get<Buffer<Law>>(buffers_).updates).first(d_epsilon.size());
     const std::size_t first = zone.first * points_;
-    if (!half_angles.empty()) d_epsilon = turn(first, d_epsilon, half_angles, old, trial);
     for_ranges(updates.size(), *team_, [&](std::size_t begin, std::size_t end) {
         const std::size_t count = end - begin;
         materials::integrate(law, from.subspan(begin, count), d_epsilon.subspan(begin, count),
@@ -133,9 +124,7 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
             return refuse(Refusal::Why::evaluations, name, zone, i, d_epsilon[i]);
         evaluations_ += each.counts.evaluations;
         to[i] = each.state;
-        Voigt& sigma = trial.points[first + i].sigma;
-        sigma = materials::stress(law, each.state);
-        if (!half_angles.empty()) sigma = mechanics::rotated_stress(sigma, trial.turned[first + i]);
+        trial.points[first + i].sigma = materials::stress(law, each.state);
     }
     return Answer::done;
 }

@@ -55,8 +55,6 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .blending_rate = mpm.blending_rate,
               .overlap_rate = mpm.overlap_correction.rate,
               .widest = 4.0 * mpm.cell_size * mpm.cell_size * scene.thickness,
-              .kernel = mpm.kernel,
-              .order = mpm.order,
               .averages = {},
               .loops = {},
               .softening = {},
@@ -72,8 +70,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
         body.loops.push_back(choose_loops(choice, computing.instructions));
         if (choice.averages == Averages::per_cell) body.averages[z].resize(body.grid.nodes());
     }
-    body.softening = NonlocalSoftening(body.points, body.zones, body.grid, body.kernel,
-                                       body.gimp_half_size, body.widest);
+    body.softening =
+        NonlocalSoftening(body.points, body.zones, body.grid, body.gimp_half_size, body.widest);
     if (body.softening.is_on() && body.points.epsilon_q_shared.empty())
         NonlocalSoftening::remember(body.points);
     const std::size_t n = body.points.size();
@@ -81,8 +79,6 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     if (body.overlap_rate > 0.0) body.points.excess.resize(n);
     body.points.cell.resize(n);
     body.team = std::make_shared<numerics::Team>(useful_threads(computing.threads, n));
-    if (body.order == UpdateOrder::musl)
-        body.points.drift_x.resize(n), body.points.drift_y.resize(n);
     for (std::size_t p = 0; p < n; ++p) {
         const Vec2 v{body.points.vx[p], body.points.vy[p]};
         body.tally.kinetic += 0.5 * body.points.m[p] * v.squaredNorm();

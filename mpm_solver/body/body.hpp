@@ -48,8 +48,6 @@ struct Body {
     /// Volume of the four cells around a point [m3]. A point with a larger volume has no
     /// neighbours, and its velocity gradient would expand it without limit.
     double widest;
-    KernelKind kernel;
-    UpdateOrder order;
     /// Anti-locking (docs/reference/methods/mpm.md): the points of a zone in a cell share
     /// volumetric strain rate and mean stress. [zones][cells]; empty: off.
     std::vector<std::vector<CellSum>> averages;

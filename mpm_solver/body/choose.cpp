@@ -56,38 +56,6 @@ Decided<Viscosity> viscosity_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
              pointer}};
 }
 
-process::PlanLine line_of_kernel(const scene::Mpm& mpm) {
-    const std::string pointer = "/mpm/kernel";
-    switch (mpm.kernel) {
-        case KernelKind::gimp:
-            return {
-                "GIMP kernel", Use::on,
-                "half size " + text_of(mpm.gimp_half_size) + " cells, clipped at walls and floor",
-                pointer};
-        case KernelKind::b_spline:
-            return {"quadratic B-spline kernel", Use::on, "hat functions beside walls and floor",
-                    pointer};
-        case KernelKind::linear:
-            break;
-    }
-    return {"linear kernel", Use::on, "asked for: tests only", pointer};
-}
-
-process::PlanLine line_of_order(UpdateOrder order) {
-    const std::string pointer = "/mpm/order";
-    switch (order) {
-        case UpdateOrder::musl:
-            return {"second mapping of momentum (MUSL)", Use::on, "asked for", pointer};
-        case UpdateOrder::usf:
-            return {"stress before forces (USF)", Use::on,
-                    "asked for: forces are mapped after momentum, on their own", pointer};
-        case UpdateOrder::usl:
-            break;
-    }
-    return {"second mapping of momentum (MUSL)", Use::left_out,
-            "usl: the gradient comes from the nodes' new velocities", pointer};
-}
-
 Decided<Overlap> overlap_of(const scene::OverlapCorrection& correction) {
     const std::string what = "overlap correction", pointer = "/mpm/overlap_correction/rate";
     if (correction.rate > 0.0)
@@ -121,18 +89,13 @@ SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil) {
 }
 
 SchemeDecisions decide(const scene::Mpm& mpm) {
-    return {{mpm.kernel, line_of_kernel(mpm)},
-            {mpm.order, line_of_order(mpm.order)},
-            overlap_of(mpm.overlap_correction),
-            shaking_of(mpm.shaking)};
+    return {overlap_of(mpm.overlap_correction), shaking_of(mpm.shaking)};
 }
 
 Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
     const SchemeDecisions scheme = decide(mpm);
     const SoilDecisions decided = decide(mpm, soil);
-    return {.kernel = scheme.kernel.value,
-            .order = scheme.order.value,
-            .law = materials::for_particles(soil.law).value().index(),
+    return {.law = materials::for_particles(soil.law).value().index(),
             .averages = decided.averages.value,
             .overlap = scheme.overlap.value,
             .viscosity = decided.viscosity.value,

@@ -35,8 +35,6 @@ SoilDecisions decide(const scene::Mpm& mpm, const SoilOfZone& soil);
 
 /// How all points are computed.
 struct SchemeDecisions {
-    process::Decided<KernelKind> kernel;
-    process::Decided<UpdateOrder> order;
     process::Decided<Overlap> overlap;
     process::Decided<scene::Shaking> shaking;
 };

@@ -19,12 +19,10 @@ constexpr double growth_to_share = 0.03;  // of the strain from peak to residual
 /// r exp(-(r / l)^2): 0 at the point itself, largest at 0.7 l (Galavi & Schweiger 2010).
 double weight(double r, double length) { return r * std::exp(-(r / length) * (r / length)); }
 
-/// Spread of a kernel: mean square of the distance to the nodes, in one direction, over all
+/// Spread of the kernel: mean square of the distance to the nodes, in one direction, over all
 /// positions in a cell [cells2].
-double spread_of(KernelKind kernel, double gimp_half_size) {
-    if (kernel == KernelKind::b_spline) return 1.0 / 4.0;
-    const double half = kernel == KernelKind::gimp ? gimp_half_size : 0.0;
-    return 1.0 / 6.0 + half * half / 3.0;
+double spread_of_kernel(double gimp_half_size) {
+    return 1.0 / 6.0 + gimp_half_size * gimp_half_size / 3.0;
 }
 
 /// Length of the weights at the nodes. Mapping to the nodes and back spreads too, which made bands
@@ -35,8 +33,7 @@ double among_nodes(double length, double spread) {
 
 }  // namespace
 
-template <class Kernel>
-NonlocalSoftening::Weights NonlocalSoftening::weights_of(const Kernel& kernel, const Grid& grid,
+NonlocalSoftening::Weights NonlocalSoftening::weights_of(const GimpKernel& kernel, const Grid& grid,
                                                          double x, double y) {
     const Stencil<double> sx = kernel(grid.xi(x), grid.walls_x);
     const Stencil<double> sy = kernel(grid.eta(y), grid.walls_y);
@@ -57,17 +54,13 @@ void NonlocalSoftening::for_nodes(const Grid& grid, const Weights& weights, cons
 }
 
 NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zone>& zones,
-                                     const Grid& grid, KernelKind kernel, double gimp_half_size,
-                                     double widest)
-    : neighbourhoods_(zones.size()),
-      kernel_(kernel),
-      gimp_half_size_(gimp_half_size),
-      widest_(widest) {
+                                     const Grid& grid, double gimp_half_size, double widest)
+    : neighbourhoods_(zones.size()), gimp_half_size_(gimp_half_size), widest_(widest) {
     for (std::size_t z = 0; z < zones.size(); ++z) {
         const Zone& zone = zones[z];
         if (zone.nonlocal_length == 0.0) continue;
         const double length = grid.h * among_nodes(zone.nonlocal_length * grid.per_h,
-                                                   spread_of(kernel, gimp_half_size));
+                                                   spread_of_kernel(gimp_half_size));
         const auto farthest = static_cast<std::int32_t>(std::ceil(reach * length * grid.per_h));
         for (std::int32_t c = -farthest; c <= farthest; ++c) {
             Column column{.columns = c, .rows = 0, .weights = {}};
@@ -113,20 +106,7 @@ bool NonlocalSoftening::grows(const Points& points, const Zone& zone) {
 }
 
 double NonlocalSoftening::spread(Points& points, const std::vector<Zone>& zones, const Grid& grid) {
-    switch (kernel_) {
-        case KernelKind::gimp:
-            return spread_with(GimpKernel(gimp_half_size_), points, zones, grid);
-        case KernelKind::b_spline:
-            return spread_with(BSplineKernel{}, points, zones, grid);
-        case KernelKind::linear:
-            break;
-    }
-    return spread_with(LinearKernel{}, points, zones, grid);
-}
-
-template <class Kernel>
-double NonlocalSoftening::spread_with(const Kernel& kernel, Points& points,
-                                      const std::vector<Zone>& zones, const Grid& grid) {
+    const GimpKernel kernel(gimp_half_size_);
     double grown = 0.0;    // volume x growth, over the softening strain
     double squares = 0.0;  // volume x growth^2
     for (const Group& group : groups_) {

@@ -24,7 +24,7 @@ class NonlocalSoftening {
     NonlocalSoftening() = default;
     /// `widest`: see Body; a point with a larger volume is separated.
     NonlocalSoftening(const Points& points, const std::vector<Zone>& zones, const Grid& grid,
-                      KernelKind kernel, double gimp_half_size, double widest);
+                      double gimp_half_size, double widest);
 
     bool is_on() const { return !groups_.empty(); }
     /// Stores the strains from which the increments count.
@@ -58,15 +58,11 @@ class NonlocalSoftening {
         std::int32_t first;
         double at[3][3];
     };
-    template <class Kernel>
-    static Weights weights_of(const Kernel& kernel, const Grid& grid, double x, double y);
+    static Weights weights_of(const GimpKernel& kernel, const Grid& grid, double x, double y);
     template <class Visit>
     static void for_nodes(const Grid& grid, const Weights& weights, const Visit& visit);
     static bool grows(const Points& points, const Zone& zone);
     bool takes_part(const Points& points, std::size_t p, const Group& group, double spent) const;
-    template <class Kernel>
-    double spread_with(const Kernel& kernel, Points& points, const std::vector<Zone>& zones,
-                       const Grid& grid);
     void average(const Grid& grid, const std::vector<Column>& neighbourhood);
     void give(const Grid& grid, std::int32_t node, const std::vector<Column>& neighbourhood);
     void take(const Grid& grid, Run run, const std::vector<Column>& neighbourhood);
@@ -74,7 +70,6 @@ class NonlocalSoftening {
 
     std::vector<Group> groups_;
     std::vector<std::vector<Column>> neighbourhoods_;  ///< [zones]; empty: local softening
-    KernelKind kernel_ = KernelKind::gimp;
     double gimp_half_size_ = 0.0;
     double widest_ = 0.0;
     Pace pace_;

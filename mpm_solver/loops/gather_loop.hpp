@@ -148,14 +148,14 @@ template <int N>
     }
 }
 
-/// Updates velocity (affine FLIP relaxed to affine PIC at the rate beta), velocity gradient and,
-/// unless MUSL, position of the points.
-template <class Isa, class Kernel, UpdateOrder order, Averages averages>
+/// Updates velocity (affine FLIP relaxed to affine PIC at the rate beta), velocity gradient and
+/// position of the points.
+template <class Isa, Averages averages>
 void gather(const ZoneWork& work, Span span, Totals& sums) {
     using namespace materials::lanes;
     constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
-    const auto kernel = kernel_of<Kernel>(work);
+    const GimpKernel kernel(work.gimp_half_size);
     const GridArrays grid = work.grid;
     const Real blend(work.blend);
     const Real keep(1.0 - work.blend);
@@ -192,54 +192,15 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
             if (any(differs_from_zero(dx) | differs_from_zero(dy))) [[unlikely]] {
                 move_to_place(grid, weights, at, dx, dy, moving_x, moving_y);
             }
-            if constexpr (averages == Averages::per_cell && order != UpdateOrder::usf) {
-                store<N>(a.cell + p, integers(xi) * grid.rows + integers(eta));
-            }
-            if constexpr (order == UpdateOrder::musl) {
-                store(a.drift_x + p, moving_x);
-                store(a.drift_y + p, moving_y);
-            } else {
-                if constexpr (averages == Averages::per_cell && order == UpdateOrder::usl) {
-                    add_to_cells(work.cells, a, p, at, grid.per_h, count);
-                }
-                move(work, block, x, y, moving_x, moving_y, farthest, sums);
-            }
-        });
-    sums.kinetic += sum_of(kinetic);
-    sums.fastest_squared = largest_of(larger(fastest, Real(sums.fastest_squared)));
-    sums.farthest = largest_of(larger(farthest, Real(sums.farthest)));
-}
-
-/// Velocity gradient only: USF before the stress, MUSL after the second mapping, which also moves
-/// the points.
-template <class Isa, class Kernel, UpdateOrder order, Averages averages>
-void gradient(const ZoneWork& work, Span span, Totals& sums) {
-    constexpr int N = Isa::lanes;
-    using Real = Lanes<N>;
-    const auto kernel = kernel_of<Kernel>(work);
-    const GridArrays grid = work.grid;
-    Real farthest(0.0);
-    for_each_block<Isa>(
-        work.points, span, [&](const Block& block) __attribute__((always_inline)) {
-            const auto& [a, p, first, count] = block;
-            const Real x = load<Real>(a.x + p);
-            const Real y = load<Real>(a.y + p);
-            const Real xi = (x - Real(grid.x_0)) * Real(grid.per_h);
-            const Real eta = (y - Real(grid.y_0)) * Real(grid.per_h);
-            const Weights<N> weights(kernel(xi, grid.walls_x), kernel(eta, grid.walls_y),
-                                     grid.rows);
-            const Gathered<N> at = gathered(grid, weights);
-            set_gradient(a, p, at, grid.per_h);
             if constexpr (averages == Averages::per_cell) {
                 store<N>(a.cell + p, integers(xi) * grid.rows + integers(eta));
                 add_to_cells(work.cells, a, p, at, grid.per_h, count);
             }
-            if constexpr (order == UpdateOrder::musl) {
-                move(work, block, x, y, load<Real>(a.drift_x + p), load<Real>(a.drift_y + p),
-                     farthest, sums);
-            }
+            move(work, block, x, y, moving_x, moving_y, farthest, sums);
         });
-    sums.farthest = largest_of(materials::lanes::larger(farthest, Real(sums.farthest)));
+    sums.kinetic += sum_of(kinetic);
+    sums.fastest_squared = largest_of(larger(fastest, Real(sums.fastest_squared)));
+    sums.farthest = largest_of(larger(farthest, Real(sums.farthest)));
 }
 
 }  // namespace breach::mpm

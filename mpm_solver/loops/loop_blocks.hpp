@@ -106,13 +106,4 @@ struct Weights {
     }
 };
 
-template <class Kernel>
-[[gnu::always_inline]] inline Kernel kernel_of(const ZoneWork& work) {
-    if constexpr (std::is_same_v<Kernel, GimpKernel>) {
-        return GimpKernel(work.gimp_half_size);
-    } else {
-        return {};
-    }
-}
-
 }  // namespace breach::mpm

@@ -13,12 +13,8 @@
 
 namespace breach::mpm {
 
-using grid::BSplineKernel;
 using grid::GimpKernel;
-using grid::KernelKind;
-using grid::LinearKernel;
 using grid::Stencil;
-using grid::UpdateOrder;
 using grid::WallRows;
 
 /// Points [begin, end).
@@ -84,12 +80,8 @@ using Loop = void (*)(const ZoneWork&, Span, Totals&);
 
 /// One zone's loops in the order of the step; null if not used.
 struct Loops {
-    Loop scatter = nullptr;   ///< mass, momentum and (unless USF) force
-    Loop gradient = nullptr;  ///< USF: velocity gradient before the stress
-    Loop scatter_force = nullptr;
+    Loop scatter = nullptr;  ///< mass, momentum and force
     Loop gather = nullptr;
-    Loop scatter_again = nullptr;  ///< MUSL: momentum
-    Loop gradient_again = nullptr;
     Loop stress = nullptr;
     Loop settle = nullptr;     ///< cell averages of mean stress, and volumes
     Loop dissipate = nullptr;  ///< work of viscosity
@@ -108,8 +100,6 @@ enum class VolumeRule {
 
 /// Selects a zone's loops.
 struct Choice {
-    KernelKind kernel;
-    UpdateOrder order;
     std::size_t law;  ///< its index in materials::LaneLaws
     Averages averages;
     Overlap overlap;

@@ -2,48 +2,12 @@
 // flags; the parameter `Isa` makes all functions distinct.
 #pragma once
 
-#include <type_traits>
-
 #include "core/materials/law_lanes.hpp"
 #include "mpm_solver/loops/gather_loop.hpp"
 #include "mpm_solver/loops/scatter_loop.hpp"
 #include "mpm_solver/loops/stress_loop.hpp"
 
 namespace breach::mpm {
-
-template <class Isa, class Kernel, Averages averages>
-void choose_mappings(const Choice& choice, Loops& loops) {
-    const bool flows = choice.viscosity == Viscosity::newtonian;
-    using enum Scattered;
-    constexpr Viscosity none = Viscosity::none;
-    constexpr Viscosity newtonian = Viscosity::newtonian;
-    switch (choice.order) {
-        case UpdateOrder::usl:
-        case UpdateOrder::musl:
-            loops.scatter = flows ? scatter<Isa, Kernel, momentum_and_force, newtonian>
-                                  : scatter<Isa, Kernel, momentum_and_force, none>;
-            break;
-        case UpdateOrder::usf:
-            loops.scatter = scatter<Isa, Kernel, momentum, none>;
-            loops.scatter_force =
-                flows ? scatter<Isa, Kernel, force, newtonian> : scatter<Isa, Kernel, force, none>;
-            break;
-    }
-    switch (choice.order) {
-        case UpdateOrder::usl:
-            loops.gather = gather<Isa, Kernel, UpdateOrder::usl, averages>;
-            break;
-        case UpdateOrder::musl:
-            loops.gather = gather<Isa, Kernel, UpdateOrder::musl, averages>;
-            loops.scatter_again = scatter<Isa, Kernel, momentum_alone, none>;
-            loops.gradient_again = gradient<Isa, Kernel, UpdateOrder::musl, averages>;
-            break;
-        case UpdateOrder::usf:
-            loops.gradient = gradient<Isa, Kernel, UpdateOrder::usf, averages>;
-            loops.gather = gather<Isa, Kernel, UpdateOrder::usf, averages>;
-            break;
-    }
-}
 
 template <class Isa, class Law, Averages averages, VolumeRule rule>
 void choose_stress(const Choice& choice, Loops& loops) {
@@ -61,17 +25,9 @@ void choose_law(const Choice& choice, Loops& loops, materials::LawList<Laws...>)
 
 template <class Isa, Averages averages>
 void choose_all(const Choice& choice, Loops& loops) {
-    switch (choice.kernel) {
-        case KernelKind::gimp:
-            choose_mappings<Isa, GimpKernel, averages>(choice, loops);
-            break;
-        case KernelKind::b_spline:
-            choose_mappings<Isa, BSplineKernel, averages>(choice, loops);
-            break;
-        case KernelKind::linear:
-            choose_mappings<Isa, LinearKernel, averages>(choice, loops);
-            break;
-    }
+    loops.scatter = choice.viscosity == Viscosity::newtonian ? scatter<Isa, Viscosity::newtonian>
+                                                             : scatter<Isa, Viscosity::none>;
+    loops.gather = gather<Isa, averages>;
     if (choice.volume_rule == VolumeRule::from_stress) {
         choose_law<Isa, averages, VolumeRule::from_stress>(choice, loops, materials::LaneLaws{});
         loops.settle = settle<Isa, averages, VolumeRule::from_stress>;

@@ -31,7 +31,6 @@ struct PointReals {
     /// Peak and residual strengths of soils with a strength profile, 0 of others; only with such
     /// soils [Pa, -].
     Array c, tan_phi, c_residual, tan_phi_residual;
-    Array drift_x, drift_y;  ///< velocity that moves the points, of MUSL [m/s]
 };
 
 /// Lifetime of a number.
@@ -78,8 +77,6 @@ inline constexpr RealOfPoints<Array> reals_of_points[] = {
     {"tan_phi", &P::tan_phi, Life::run, &P::c},
     {"c_residual", &P::c_residual, Life::run, &P::c},
     {"tan_phi_residual", &P::tan_phi_residual, Life::run, &P::c},
-    {"drift_x", &P::drift_x, Life::step, &P::drift_x},
-    {"drift_y", &P::drift_y, Life::step, &P::drift_y},
 };
 
 static_assert(

@@ -5,8 +5,6 @@
 
 namespace breach::mpm {
 
-enum class Scattered { momentum_and_force, momentum, momentum_alone, force };
-
 /// Contribution of a point to node (i, j) of its nine. With the velocity w at the first node, the
 /// momentum m N (v + L (x_ij - x_p)) = m Nx_i Ny_j (w + i h L_x + j h L_y) and the force
 /// -V sigma grad N are both of the form P_i Ny_j + Q_i M_j:
@@ -20,47 +18,37 @@ struct Gifts {
     double m[N];
 };
 
-template <int N, Scattered what, Viscosity viscosity>
+template <int N, Viscosity viscosity>
 [[gnu::always_inline]] inline void fill_gifts(Gifts<N>& gifts, const ZoneWork& work,
                                               const PointArrays& a, std::size_t p,
                                               const Stencil<Lanes<N>>& sx,
                                               const Stencil<Lanes<N>>& sy) {
     using Real = Lanes<N>;
-    constexpr bool forces = what == Scattered::momentum_and_force || what == Scattered::force;
     const Real none(0.0);
     const Real h(work.grid.h);
-    Real mwx = none, mwy = none, mLxx = none, mLxy = none, mLyx = none, mLyy = none;
-    Real Lxx = none, Lxy = none, Lyx = none, Lyy = none;
-    if constexpr (what != Scattered::force || viscosity == Viscosity::newtonian) {
-        Lxx = load<Real>(a.Lxx + p), Lxy = load<Real>(a.Lxy + p);
-        Lyx = load<Real>(a.Lyx + p), Lyy = load<Real>(a.Lyy + p);
+    const Real Lxx = load<Real>(a.Lxx + p), Lxy = load<Real>(a.Lxy + p);
+    const Real Lyx = load<Real>(a.Lyx + p), Lyy = load<Real>(a.Lyy + p);
+    const Real m = load<Real>(a.m + p);
+    store(gifts.m, m);
+    const Real mh = m * h;
+    const Real mLxx = mh * Lxx, mLxy = mh * Lxy, mLyx = mh * Lyx, mLyy = mh * Lyy;
+    const Real dx = sx.first - sx.centre;
+    const Real dy = sy.first - sy.centre;
+    const Real mwx = m * load<Real>(a.vx + p) + mLxx * dx + mLxy * dy;
+    const Real mwy = m * load<Real>(a.vy + p) + mLyx * dx + mLyy * dy;
+    const Real share = load<Real>(a.V + p) * Real(-work.grid.per_h);
+    Real xx = load<Real>(a.sxx + p);
+    Real yy = load<Real>(a.syy + p);
+    Real xy = load<Real>(a.sxy + p);
+    if constexpr (viscosity == Viscosity::newtonian) {
+        const Real eta = load<Real>(a.eta + p);
+        const Real two_eta = eta + eta;
+        const Real mean = (Lxx + Lyy) * Real(1.0 / 3.0);
+        xx = xx + two_eta * (Lxx - mean);
+        yy = yy + two_eta * (Lyy - mean);
+        xy = xy + eta * (Lxy + Lyx);
     }
-    if constexpr (what != Scattered::force) {
-        const Real m = load<Real>(a.m + p);
-        store(gifts.m, m);
-        const Real mh = m * h;
-        mLxx = mh * Lxx, mLxy = mh * Lxy, mLyx = mh * Lyx, mLyy = mh * Lyy;
-        const Real dx = sx.first - sx.centre;
-        const Real dy = sy.first - sy.centre;
-        mwx = m * load<Real>(a.vx + p) + mLxx * dx + mLxy * dy;
-        mwy = m * load<Real>(a.vy + p) + mLyx * dx + mLyy * dy;
-    }
-    Real fxx = none, fyy = none, fxy = none;
-    if constexpr (forces) {
-        const Real share = load<Real>(a.V + p) * Real(-work.grid.per_h);
-        Real xx = load<Real>(a.sxx + p);
-        Real yy = load<Real>(a.syy + p);
-        Real xy = load<Real>(a.sxy + p);
-        if constexpr (viscosity == Viscosity::newtonian) {
-            const Real eta = load<Real>(a.eta + p);
-            const Real two_eta = eta + eta;
-            const Real mean = (Lxx + Lyy) * Real(1.0 / 3.0);
-            xx = xx + two_eta * (Lxx - mean);
-            yy = yy + two_eta * (Lyy - mean);
-            xy = xy + eta * (Lxy + Lyx);
-        }
-        fxx = share * xx, fyy = share * yy, fxy = share * xy;
-    }
+    const Real fxx = share * xx, fyy = share * yy, fxy = share * xy;
     to_points(mwx, mwy, fxx, fxy, gifts.A);
     to_points(mLxx, mLyx, none, none, gifts.B);
     to_points(mLxy, mLyy, fxy, fyy, gifts.C);
@@ -83,22 +71,22 @@ struct ColumnPlace {
           mass(grid.mass + (node + column * static_cast<std::int64_t>(grid.rows))) {}
 };
 
-template <int N, bool masses>
+template <int N>
 [[gnu::always_inline]] inline Column<N> load_column(const ColumnPlace& at) {
     using Four = Quad<N>;
     return {load<Four>(at.motion), load<Four>(at.motion + 4), load<Four>(at.motion + 8),
-            masses ? load<Four>(at.mass) : Four(0.0)};
+            load<Four>(at.mass)};
 }
-template <int N, bool masses>
+template <int N>
 [[gnu::always_inline]] inline void store_column(const ColumnPlace& at, const Column<N>& column) {
     store(at.motion, column.low);
     store(at.motion + 4, column.middle);
     store(at.motion + 8, column.high);
-    if constexpr (masses) store(at.mass, column.mass);
+    store(at.mass, column.mass);
 }
 
 /// Contribution of a point to its three columns.
-template <int N, bool masses>
+template <int N>
 class Giver {
     using Four = Quad<N>;
 
@@ -124,7 +112,7 @@ class Giver {
         column.low = column.low + P * Ny_low_ + Q * M_low_;
         column.middle = column.middle + P * Ny_middle_ + Q * M_middle_;
         column.high = column.high + P * Ny_high_ + Q * M_high_;
-        if constexpr (masses) column.mass = column.mass + (m_Ny_ * Nx) * row_of_N_;
+        column.mass = column.mass + (m_Ny_ * Nx) * row_of_N_;
         A_ = A_ + B_;
     }
 
@@ -137,13 +125,12 @@ class Giver {
 
 /// Sums contributions of points with the same nodes in registers, for CPUs with enough of them. The
 /// order of points makes neighbours share nodes (strips.hpp).
-template <bool masses>
 class Shared {
     static constexpr int N = 8;
 
   public:
     [[gnu::always_inline]] void take(const Weights<N>& w, const Gifts<N>& gifts, int k) {
-        Giver<N, masses> giver(w, gifts, k);
+        Giver<N> giver(w, gifts, k);
         giver.give(left_, w.Nx[0][k], w.dNx[0][k]);
         giver.give(middle_, w.Nx[1][k], w.dNx[1][k]);
         giver.give(right_, w.Nx[2][k], w.dNx[2][k]);
@@ -159,9 +146,9 @@ class Shared {
         return {Lanes<4>(0.0), Lanes<4>(0.0), Lanes<4>(0.0), Lanes<4>(0.0)};
     }
     [[gnu::always_inline]] static void hand_over(const ColumnPlace& at, Column<N>& column) {
-        const Column<N> had = load_column<N, masses>(at);
-        store_column<N, masses>(at, {had.low + column.low, had.middle + column.middle,
-                                     had.high + column.high, had.mass + column.mass});
+        const Column<N> had = load_column<N>(at);
+        store_column<N>(at, {had.low + column.low, had.middle + column.middle,
+                             had.high + column.high, had.mass + column.mass});
         column = none();
     }
 
@@ -170,34 +157,33 @@ class Shared {
     Column<N> right_ = none();
 };
 
-template <int N, bool masses>
+template <int N>
 [[gnu::always_inline]] inline void give_all(const GridArrays& grid, const Weights<N>& w,
                                             const Gifts<N>& gifts, int count) {
     if constexpr (N == 8) {
-        Shared<masses> shared;
+        Shared shared;
         for (int k = 0; k < count; ++k) {
             shared.take(w, gifts, k);
             if (k + 1 == count || w.node[k + 1] != w.node[k]) shared.hand_over(grid, w.node[k]);
         }
     } else {
         for (int k = 0; k < count; ++k) {
-            Giver<N, masses> giver(w, gifts, k);
+            Giver<N> giver(w, gifts, k);
             for (int i = 0; i < 3; ++i) {
                 const ColumnPlace at(grid, w.node[k], i);
-                Column<N> column = load_column<N, masses>(at);
+                Column<N> column = load_column<N>(at);
                 giver.give(column, w.Nx[i][k], w.dNx[i][k]);
-                store_column<N, masses>(at, column);
+                store_column<N>(at, column);
             }
         }
     }
 }
 
-template <class Isa, class Kernel, Scattered what, Viscosity viscosity>
+template <class Isa, Viscosity viscosity>
 void scatter(const ZoneWork& work, Span span, Totals&) {
     constexpr int N = Isa::lanes;
-    constexpr bool masses = what == Scattered::momentum_and_force || what == Scattered::momentum;
     using Real = Lanes<N>;
-    const auto kernel = kernel_of<Kernel>(work);
+    const GimpKernel kernel(work.gimp_half_size);
     const GridArrays grid = work.grid;
     for_each_block<Isa>(
         work.points, span, [&](const Block& block) __attribute__((always_inline)) {
@@ -210,8 +196,8 @@ void scatter(const ZoneWork& work, Span span, Totals&) {
             const Stencil<Real> sy = kernel(eta, grid.walls_y);
             const Weights<N> weights(sx, sy, grid.rows);
             Gifts<N> gifts;
-            fill_gifts<N, what, viscosity>(gifts, work, a, p, sx, sy);
-            give_all<N, masses>(grid, weights, gifts, count);
+            fill_gifts<N, viscosity>(gifts, work, a, p, sx, sy);
+            give_all<N>(grid, weights, gifts, count);
         });
 }
 

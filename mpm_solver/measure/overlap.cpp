@@ -11,15 +11,14 @@ namespace {
 std::vector<double> capacities(const Body& body, const WallRows& walls, std::int32_t rows) {
     constexpr int samples = 200;  // per cell; the weights are quadratic
     std::vector<double> capacity(rows, 0.0);
-    grid::with_kernel(body.kernel, body.gimp_half_size, [&](const auto& kernel) {
-        for (std::int32_t cell = 1; cell < rows - 2; ++cell) {
-            for (int k = 0; k < samples; ++k) {
-                const auto s = kernel(cell + (k + 0.5) / samples, walls);
-                double* node = &capacity[static_cast<std::size_t>(s.first)];
-                for (int i = 0; i < 3; ++i) node[i] += s.N[i] * body.grid.h / samples;
-            }
+    const GimpKernel kernel(body.gimp_half_size);
+    for (std::int32_t cell = 1; cell < rows - 2; ++cell) {
+        for (int k = 0; k < samples; ++k) {
+            const auto s = kernel(cell + (k + 0.5) / samples, walls);
+            double* node = &capacity[static_cast<std::size_t>(s.first)];
+            for (int i = 0; i < 3; ++i) node[i] += s.N[i] * body.grid.h / samples;
         }
-    });
+    }
     return capacity;
 }
 
@@ -29,19 +28,18 @@ constexpr std::size_t points_of_task = 1024;
 template <class Visit>
 void for_each_weight(const Body& body, Span span, Visit&& visit) {
     const Grid& grid = body.grid;
-    grid::with_kernel(body.kernel, body.gimp_half_size, [&](const auto& kernel) {
-        for (std::size_t p = span.begin; p < span.end; ++p) {
-            const auto sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
-            const auto sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);
-            const auto first_i = static_cast<std::int32_t>(sx.first);
-            const auto first_j = static_cast<std::int32_t>(sy.first);
-            for (int i = 0; i < 3; ++i) {
-                for (int j = 0; j < 3; ++j) {
-                    visit(p, first_i + i, first_j + j, sx.N[i] * sy.N[j]);
-                }
+    const GimpKernel kernel(body.gimp_half_size);
+    for (std::size_t p = span.begin; p < span.end; ++p) {
+        const auto sx = kernel(grid.xi(body.points.x[p]), grid.walls_x);
+        const auto sy = kernel(grid.eta(body.points.y[p]), grid.walls_y);
+        const auto first_i = static_cast<std::int32_t>(sx.first);
+        const auto first_j = static_cast<std::int32_t>(sy.first);
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) {
+                visit(p, first_i + i, first_j + j, sx.N[i] * sy.N[j]);
             }
         }
-    });
+    }
 }
 
 /// Over all points, on several threads: `work` writes only points in its span.

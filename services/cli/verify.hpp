@@ -13,7 +13,7 @@ struct VerifyOptions {
     bool quick = false;
 };
 
-/// Returns breakdown where a comparison fails.
+/// Does not return; the program ends with breakdown where a comparison fails.
 fault::ExitCode verify(const VerifyOptions& options, const Console& console);
 
 }  // namespace breach::cli

@@ -113,17 +113,6 @@ void draw_stability(Canvas& canvas, const scene::Scene& scene) {
             line_key(brown, "LEM: floor of all surfaces", " stroke-dasharray=\"8 3 2 3\""));
     }
     draw_loads(canvas, scene, lem.surcharge, "LEM");
-    for (const scene::LineLoad& each : lem.line_loads) {
-        const auto ground = geometry::ground_between(scene.section, each.x - 0.01, each.x + 0.01);
-        if (ground.empty()) continue;
-        const Vec2 at = canvas.panel.at(ground.front().front());
-        canvas.svg << shape("M" + px(at.x()) + " " + px(at.y() - 26) + "v24m-4 -6l4 6l4 -6",
-                            stroke(violet, 2, "class=\"load\""));
-        canvas.keys.push_back({shape("M12 0v11m-4 -5l4 5l4 -5", stroke(violet, 2)),
-                               "LEM: line load at x = " + words::text_of(each.x) + " m, " +
-                                   words::text_of(each.down / 1e3) + " kN/m down, " +
-                                   words::text_of(each.right / 1e3) + " kN/m right"});
-    }
 }
 
 }  // namespace breach::drawing

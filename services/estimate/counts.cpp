@@ -108,7 +108,7 @@ bool can_flow(const scene::Scene& scene) {
     });
 }
 
-/// The strength of a material in the LEM, if it has one to vary.
+/// The strength of a material in the LEM, if it has one.
 std::optional<materials::Strength> limit_strength(const scene::Material& material) {
     if (const auto& own = material.limit_strength)
         return materials::Strength{own->c, std::tan(own->phi)};
@@ -116,18 +116,6 @@ std::optional<materials::Strength> limit_strength(const scene::Material& materia
         return materials::strength_at(material.strength->peak, {10.0, 0.0, 1e5});
     if (!materials::traits(material.law).c_and_phi) return std::nullopt;
     return materials::limit_strength(material.law);
-}
-
-/// Parameters that /lem/sensitivity varies.
-double strength_parameters(const scene::Scene& scene) {
-    std::size_t count = scene.lem->undrained.size() + scene.lem->sensitivity->layers_liquefied;
-    for (const scene::Material& each : scene.materials) {
-        const auto strength = limit_strength(each);
-        if (!strength) continue;
-        if (strength->c > 0.0) ++count;
-        if (strength->tan_phi > 0.0) ++count;
-    }
-    return static_cast<double>(count);
 }
 
 /// Searches for this number of variations, and one for the surface without them.
@@ -308,9 +296,6 @@ Searches searches_of(const scene::Scene& scene) {
         lem.tension_crack ? wholes_with_crack * cut.whole + grids_with_crack * cut.grid : cut.whole;
     all.slices = all.stages * ((1.0 + thin_layers) * family + cut.without_bounds);
     double varied = 0.0;
-    if (lem.sensitivity)
-        varied +=
-            searches_for(lem.sensitivity->surface, 2.0 * strength_parameters(scene), all.surfaces);
     if (lem.probability)
         varied += searches_for(lem.probability->surface, lem.probability->samples, all.surfaces);
     all.stages += varied;

@@ -45,9 +45,8 @@ arrows = {
     "services/outflow": {"core/exchange", "core/fault", "core/phases"},
     "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/outflow", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
-    "services/cli": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/templates", "services/verify", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
+    "services/cli": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/templates", "core/check", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
     "services/import": {"services/earthquake", "core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene", "core/words"},
-    "services/verify": {"core/command", "core/exchange", "core/fault", "core/phases", "core/words"},
     "services/drawing": {"core/check", "core/command", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/words"},
 }
 # folder -> its subfolders in order: each may include those before it; files of the folder itself come last.
@@ -55,7 +54,7 @@ arrows = {
 floors = {
     "fem_solver": [{"mesh"}, {"model"}, {"solve"}, {"monitors"}],
     "mpm_solver": [{"loops"}, {"body"}, {"measure"}],
-    "services/orchestrator": [{"access", "records"}, {"files", "programs"}, {"study", "executors", "store"}, {"ensemble", "triggers"},
+    "services/orchestrator": [{"access", "records"}, {"files", "programs"}, {"study", "executors", "store"}, {"uncertainty", "triggers"},
                               {"dispatch", "accuracy", "audit"},
                               {"http"}],
 }

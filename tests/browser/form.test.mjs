@@ -64,12 +64,12 @@ test("a field says its unit, its range, its default and its help", async () => {
     assert.ok((await help.boundingBox()).height > 1.5 * narrow, "all of the help is there when asked for");
     assert.match(await help.textContent(), /fewer than 2 are refused/);
     assert.match(await cell.getAttribute("aria-describedby"), new RegExp(await help.getAttribute("id")));
-    const kernel = await field("/scene/mpm/kernel");
-    assert.deepEqual(await kernel.locator("option").allTextContents(), ["default gimp", "gimp", "b_spline", "linear"]);
-    await kernel.selectOption({ label: "b_spline" });
-    assert.equal((await value()).scene.mpm.kernel, "b_spline");
-    await kernel.selectOption({ label: "default gimp" });
-    assert.equal("kernel" in (await value()).scene.mpm, false);
+    const stress = await field("/scene/mpm/fill_stress");
+    assert.deepEqual(await stress.locator("option").allTextContents(), ["default none", "none", "overburden"]);
+    await stress.selectOption({ label: "overburden" });
+    assert.equal((await value()).scene.mpm.fill_stress, "overburden");
+    await stress.selectOption({ label: "default none" });
+    assert.equal("fill_stress" in (await value()).scene.mpm, false);
 });
 
 test("what cannot be is said at the field and blocks nothing else; what is not a number never reaches the text", async () => {

@@ -94,7 +94,6 @@ cases = [
     Case("negative damping", "mochikoshi", "refused", r"damping/ratio", {"/fem/damping": {"ratio": -0.005, "frequency_Hz": 3}}),
     Case("damping beside the motion's frequencies", "mochikoshi", "refused", r"damping/frequency_Hz[\s\S]*motion", {"/fem/damping": {"ratio": 0.005, "frequency_Hz": 45}}),
     Case("a stiffness too low for the flow", "mochikoshi", "refused", r"stiffness_scale[\s\S]*0\.", {"/mpm/stiffness_scale": 1e-5}),
-    Case("keep backwards", "mochikoshi", "refused", r"transfer/keep/x", {"/transfer/keep": {"x": [200, 100]}}),
     Case("sigma_zz zero without the paper's transfer", "mochikoshi", "refused", r"sigma_zz[\s\S]*paper", {"/transfer/sigma_zz": "zero"}),
     Case("density in kN/m3", "slope", "refused", r"kN/m3", {"/materials/slope_soil/density": 19}),
     Case("density in g/cm3", "slope", "refused", r"(g/cm3|t/m3)", {"/materials/slope_soil/density": 1.9}),

@@ -20,7 +20,7 @@ source = pathlib.Path(os.environ["BREACH_ROOT"])
 # Programs under sanitizers are not run for their help while they are built.
 instrumented = re.search(r"^BREACH_SANITIZE:\w+=(address|thread)", (build / "CMakeCache.txt").read_text(), re.MULTILINE)
 programs = {"breachline", "breach", "lem_tool", "fem_solver", "element_bench", "transfer_tool", "mpm_solver", "report",
-            "breachline-backup", "breachline-restore"}
+            "breachline-backup", "breachline-restore", "breach-verify"}
 
 
 def call(*command, **options):
@@ -111,7 +111,7 @@ class DebianPackage(unittest.TestCase):
         self.assertIn("submit) options=", completion)
         self.assertEqual(files_below(self.root / "usr/lib/python3/dist-packages/breachline"),
                          {str(each.relative_to(source / "services/python/breachline"))
-                          for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").glob(pattern)})
+                          for pattern in ("*.py", "py.typed") for each in (source / "services/python/breachline").rglob(pattern)})
         pages = self.root / "usr/share/doc/breachline"
         for page in ("README.md", "docs/README.md", "docs/reference/methods/mpm.md", "docs/notebook.ipynb"):
             self.assertTrue((pages / page).is_file(), page)

@@ -83,7 +83,7 @@ def api():
 
 
 def commands():
-    options = re.compile(r"^  (?:-\w,)?(--[a-z][\w-]*)", re.M)
+    options = re.compile(r"^  (?:-\w, ?)?(--[a-z][\w-]*)", re.M)
     found = {}
     for name in ("breachline", "breach", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "report"):
         text = said(programs / name, "--help")

@@ -147,8 +147,7 @@ def mpm_scenes(draw):
     friction = draw(st.sampled_from([None, 0.3, 0.5]))
     mpm = {"cell_size": 1, "allow_coarse_cells": True, "domain_x": [x0, x1], "domain_y": [-ground, height + 4], "left": "roller",
            "right": draw(st.sampled_from(["open", "roller"])), "floor": {"level": -ground},
-           "kernel": draw(st.sampled_from(["gimp", "gimp", "b_spline", "linear"])),
-           "order": draw(st.sampled_from(["usl", "musl", "usf"])), "fill_stress": draw(st.sampled_from(["none", "overburden"])),
+           "fill_stress": draw(st.sampled_from(["none", "overburden"])),
            "duration": duration, "snapshot_interval": duration,
            "telemetry_interval": 0.125, "rest_earliest": 100, "envelope": {"arrival_depth": 0.125},
            "runout": {"toe": [toe, 0], "front_depth": 1, "regions": [each["name"] for each in regions if each["name"] != "ground"]},
@@ -184,8 +183,7 @@ def fem_scenes(draw):
     regions[0]["mesh"] = block(low, [columns + ahead, deep])
     regions[1]["mesh"] = block(high, [columns, rows])
     step = draw(st.sampled_from([1 / 64, 1 / 128]))
-    fem = {"kinematics": draw(st.sampled_from(["small_strain", "updated_lagrangian"])),
-           "element": draw(st.sampled_from(["bbar", "ssp"])),
+    fem = {"element": draw(st.sampled_from(["bbar", "ssp"])),
            "supports": [{"name": "left", "from": [x0, bottom], "to": [x0, height], "fixes": "x"},
                         {"name": "right", "from": [x1, bottom], "to": [x1, 0], "fixes": "x"},
                         {"name": "bottom", "from": [x0, bottom], "to": [x1, bottom], "fixes": "xy"}],
@@ -193,7 +191,7 @@ def fem_scenes(draw):
                       {"type": "dynamic", "name": "failure", "duration": draw(st.integers(8, 24)) * step, "time_step": step}],
            "crest": [crest, height], "force_tolerance": 1e-9, "telemetry_interval": step,
            "failure_surfaces": {"separation": 5}}
-    if fem["kinematics"] == "small_strain" and draw(st.booleans()):
+    if draw(st.booleans()):
         fem["stages"][1] |= {"seismic_coefficient": draw(st.sampled_from([0.1, 0.3])), "ramp": 4 * step}
     if draw(st.booleans()):
         level = draw(st.integers(bottom + 1, height - 1))

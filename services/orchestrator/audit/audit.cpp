@@ -39,7 +39,7 @@ class Auditor {
     }
 
   private:
-    void find(Finding finding) { audit_.findings.push_back(std::move(finding)); }
+    void find(Inconsistency finding) { audit_.inconsistencies.push_back(std::move(finding)); }
 
     void look_at_database() {
         const std::string file = data_.database().string();
@@ -164,9 +164,9 @@ Audit audited(const DataPaths& data, Look look) {
 
 Audit audited(const DataFolder& data, Look look) { return Auditor(data, look, false).audit(); }
 
-void mend(const DataFolder& data, const std::vector<Finding>& findings) {
+void mend(const DataFolder& data, const std::vector<Inconsistency>& found) {
     const fs::path strays = data.root() / "strays";
-    for (const Finding& each : findings) {
+    for (const Inconsistency& each : found) {
         if (each.part != "stray") continue;
         const fs::path to = strays / fs::relative(each.where, data.root());
         fs::create_directories(to.parent_path());

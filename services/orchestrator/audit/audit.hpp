@@ -13,7 +13,7 @@
 namespace breach::orchestrator {
 
 /// One inconsistency.
-struct Finding {
+struct Inconsistency {
     std::string part;    ///< "database", "counts", "output", "file", "stray"
     std::string where;   ///< a path, or a name in the database
     std::string cause;   ///< "is missing"
@@ -30,7 +30,7 @@ struct Audit {
     std::int64_t files = 0;    ///< files that were sent
     bool in_service =
         false;  ///< a service uses the folder: stray files younger than a minute are skipped
-    std::vector<Finding> findings;
+    std::vector<Inconsistency> inconsistencies;
 };
 
 /// Reads one state of the database, also while a service works on it. Throws BadInput when there is
@@ -40,6 +40,6 @@ Audit audited(const DataPaths& data, Look look);
 Audit audited(const DataFolder& data, Look look);
 
 /// Moves files that belong to no run to <data>/strays/ and recounts the tasks of each run.
-void mend(const DataFolder& data, const std::vector<Finding>& findings);
+void mend(const DataFolder& data, const std::vector<Inconsistency>& inconsistencies);
 
 }  // namespace breach::orchestrator

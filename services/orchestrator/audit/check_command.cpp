@@ -11,15 +11,16 @@ namespace breach::orchestrator {
 namespace {
 
 void print(const Audit& audit, Look look) {
-    for (const Finding& each : audit.findings)
+    for (const Inconsistency& each : audit.inconsistencies)
         std::cout << each.part << ": " << each.where << ": " << each.cause << "\n    "
                   << each.remedy << "\n";
     std::cout << "database of version " << audit.version << ", " << audit.runs << " runs, "
               << audit.tasks << " tasks, " << audit.events << " events; " << audit.outputs
               << " outputs and " << audit.files << " sent files "
               << (look == Look::at_contents ? "read whole" : "looked at by their sizes") << ": "
-              << (audit.findings.empty() ? "sound"
-                                         : std::to_string(audit.findings.size()) + " findings")
+              << (audit.inconsistencies.empty()
+                      ? "sound"
+                      : std::to_string(audit.inconsistencies.size()) + " inconsistencies")
               << "\n";
     if (audit.in_service)
         std::cout
@@ -27,19 +28,20 @@ void print(const Audit& audit, Look look) {
 }
 
 void print_json(const Audit& audit) {
-    nlohmann::json findings = nlohmann::json::array();
-    for (const Finding& each : audit.findings)
-        findings.push_back({{"part", each.part},
-                            {"where", each.where},
-                            {"cause", each.cause},
-                            {"remedy", each.remedy},
-                            {"mendable", each.mendable}});
-    std::cout << nlohmann::json{{"version", audit.version},       {"runs", audit.runs},
-                                {"tasks", audit.tasks},           {"events", audit.events},
-                                {"outputs", audit.outputs},       {"files", audit.files},
-                                {"in_service", audit.in_service}, {"findings", findings}}
-                     .dump()
-              << "\n";
+    nlohmann::json inconsistencies = nlohmann::json::array();
+    for (const Inconsistency& each : audit.inconsistencies)
+        inconsistencies.push_back({{"part", each.part},
+                                   {"where", each.where},
+                                   {"cause", each.cause},
+                                   {"remedy", each.remedy},
+                                   {"mendable", each.mendable}});
+    std::cout
+        << nlohmann::json{{"version", audit.version},       {"runs", audit.runs},
+                          {"tasks", audit.tasks},           {"events", audit.events},
+                          {"outputs", audit.outputs},       {"files", audit.files},
+                          {"in_service", audit.in_service}, {"inconsistencies", inconsistencies}}
+               .dump()
+        << "\n";
 }
 
 }  // namespace
@@ -63,9 +65,9 @@ fault::ExitCode check(const CheckOptions& options) {
     const Look look = options.sizes ? Look::at_sizes : Look::at_contents;
     const DataPaths paths(options.data);
     Audit audit = audited(paths, look);
-    if (options.repair && std::ranges::any_of(audit.findings, &Finding::mendable)) {
+    if (options.repair && std::ranges::any_of(audit.inconsistencies, &Inconsistency::mendable)) {
         const DataFolder owned(options.data);
-        mend(owned, audited(owned, Look::at_sizes).findings);
+        mend(owned, audited(owned, Look::at_sizes).inconsistencies);
         audit = audited(owned, look);
     }
     if (options.json) {
@@ -73,7 +75,7 @@ fault::ExitCode check(const CheckOptions& options) {
     } else {
         print(audit, look);
     }
-    return audit.findings.empty() ? fault::ExitCode::done : fault::ExitCode::bad_input;
+    return audit.inconsistencies.empty() ? fault::ExitCode::done : fault::ExitCode::bad_input;
 }
 
 }  // namespace breach::orchestrator

@@ -1,4 +1,4 @@
-// breachline check: prints the findings of `audited` as text or as JSON.
+// breachline check: prints the inconsistencies of `audited` as text or as JSON.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -16,7 +16,7 @@ struct CheckOptions {
     CLI::App* add_to(CLI::App& program);
 };
 
-/// done: no findings; bad_input: some. Throws BadInput, IoError (a service runs and --repair was
+/// done: no inconsistencies; bad_input: some. Throws BadInput, IoError (a service runs and --repair was
 /// given) and StoreError.
 fault::ExitCode check(const CheckOptions& options);
 

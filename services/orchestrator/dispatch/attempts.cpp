@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "services/orchestrator/dispatch/cache.hpp"
+#include "services/orchestrator/dispatch/ending.hpp"
 #include "services/orchestrator/dispatch/release.hpp"
-#include "services/orchestrator/dispatch/verdict.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
@@ -253,28 +253,28 @@ void Attempts::note_starts(const std::vector<LiveAttempt*>& started) {
 void Attempts::note_exit(LiveAttempt& live) {
     const std::string& task = live.task.id;
     const ExitRecord record = *read_exit_record(live.folder);
-    const Verdict verdict = judge(record, live.resumes);
+    const Ending ending = ending_of(record, live.resumes);
     const AttemptEnd end{.exit_code = record.exit_code,
                          .signal = record.signal,
                          .wall_seconds = record.wall_seconds,
                          .cpu_seconds = record.cpu_seconds,
                          .reason = record.stopped ? std::string(name_of(*record.stopped)) : ""};
-    const TaskFault fault = verdict == Verdict::well ? TaskFault{} : fault_of(live, record, data_);
+    const TaskFault fault = ending == Ending::well ? TaskFault{} : fault_of(live, record, data_);
     pass_failpoint("exit_before");
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(task, live.number, AttemptEvent::exit, end);
         if (transaction.try_move_task(task, TaskEvent::stopped)) return;
-        switch (verdict) {
-            case Verdict::well:
+        switch (ending) {
+            case Ending::well:
                 transaction.move_task(task, TaskEvent::exit_well);
                 break;
-            case Verdict::interrupted:
+            case Ending::interrupted:
                 transaction.move_task(task, TaskEvent::interrupt);
                 break;
-            case Verdict::badly:
+            case Ending::badly:
                 transaction.fail_task(task, TaskEvent::exit_badly, fault);
                 break;
-            case Verdict::retryable:
+            case Ending::retryable:
                 retry_or_give_up(transaction, live, TaskEvent::exit_retryable,
                                  TaskEvent::exit_badly, fault);
                 break;

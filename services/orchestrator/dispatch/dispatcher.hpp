@@ -9,8 +9,8 @@
 #include "services/orchestrator/dispatch/attempts.hpp"
 #include "services/orchestrator/dispatch/ready_tasks.hpp"
 #include "services/orchestrator/dispatch/registrar.hpp"
-#include "services/orchestrator/ensemble/batch_watch.hpp"
 #include "services/orchestrator/triggers/trigger_watch.hpp"
+#include "services/orchestrator/uncertainty/batch_watch.hpp"
 
 namespace breach::orchestrator {
 

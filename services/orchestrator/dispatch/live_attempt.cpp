@@ -12,7 +12,7 @@
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
 #include "core/scene/file_paths.hpp"
-#include "services/orchestrator/dispatch/verdict.hpp"
+#include "services/orchestrator/dispatch/ending.hpp"
 #include "services/orchestrator/records/identity.hpp"
 
 namespace breach::orchestrator {

@@ -8,12 +8,8 @@
 #include <array>
 
 #include "core/exchange/provenance.hpp"
-#include "core/phases/phases.hpp"
-#include "core/scene/file_paths.hpp"
-#include "services/orchestrator/ensemble/batch_watch.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
-#include "services/orchestrator/records/identity.hpp"
-#include "services/orchestrator/study/graph.hpp"
+#include "services/orchestrator/study/new_run.hpp"
 
 namespace breach::orchestrator {
 
@@ -51,31 +47,9 @@ std::optional<std::string> idempotency_key(const httplib::Request& request) {
     return key;
 }
 
-NewRun run_from(const Study& study, const Numerics& numerics) {
-    TaskGraph graph = plan_tasks(study, numerics);
-    std::vector<std::string> files;
-    for (const auto& each : scene::references_in({study.scene, study.document}))
-        files.push_back(each.sha256);
-    const std::size_t states = std::max<std::size_t>(1, study.transfer_times.size());
-    return {.id = new_run_id(),
-            .name = study.name,
-            .title = study.title,
-            .study = study.document.dump(),
-            .scene = study.scene.dump(),
-            .tasks = std::move(graph.tasks),
-            .recipes = std::move(graph.recipes),
-            .triggers = study.triggers,
-            .firing_plan = std::move(graph.one_more_transfer),
-            .batches = batches_of(study),
-            .warnings = study.warnings,
-            .priority = study.priority,
-            .sweep = study.variants.size() * states > 1,
-            .files = std::move(files)};
-}
-
 std::string stored(Service& service, const Call& call, const std::string& body, Ask ask,
                    const std::function<void(Transaction&, const std::string&)>& besides) {
-    NewRun run = run_from(sent_study(body, service), service.numerics);
+    NewRun run = new_run(sent_study(body, service), service.numerics);
     if (ask == Ask::sweep) run.sweep = true;
     service.store.write(call.caller.name, [&](Transaction& transaction) {
         transaction.add_run(run);

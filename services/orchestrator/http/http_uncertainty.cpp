@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "services/orchestrator/ensemble/findings.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/results_file.hpp"
+#include "services/orchestrator/uncertainty/answer.hpp"
 
 namespace breach::orchestrator {
 
@@ -27,8 +27,8 @@ void uncertainty(const Service& service, Call& call) {
     if (format == "json")
         return reply(
             call.response,
-            findings_of(*ensemble, json::parse(unless_removed(service.store.scene_of(run.id))),
-                        quantity));
+            uncertainty_of(*ensemble, json::parse(unless_removed(service.store.scene_of(run.id))),
+                           quantity));
     const SampleTable samples = sample_table(*ensemble);
     if (format == "csv")
         return call.response.set_content(as_csv(samples.rows, samples.columns),

@@ -1,5 +1,5 @@
 // The study's entry "uncertainty": the uncertain settings, their distributions, and the number of
-// samples. ensemble/ computes the statistics of the results.
+// samples. uncertainty/ computes the statistics of the results.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ root = features.root
 
 # Feature, file, what stands there, what would stand there in a program that has not got the feature.
 MPM_STEP, MPM_RUN = "mpm_solver/step.cpp", "mpm_solver/simulation.cpp"
-NEWTON, FORCE, STEP = "fem_solver/solve/newton.cpp", "fem_solver/solve/internal_force.cpp", "fem_solver/solve/step.cpp"
+NEWTON, STEP = "fem_solver/solve/newton.cpp", "fem_solver/solve/step.cpp"
 MATRIX = "fem_solver/solve/linear_system.cpp"
 EDITS = {
     "mpm_solver": [
@@ -31,12 +31,9 @@ EDITS = {
         ("nonlocal softening", MPM_STEP, "    if (body.softening.is_on()) body.softening.follow(body.points, body.zones, body.grid);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::trD);\n", ""),
         ("anti-locking", MPM_STEP, "    average(body, &CellSum::sigma_m);\n", ""),
-        ("anti-locking", MPM_STEP, "    if (body.order == UpdateOrder::usl) forget_averages(body);\n", ""),
+        ("anti-locking", MPM_STEP, "    forget_averages(body);\n", ""),
         ("anti-locking", MPM_STEP, "/// Totals of one kind in the cells become averages over their volume.\n"
          "void average(", "[[maybe_unused]] void average("),
-        ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::usf) update_stress_first(body, dt);\n", ""),
-        ("another order of the update", MPM_STEP, "    if (body.order == UpdateOrder::musl) map_again(body, dt);\n", ""),
-        ("another order of the update", MPM_STEP, "    if (body.order != UpdateOrder::usf) update_stress(body, dt);\n", "    update_stress(body, dt);\n"),
         ("friction zones", MPM_STEP, "    if (must & condition::floor) work += rub(m, grid.friction[node / grid.rows], v_before, v);\n", ""),
         ("friction zones", MPM_STEP, "double rub(double m, double mu,", "[[maybe_unused]] double rub(double m, double mu,"),
         ("terrain", MPM_STEP, "    if (must & condition::terrain) {\n        if (must & condition::hold_x) {\n            v.y() = std::max(v.y(), 0.0);\n        } else {\n"
@@ -85,41 +82,6 @@ EDITS = {
         ("viscosity", NEWTON, "        if (viscous_.size() > 0) {\n            viscous_.setZero();\n"
          "            internal_force_.add_viscous_force(1.0, trial.v, viscous_);\n            R_u_ -= viscous_;\n        }\n", ""),
         ("laws with memory", NEWTON, "    const bool of_ends = !problem.old.memory.empty();\n", "    constexpr bool of_ends = false;\n"),
-        ("moving mesh", FORCE, "    if (model_.kinematics == scene::Kinematics::updated_lagrangian) {\n"
-         "        // The first one, for any number of threads: nothing behind a known one counts.\n"
-         "        std::atomic<std::size_t> first = elements;\n"
-         "        for_ranges(elements, *team_, [&](std::size_t begin, std::size_t end) {\n"
-         "            for (std::size_t e = begin; e < end && e < first; ++e) {\n"
-         "                if (moving_strains(e, old, trial) == Geometry::sound) continue;\n"
-         "                std::size_t known = first;\n"
-         "                while (e < known && !first.compare_exchange_weak(known, e)) {\n                }\n            }\n        });\n"
-         "        if (first == elements) return Geometry::sound;\n        folded_ = first;\n        return Geometry::degenerate;\n    }\n", ""),
-        ("moving mesh", FORCE, "    const auto turning = [&](std::size_t begin, std::size_t end) {\n"
-         "        for (std::size_t p = first + begin; p < first + end; ++p) {\n"
-         "            State turned = old.points[p];\n            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n"
-         "            turned = materials::integrate(law, turned, d_epsilon_[p]).state;\n"
-         "            turned.sigma = mechanics::rotated_stress(turned.sigma, half_angle_[p]);\n            trial.points[p] = turned;\n        }\n    };\n"
-         "    if (half_angle_.empty())\n        for_ranges(zone.count * points_, *team_, still);\n    else\n"
-         "        for_ranges(zone.count * points_, *team_, turning);\n",
-         "    for_ranges(zone.count * points_, *team_, still);\n"),
-        ("moving mesh", FORCE, "    const bool turns = !half_angle_.empty();\n    for_ranges(", "    for_ranges("),
-        ("moving mesh", FORCE, "            if (turns) start.sigma = mechanics::rotated_stress(start.sigma, half_angle_[p]);\n", ""),
-        ("moving mesh", FORCE, "            if (turns) reached.sigma = mechanics::rotated_stress(reached.sigma, half_angle_[p]);\n", ""),
-        ("moving mesh", FORCE, "    return current_.empty() ? model_.reference : current_;\n", "    return model_.reference;\n"),
-        ("moving mesh", FORCE, "    return hourglass_.empty() ? model_.hourglass : hourglass_;\n", "    return model_.hourglass;\n"),
-        ("moving mesh", FORCE, "            if (current_.empty()) continue;\n            const Voigt& s = trial.points[p].sigma;\n            Matrix2 sigma;\n"
-         "            sigma << s[0], s[3], s[3], s[1];\n            const Gradient& dN = gradients_[e].dN[g];\n"
-         "            const Eigen::Matrix4d initial = q.weight[g] * dN.transpose() * sigma * dN;\n"
-         "            for (int j = 0; j < 4; ++j) {\n                for (int i = 0; i < 4; ++i) {\n"
-         "                    K(2 * i, 2 * j) += initial(i, j);\n                    K(2 * i + 1, 2 * j + 1) += initial(i, j);\n"
-         "                }\n            }\n", ""),
-        ("moving mesh", FORCE, "void InternalForce::stiffness_pass(const Motion& old, const Motion& trial, LinearSystem& A)",
-         "void InternalForce::stiffness_pass(const Motion& old, const Motion&, LinearSystem& A)"),
-        ("moving mesh", FORCE, "    if (half_angle_.empty()) {\n        pass([](std::size_t, const Vec2& force) { return force; });\n    } else {\n"
-         "        pass([&](std::size_t e, const Vec2& force) -> Vec2 {\n            return Eigen::Rotation2Dd(half_angle_[e]) * force;\n"
-         "        });\n    }\n", "    pass([](std::size_t, const Vec2& force) { return force; });\n"),
-        ("moving mesh", FORCE, "    if (!half_angle_.empty()) {\n        d_sigma = mechanics::rotated_stress(trial.points[e].sigma, -half_angle_[e]) -\n"
-         "                  mechanics::rotated_stress(old.points[e].sigma, half_angle_[e]);\n    }\n", ""),
     ],
 }
 

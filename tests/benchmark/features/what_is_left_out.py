@@ -46,7 +46,7 @@ def fem_scene(folder):
     soil = {"density": 2000, "viscosity": 1000, "void_ratio": 0.8, "permeability": [1e-6, 1e-6], "law": law}
     region = {"name": "bench", "material": "soil", "polygon": rectangle(0, 0, 20, 10), "mesh": {"type": "block", "divisions": [20, 10]}}
     return {"format": "breachline-scene/1", "name": "all-on", "materials": {"soil": soil}, "section": {"regions": [region]},
-            "fem": {"element": "ssp", "kinematics": "updated_lagrangian", "crest": [10, 10],
+            "fem": {"element": "ssp", "crest": [10, 10],
                     "supports": [{"name": "base", "from": [0, 0], "to": [20, 0], "fixes": "xy"}],
                     "water": {"line": [[0, 9]]}, "base": {"density": 2300, "V_s": 760}, "free_field": {"width": 2},
                     "motion": {"file": str(folder / "motion.csv")}, "rayleigh_mass": 0.1, "rayleigh_stiffness": 0.001,
@@ -107,7 +107,6 @@ FEM = {
     "softening": (without("materials", "soil", "law", "softening"), "one test per zone and step"),
     "viscosity": (without("materials", "soil", "viscosity"), "one test per assembly"),
     "plasticity": (having({"type": "linear_elastic", "E_MPa": 50, "nu": 0.3}, "materials", "soil", "law"), "another law's loop per zone"),
-    "moving mesh": (having("small_strain", "fem", "kinematics"), "one test per assembly"),
     "free field": (all_of(without("fem", "free_field"), on_rollers), "no unknowns"),
     "dashpots and motion": (all_of(without("fem", "base"), without("fem", "motion")), PER_STEP),
     "Rayleigh damping": (all_of(without("fem", "rayleigh_mass"), without("fem", "rayleigh_stiffness")), "two tests per assembly"),

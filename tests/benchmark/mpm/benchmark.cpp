@@ -1,7 +1,7 @@
 // mpm_benchmark speed [seconds of the collapse [set [threads]]]: particle-steps per CPU second in a
 // column collapse, by operation, instruction set, threads and number of points, with the error;
 // with a set, 20,000 points with that set only. mpm_benchmark error: runout error against CPU
-// seconds over cell size, points per cell, Courant number and order.
+// seconds over cell size, points per cell and Courant number.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -22,10 +22,9 @@ double cpu_seconds() {
     return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
-scene::Scene column(double h, int fill_points, double cfl, scene::UpdateOrder order) {
+scene::Scene column(double h, int fill_points, double cfl) {
     scene::Scene scene = test::tall_column(h, fill_points);
     scene.mpm->cfl = cfl;
-    scene.mpm->order = order;
     return scene;
 }
 
@@ -46,7 +45,7 @@ struct Speed {
 };
 
 Speed collapse(double h, double end, const Computing& computing) {
-    const scene::Scene scene = column(h, 2, 0.4, scene::UpdateOrder::usl);
+    const scene::Scene scene = column(h, 2, 0.4);
     Body body = make_body(scene, zoned_points(scene, fill_section(scene).state, "column"), "column",
                           computing);
     const Energy start = energy_of(body);
@@ -104,7 +103,7 @@ void measure_speed(double h, double end, const Computing& computing) {
     for (const double spent : s.spent) std::printf(" %6.1f", 1e9 * spent / s.work());
     std::printf(" %8.2f %8.2f %7.2f %+7.1f %% %7.0f\n", 1e-6 * s.work() / s.cpu(),
                 1e-6 * s.work() / s.wall, s.x99, 100.0 * s.numerical_share,
-                test::bytes_per_point(column(h, 2, 0.4, scene::UpdateOrder::usl)));
+                test::bytes_per_point(column(h, 2, 0.4)));
     std::fflush(stdout);
 }
 
@@ -150,24 +149,19 @@ void measure_errors() {
         double h;
         int points;
         double cfl;
-        scene::UpdateOrder order;
     };
-    using enum scene::UpdateOrder;
-    const Run finest = run(column(0.25, 3, 0.4, usl));
-    std::printf(
-        "reference: h 0.25 m, 3 x 3 points, CFL 0.4, usl: x99 %.2f m at %.0f s, %.1f s CPU\n",
-        finest.x99, duration, finest.seconds);
-    std::printf("    h  points   CFL order    x99   error  numerical   CPU s\n");
-    for (const Setting& s :
-         {Setting{2.0, 2, 0.4, usl}, Setting{1.0, 1, 0.4, usl}, Setting{1.0, 2, 0.8, usl},
-          Setting{1.0, 2, 0.4, usl}, Setting{1.0, 2, 0.1, usl}, Setting{1.0, 2, 0.4, musl},
-          Setting{1.0, 3, 0.4, usl}, Setting{1.0, 4, 0.4, usl}, Setting{0.5, 2, 0.8, usl},
-          Setting{0.5, 2, 0.4, usl}, Setting{0.5, 2, 0.4, musl}, Setting{0.5, 3, 0.4, usl},
-          Setting{0.25, 2, 0.8, usl}, Setting{0.25, 2, 0.4, usl}}) {
-        const Run r = run(column(s.h, s.points, s.cfl, s.order));
-        std::printf("%5.2f %3d x %d %5.1f %5s %6.2f %+6.1f %% %+8.1f %% %7.2f\n", s.h, s.points,
-                    s.points, s.cfl, words::name_of(s.order).data(), r.x99,
-                    100.0 * (r.x99 / finest.x99 - 1.0), 100.0 * r.numerical_share, r.seconds);
+    const Run finest = run(column(0.25, 3, 0.4));
+    std::printf("reference: h 0.25 m, 3 x 3 points, CFL 0.4: x99 %.2f m at %.0f s, %.1f s CPU\n",
+                finest.x99, duration, finest.seconds);
+    std::printf("    h  points   CFL    x99   error  numerical   CPU s\n");
+    for (const Setting& s : {Setting{2.0, 2, 0.4}, Setting{1.0, 1, 0.4}, Setting{1.0, 2, 0.8},
+                             Setting{1.0, 2, 0.4}, Setting{1.0, 2, 0.1}, Setting{1.0, 3, 0.4},
+                             Setting{1.0, 4, 0.4}, Setting{0.5, 2, 0.8}, Setting{0.5, 2, 0.4},
+                             Setting{0.5, 3, 0.4}, Setting{0.25, 2, 0.8}, Setting{0.25, 2, 0.4}}) {
+        const Run r = run(column(s.h, s.points, s.cfl));
+        std::printf("%5.2f %3d x %d %5.1f %6.2f %+6.1f %% %+8.1f %% %7.2f\n", s.h, s.points,
+                    s.points, s.cfl, r.x99, 100.0 * (r.x99 / finest.x99 - 1.0),
+                    100.0 * r.numerical_share, r.seconds);
         std::fflush(stdout);
     }
 }

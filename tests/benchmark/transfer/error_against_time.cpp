@@ -64,45 +64,6 @@ void row(const char* name, const meshes::MeshSnapshot& mesh, const meshes::Field
     std::fflush(stdout);
 }
 
-/// To the points and back.
-void round_trip_row(const meshes::MeshSnapshot& mesh, const breach::scene::Transfer& how) {
-    Points points = meshes::points_on(mesh, how.points_per_direction);
-    const double began = cpu_seconds();
-    carry_nodal_fields(mesh, points);
-    carry_gauss_fields(mesh, how, {}, points);
-    const double there = cpu_seconds();
-    const RoundTrip trip = *round_trip(mesh, how, {}, points);
-    const double back = cpu_seconds();
-    const bool local = how.interpolation == Interpolation::local;
-    std::printf("%d  %7zu  %-5s %10s  %10.4f  %9.3f  %11.2e  %8.3f  %8.3f\n",
-                how.points_per_direction, points.state.size(), local ? "local" : "paper",
-                local ? std::to_string(how.neighbours).c_str() : "all", trip.stress_rms / 1e3,
-                trip.stress_largest / 1e3, trip.velocity_rms / trip.velocity_scale, there - began,
-                back - there);
-    std::fflush(stdout);
-}
-
-void round_trips() {
-    std::printf(
-        "\nround trip on 1,254 graded elements of one Gauss point, shear band\n"
-        "n   points  mode  neighbours  stress rms    largest     velocity  s there   s back\n"
-        "                                   [kPa]      [kPa]   [relative]\n");
-    auto mesh = meshes::grid({.nx = 57, .ny = 22, .width = 57.0, .height = 22.0, .gauss = 1});
-    for (auto& x : mesh.position_0) x.x() += 4.5 * x.x() * x.x() / 57.0;
-    const auto values = meshes::at_gauss(mesh, case_field::sigma_v);
-    for (std::size_t g = 0; g < mesh.stress.size(); ++g)
-        mesh.stress[g] = {0.0, values(static_cast<Eigen::Index>(g), 0), 0.0, 0.0};
-    for (std::size_t i = 0; i < mesh.velocity.size(); ++i)
-        mesh.velocity[i] = {std::sin(0.2 * mesh.position_0[i].x()), 0.1 * mesh.position_0[i].y()};
-    for (const int n : {2, 3, 4})
-        for (const int neighbours : {12, 20, 40, 60}) {
-            auto how = meshes::settings(n);
-            how.neighbours = neighbours;
-            round_trip_row(mesh, how);
-        }
-    round_trip_row(mesh, meshes::settings(2, Interpolation::paper));
-}
-
 /// Wall seconds of the whole default interpolation with two threads.
 void sizes() {
     std::printf(
@@ -130,7 +91,6 @@ void sizes() {
 
 int main() {
     sizes();  // first: the peak memory is this table's
-    round_trips();
     std::printf("\nfield    Gauss points  mode  neighbours  RMS [kPa]  max [kPa]  seconds\n");
     const std::pair<const char*, meshes::Field> fields[] = {
         {"smooth", smooth}, {"band", band}, {"jump", jump}};

@@ -38,9 +38,8 @@ TEST(Plan, OfTheSlopeHasSofteningAndNoWater) {
     for (const char* feature : {"gravity", "plasticity", "softening", "inertia"}) {
         EXPECT_EQ(use_of(p, feature), process::Use::on) << feature;
     }
-    for (const char* feature :
-         {"pore pressure", "absorbing base", "free-field columns", "base motion",
-          "liquefied layers", "Rayleigh", "gmsh", "moving mesh"}) {
+    for (const char* feature : {"pore pressure", "absorbing base", "free-field columns",
+                                "base motion", "liquefied layers", "Rayleigh", "gmsh"}) {
         EXPECT_EQ(use_of(p, feature), process::Use::left_out) << feature;
     }
     for (const process::PlanLine& line : p) EXPECT_FALSE(line.pointer.empty()) << line.feature;
@@ -49,10 +48,8 @@ TEST(Plan, OfTheSlopeHasSofteningAndNoWater) {
 TEST(Plan, FollowsTheScene) {
     json scene = slope();
     scene["fem"]["rayleigh_mass"] = 0.1;
-    scene["fem"]["kinematics"] = "updated_lagrangian";
     const process::Plan p = plan(parse(scene));
     EXPECT_EQ(use_of(p, "Rayleigh"), process::Use::on);
-    EXPECT_EQ(use_of(p, "moving mesh"), process::Use::on);
 }
 
 TEST(Plan, PrintsTheDecisionsThemselves) {
@@ -77,13 +74,11 @@ TEST(Model, IsBuiltFromTheDecisionsThatThePlanPrints) {
     EXPECT_LT(as_asked.external_force.minCoeff(), 0.0);
     decided.gravity.value = 0.0;
     decided.element.value = HourglassModulus::elastic;
-    decided.kinematics.value = scene::Kinematics::updated_lagrangian;
     decided.damping.value.mass = 0.5;
     decided.surcharge.value = {{.from = 0.0, .to = 1e3, .pressure = 1e4}};
     const Model as_decided = build_model(parsed, decided, mesh);
     EXPECT_EQ(as_decided.points_per_element, 1u);
     EXPECT_EQ(as_decided.hourglass_modulus, HourglassModulus::elastic);
-    EXPECT_EQ(as_decided.kinematics, scene::Kinematics::updated_lagrangian);
     EXPECT_EQ(as_decided.rayleigh.mass, 0.5);
     EXPECT_LT(as_decided.external_force.minCoeff(), 0.0) << "of the surcharge";
     decided.surcharge.value.clear();

@@ -47,9 +47,7 @@ inline scene::Scene one_soil(const materials::Law& law, double density,
     mpm.left = scene::Wall::open;
     mpm.right = scene::Wall::open;
     mpm.floor = {.level = 0.0, .friction = {{0.0, width, 0.0}}};
-    mpm.kernel = scene::Kernel::gimp;
     mpm.gimp_half_size = 0.25;
-    mpm.order = scene::UpdateOrder::usl;
     mpm.blending_rate = 1.0;
     mpm.anti_locking = scene::AntiLocking::on;
     mpm.gap_closure = true;

@@ -7,8 +7,7 @@ namespace {
 
 constexpr WallRows walls{.low = 1, .high = 7};
 
-template <class Kernel>
-void expect_complete(const Kernel& kernel) {
+void expect_complete(const GimpKernel& kernel) {
     for (int k = 0; k <= 6000; ++k) {
         const double xi = 1.0 + k / 1000.0;
         const auto s = kernel(xi, walls);
@@ -41,13 +40,8 @@ TEST(Kernel, GimpSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
     for (const double l : {0.1, 0.25, 0.5}) expect_complete(GimpKernel(l));
 }
 
-TEST(Kernel, BSplineSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
-    expect_complete(BSplineKernel{});
-}
-
 /// The top of a bed is a wall for the bed's soil only, and only below it.
-template <class Kernel>
-void expect_end_of_a_bed(const Kernel& kernel) {
+void expect_end_of_a_bed(const GimpKernel& kernel) {
     const WallRows bed{.low = 1, .high = 4};
     for (int k = 1; k < 1000; ++k) {
         const double d = k / 1000.0;
@@ -68,30 +62,6 @@ void expect_end_of_a_bed(const Kernel& kernel) {
 
 TEST(Kernel, DomainsEndAtTheTopOfABedAndAreFreeBeyondIt) {
     for (const double l : {0.1, 0.25, 0.5}) expect_end_of_a_bed(GimpKernel(l));
-    expect_end_of_a_bed(BSplineKernel{});
-    expect_end_of_a_bed(LinearKernel{});
-}
-
-TEST(Kernel, BSplineAndItsSlopeAreContinuousUpToTheWalls) {
-    const BSplineKernel kernel;
-    const auto at = [&](double xi, int node, auto part) {
-        const auto s = kernel(xi, walls);
-        const int i = node - static_cast<int>(s.first);
-        return i >= 0 && i < 3 ? part(s, i) : 0.0;
-    };
-    const auto weight = [](const auto& s, int i) { return s.N[i]; };
-    const auto slope = [](const auto& s, int i) { return s.dN[i]; };
-    for (int node = 1; node <= 7; ++node) {
-        for (int k = 0; k < 6000; ++k) {
-            const double xi = 1.0 + k / 1000.0;
-            EXPECT_NEAR(at(xi, node, weight), at(xi + 1e-3, node, weight), 1.1e-3) << xi;
-            EXPECT_NEAR(at(xi, node, slope), at(xi + 1e-3, node, slope), 2.1e-3) << xi;
-        }
-    }
-}
-
-TEST(Kernel, LinearSumsToOneAndReproducesLinearFieldsUpToTheWalls) {
-    expect_complete(LinearKernel{});
 }
 
 TEST(Kernel, GimpIsContinuousThroughTheCellAndAtTheClip) {

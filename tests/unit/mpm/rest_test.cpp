@@ -41,7 +41,7 @@ scene::Scene blocks() {
 
 void advance_to(Simulation& simulation, double end) {
     simulation.look();
-    while (simulation.clock().time < end && simulation.verdict() == Verdict::goes_on) {
+    while (simulation.clock().time < end && simulation.course() == Course::goes_on) {
         simulation.advance();
         if (simulation.look_due()) simulation.look();
     }
@@ -55,7 +55,7 @@ TEST(Rest, IsNotYetThereWhileAMassMovesBehindAFrontThatStandsStill) {
     Simulation simulation(scene, std::move(body), 0.0);
     advance_to(simulation, 4.0);
     EXPECT_TRUE(front_stands(simulation.records().history, scene.mpm->rest));
-    ASSERT_EQ(simulation.verdict(), Verdict::goes_on) << "half of the soil moves at 0.5 m/s";
+    ASSERT_EQ(simulation.course(), Course::goes_on) << "half of the soil moves at 0.5 m/s";
     EXPECT_THAT(*simulation.moving(), HasSubstr("kinetic energy"));
 }
 
@@ -149,7 +149,7 @@ TEST(Rest, ComesToAHeapThatSlidesAndToALayerThatReleasesNothing) {
         scene.mpm->fill_stress = scene::FillStress::overburden;
         Simulation simulation(scene, filled_body(scene), 0.0);
         advance_to(simulation, 20.0);
-        ASSERT_EQ(simulation.verdict(), Verdict::rests) << *simulation.moving();
+        ASSERT_EQ(simulation.course(), Course::rests) << *simulation.moving();
         EXPECT_GE(simulation.clock().time, scene.mpm->rest.earliest);
         EXPECT_LT(simulation.last_row().kinetic_mobile, 0.005 * simulation.scale_of_energy());
     }

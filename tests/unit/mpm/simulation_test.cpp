@@ -59,11 +59,8 @@ void expect_same_bits(const Simulation& a, const Simulation& b) {
               b.records().history.back().energy_numerical);
 }
 
-class Resume : public testing::TestWithParam<scene::UpdateOrder> {};
-
-TEST_P(Resume, IsBitIdenticalToAnUninterruptedRun) {
+TEST(Resume, IsBitIdenticalToAnUninterruptedRun) {
     scene::Scene scene = heap();
-    scene.mpm->order = GetParam();
     scene.materials[0].viscosity = 100.0;
     scene.mpm->overlap_correction = {.rate = 5.0, .tolerance = 0.0};
     const exchange::Provenance provenance{
@@ -224,10 +221,6 @@ TEST(ShakenRun, OnGroundAtRestHasTheBitsOfARunWithout) {
     expect_same_bits(without, with);
     EXPECT_EQ(with.body().tally.shaking, 0.0);
 }
-
-INSTANTIATE_TEST_SUITE_P(Orders, Resume,
-                         testing::Values(scene::UpdateOrder::usl, scene::UpdateOrder::musl,
-                                         scene::UpdateOrder::usf));
 
 TEST(Simulation, HitsSnapshotTimesExactly) {
     const scene::Scene scene = heap();
@@ -396,8 +389,8 @@ TEST(Simulation, SoilBetweenWallsRubsNothingAtTheirFeet) {
 TEST(Simulation, StopsAtRestAndSaysSo) {
     const scene::Scene scene = heap();
     Simulation simulation = fresh(scene);
-    while (simulation.verdict() == Verdict::goes_on) advance_looking(simulation, 1);
-    EXPECT_EQ(simulation.verdict(), Verdict::rests);
+    while (simulation.course() == Course::goes_on) advance_looking(simulation, 1);
+    EXPECT_EQ(simulation.course(), Course::rests);
     EXPECT_LT(simulation.clock().time, 10.0);
 }
 
@@ -405,8 +398,8 @@ TEST(Simulation, EndsAtDurationWhenItDoesNotRest) {
     scene::Scene scene = heap();
     scene.mpm->duration = 0.3;
     Simulation simulation = fresh(scene);
-    while (simulation.verdict() == Verdict::goes_on) advance_looking(simulation, 1);
-    EXPECT_EQ(simulation.verdict(), Verdict::time_is_up);
+    while (simulation.course() == Course::goes_on) advance_looking(simulation, 1);
+    EXPECT_EQ(simulation.course(), Course::time_is_up);
     EXPECT_NEAR(simulation.clock().time, 0.3, 1e-12);
 }
 

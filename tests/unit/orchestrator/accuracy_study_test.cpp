@@ -165,7 +165,7 @@ TEST(AccuracyStudy, ALimitNeedsThreeRungsAndTheirSizes) {
     refusal(study_with(accuracy), "/accuracy/ladders/0/steps");
     accuracy = accuracy_entry();
     accuracy["reference"] = "richardson";
-    accuracy["ladders"][0]["steps"][1][0] = "/mpm/kernel=b_spline";
+    accuracy["ladders"][0]["steps"][1][0] = "/mpm/fill_stress=overburden";
     refusal(study_with(accuracy), "/accuracy/ladders/0/sizes");
 }
 

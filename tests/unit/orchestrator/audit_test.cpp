@@ -53,7 +53,8 @@ class AuditTest : public ::testing::Test {
     }
     std::vector<std::string> parts(Look look = Look::at_contents) const {
         std::vector<std::string> found;
-        for (const Finding& each : audited(data_, look).findings) found.push_back(each.part);
+        for (const Inconsistency& each : audited(data_, look).inconsistencies)
+            found.push_back(each.part);
         return found;
     }
     using Parts = std::vector<std::string>;
@@ -65,8 +66,8 @@ TEST_F(AuditTest, ADatabaseOfAnotherVersionIsNamedAndLeftAlone) {
     { const Store store(data_.database()); }
     make_database("PRAGMA user_version=11");
     const Audit audit = audited(data_, Look::at_contents);
-    ASSERT_EQ(audit.findings.size(), 1u);
-    EXPECT_NE(audit.findings[0].cause.find("breach export"), std::string::npos);
+    ASSERT_EQ(audit.inconsistencies.size(), 1u);
+    EXPECT_NE(audit.inconsistencies[0].cause.find("breach export"), std::string::npos);
     EXPECT_THROW(Store{data_.database()}, StoreError);
 }
 
@@ -97,7 +98,7 @@ TEST_F(AuditOfDamage, FindsDamageToTheDatabaseItself) {
     EXPECT_EQ(found.front(), "database");
     Connection(data_.database(), Access::read_write).script("PRAGMA user_version=99");
     const Audit newer = audited(data_, Look::at_sizes);
-    EXPECT_NE(newer.findings.at(0).remedy.find("program that made it"), std::string::npos);
+    EXPECT_NE(newer.inconsistencies.at(0).remedy.find("program that made it"), std::string::npos);
 }
 
 TEST_F(AuditOfDamage, RepairsStraysAndCountsAndLosesNothing) {
@@ -109,14 +110,16 @@ TEST_F(AuditOfDamage, RepairsStraysAndCountsAndLosesNothing) {
     Connection(data_.database(), Access::read_write)
         .script("UPDATE run_counts SET ended=0 WHERE run='r1'");
     const Audit before = audited(data_, Look::at_sizes);
-    EXPECT_EQ(before.findings.size(), 4u);
+    EXPECT_EQ(before.inconsistencies.size(), 4u);
     EXPECT_EQ(parts().size(), 4u) << "looking changes nothing";
     {
         const DataFolder owned(data_.root());
-        EXPECT_EQ(audited(static_cast<const DataPaths&>(owned), Look::at_sizes).findings.size(), 1u)
+        EXPECT_EQ(
+            audited(static_cast<const DataPaths&>(owned), Look::at_sizes).inconsistencies.size(),
+            1u)
             << "beside a service, what is young is passed over";
-        mend(owned, audited(owned, Look::at_sizes).findings);
-        EXPECT_TRUE(audited(owned, Look::at_contents).findings.empty());
+        mend(owned, audited(owned, Look::at_sizes).inconsistencies);
+        EXPECT_TRUE(audited(owned, Look::at_contents).inconsistencies.empty());
     }
     EXPECT_EQ(scene::text_of(data_.root() / "strays/runs/nobodys/fem/output"), "kept");
     EXPECT_EQ(scene::text_of(data_.root() / "strays/files/left.at2"), "kept");

@@ -9,11 +9,11 @@
 #include <set>
 #include <thread>
 
-#include "services/orchestrator/ensemble/batch_watch.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/mean_columns.hpp"
 #include "services/orchestrator/store/schema.hpp"
+#include "services/orchestrator/uncertainty/batch_watch.hpp"
 #include "tests/folder.hpp"
 #include "tests/unit/orchestrator/small_run.hpp"
 

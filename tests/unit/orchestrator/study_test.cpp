@@ -9,7 +9,7 @@
 #include "core/phases/reads.hpp"
 #include "core/scene/file_paths.hpp"
 #include "core/telemetry/columns.hpp"
-#include "services/orchestrator/dispatch/verdict.hpp"
+#include "services/orchestrator/dispatch/ending.hpp"
 #include "services/orchestrator/programs/numerics.hpp"
 #include "services/orchestrator/records/firing_plan.hpp"
 #include "services/orchestrator/records/trigger.hpp"
@@ -508,30 +508,30 @@ TEST(Command, ThatClosesItsOutputAndGoesOnIsEnded) {
     EXPECT_FALSE(result.exit_code);
 }
 
-TEST(Verdict, ReadsTheExitCodesAsTheContractSays) {
-    const auto verdict = [](std::optional<int> code, std::optional<int> signal,
-                            std::optional<StopReason> stopped = {}) {
-        return judge({.attempt = "a", .exit_code = code, .signal = signal, .stopped = stopped},
-                     false);
+TEST(Ending, ReadsTheExitCodesAsTheContractSays) {
+    const auto ending = [](std::optional<int> code, std::optional<int> signal,
+                           std::optional<StopReason> stopped = {}) {
+        return ending_of({.attempt = "a", .exit_code = code, .signal = signal, .stopped = stopped},
+                         false);
     };
-    EXPECT_EQ(verdict(0, {}), Verdict::well);
+    EXPECT_EQ(ending(0, {}), Ending::well);
     for (const int code : {1, 2, 65, 70, 74, 127})
-        EXPECT_EQ(verdict(code, {}), Verdict::badly) << code;
-    EXPECT_EQ(judge({.attempt = "a", .exit_code = 65, .signal = {}, .stopped = {}}, true),
-              Verdict::retryable);  // starts again: its checkpoint was refused
-    EXPECT_EQ(verdict(75, {}), Verdict::retryable);
-    EXPECT_EQ(verdict({}, 9), Verdict::retryable);
-    EXPECT_EQ(verdict(143, {}),
-              Verdict::retryable);  // TERM from elsewhere: its checkpoint exists
-    EXPECT_EQ(verdict(143, {}, StopReason::shutdown), Verdict::interrupted);
-    EXPECT_EQ(verdict({}, 9, StopReason::shutdown), Verdict::interrupted);
-    EXPECT_EQ(verdict(0, {}, StopReason::shutdown), Verdict::well);
+        EXPECT_EQ(ending(code, {}), Ending::badly) << code;
+    EXPECT_EQ(ending_of({.attempt = "a", .exit_code = 65, .signal = {}, .stopped = {}}, true),
+              Ending::retryable);  // starts again: its checkpoint was refused
+    EXPECT_EQ(ending(75, {}), Ending::retryable);
+    EXPECT_EQ(ending({}, 9), Ending::retryable);
+    EXPECT_EQ(ending(143, {}),
+              Ending::retryable);  // TERM from elsewhere: its checkpoint exists
+    EXPECT_EQ(ending(143, {}, StopReason::shutdown), Ending::interrupted);
+    EXPECT_EQ(ending({}, 9, StopReason::shutdown), Ending::interrupted);
+    EXPECT_EQ(ending(0, {}, StopReason::shutdown), Ending::well);
     // Time limit: a run with a checkpoint continues; one that had to be killed would only start
     // again.
-    EXPECT_EQ(verdict(143, {}, StopReason::signal), Verdict::interrupted);
-    EXPECT_EQ(verdict({}, 9, StopReason::signal), Verdict::retryable);
-    EXPECT_EQ(verdict({}, 15, StopReason::signal), Verdict::retryable);
-    EXPECT_EQ(verdict(70, {}, StopReason::shutdown), Verdict::badly);
+    EXPECT_EQ(ending(143, {}, StopReason::signal), Ending::interrupted);
+    EXPECT_EQ(ending({}, 9, StopReason::signal), Ending::retryable);
+    EXPECT_EQ(ending({}, 15, StopReason::signal), Ending::retryable);
+    EXPECT_EQ(ending(70, {}, StopReason::shutdown), Ending::badly);
 }
 
 TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {

@@ -85,15 +85,12 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<PhreaticCorrection>(
         {lem + "/water/properties/correction",
          lem + "/piezometric_lines/items/properties/correction"});
-    words.are_those_of<MAlphaSlices>({lem + "/m_alpha/properties/slices"});
-    words.are_those_of<SmallMAlpha>({lem + "/m_alpha/properties/given_circle"});
     for (const char* list : {"/undrained", "/liquefaction"})
         words.are_those_of<materials::OnPath>({lem + list + "/items/properties/norsand"});
-    words.are_those_of<VariedSurface>({lem + "/sensitivity/properties/surface"});
+    words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<VariedSurface>({lem + "/probability/properties/surface"});
     words.are_those_of<Parameter>({variable + "/parameter"});
     words.are_those_of<Distribution>({variable + "/distribution"});
-    words.are_those_of<Kinematics>({fem + "/kinematics"});
     words.are_those_of<ElementKind>({fem + "/element"});
     words.are_those_of<HourglassKind>({fem + "/hourglass"});
     words.are_those_of<StageKind>(
@@ -103,21 +100,16 @@ TEST(Words, AreTheSchemas) {
         words.are_those_of<StagePermeability>({stage + "/properties/permeability"});
     }
     words.are_those_of<AboveWater>({fem + "/water/properties/above"});
-    words.are_those_of<AtEntanglement>({fem + "/at_entanglement"});
     words.are_those_of<PressureIntegration>({fem + "/water/properties/pressure_integration"});
     words.are_those_of<MotionAt>({fem + "/base/properties/motion_at"});
-    words.are_those_of<BaseNodes>({fem + "/base/properties/nodes"});
     words.are_those_of<Baseline>({fem + "/motion/properties/baseline"});
     words.are_those_of<FreeFieldSides>({fem + "/free_field/properties/sides"});
     words.are_those_of<Interpolation>({transfer + "/interpolation"});
-    words.are_those_of<SofteningStart>({transfer + "/softening_start"});
     words.are_those_of<LiquefiedWhen>({transfer + "/liquefied/properties/when"});
     words.are_those_of<BaseDisplacement>({transfer + "/base_displacement"});
     words.are_those_of<OutOfPlaneStress>({transfer + "/sigma_zz"});
     words.are_those_of<Entangled>({transfer + "/entangled"});
     words.are_those_of<TransferredStress>({transfer + "/stress"});
-    words.are_those_of<Kernel>({mpm + "/kernel"});
-    words.are_those_of<UpdateOrder>({mpm + "/order"});
     words.are_those_of<AntiLocking>({mpm + "/anti_locking"});
     for (const char* side : {"/left", "/right"}) words.are_those_of<Wall>({mpm + side});
     words.are_those_of<PointField>({mpm + "/output/properties/fields/items"});
@@ -127,8 +119,8 @@ TEST(Words, AreTheSchemas) {
 }
 
 TEST(Words, OfNoEnumAreOurOwnMistake) {
-    EXPECT_FALSE(words::find<Kernel>("spline"));
-    EXPECT_THROW(words::named<Kernel>("spline"), std::logic_error);
+    EXPECT_FALSE(words::find<ElementKind>("spline"));
+    EXPECT_THROW(words::named<ElementKind>("spline"), std::logic_error);
 }
 
 }  // namespace

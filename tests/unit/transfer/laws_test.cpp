@@ -52,14 +52,10 @@ TEST(YieldReturn, InsideStaysBitForBitAndOutsideEndsOnTheSurface) {
 TEST(YieldReturn, UsesTheStrengthThatSofteningHasLeft) {
     const std::vector<materials::Law> laws{softening_soil()};
     const Voigt sigma(-60e3, -110e3, -60e3, 0.0);  // inside at peak, outside at residual strength
-    auto carried = points_with({sigma}, 0.1);
-    auto anew = points_with({sigma}, 0.1);
-    start_softening(scene::SofteningStart::carried, laws, carried);
-    start_softening(scene::SofteningStart::zero, laws, anew);
-    EXPECT_EQ(return_to_yield_surface(laws, carried).front().returned, 1u);
-    EXPECT_EQ(return_to_yield_surface(laws, anew).front().returned, 0u);
-    EXPECT_EQ(carried.epsilon_q_plastic[0], 0.1) << "the return is not soil's plastic strain";
-    EXPECT_EQ(anew.epsilon_q_plastic[0], 0.0);
+    auto softened = points_with({sigma}, 0.1), sound = points_with({sigma}, 0.0);
+    EXPECT_EQ(return_to_yield_surface(laws, softened).front().returned, 1u);
+    EXPECT_EQ(return_to_yield_surface(laws, sound).front().returned, 0u);
+    EXPECT_EQ(softened.epsilon_q_plastic[0], 0.1) << "the return is not soil's plastic strain";
 }
 
 TEST(SofteningStart, TotalStrainDrivesWhereTheLawSaysSo) {
@@ -70,14 +66,12 @@ TEST(SofteningStart, TotalStrainDrivesWhereTheLawSaysSo) {
     s.mass.assign(3, 5.0);
     s.region = {0, 1, 2};
     s.epsilon_q = {0.03, 0.04, 0.05};
-    start_softening(scene::SofteningStart::carried, laws, s);
+    start_softening(laws, s);
     EXPECT_EQ(s.epsilon_q_plastic, (std::vector<double>{0.02, 0.04, 0.02}));
     const auto report = softening_of(laws, s);
     ASSERT_EQ(report.size(), 2u) << "the elastic soil does not soften";
     EXPECT_EQ(report[1].driver, materials::SofteningDriver::total);
     EXPECT_EQ(report[1].mean, 0.04);
-    start_softening(scene::SofteningStart::zero, laws, s);
-    EXPECT_EQ(s.epsilon_q_plastic, (std::vector<double>(3, 0.0)));
 }
 
 TEST(ReferenceVolume, IsTheVolumeAtZeroMeanStress) {

@@ -125,38 +125,6 @@ TEST(Failure, AnEntangledMeshIsARegularEndWithTheLastGoodState) {
     EXPECT_TRUE(std::filesystem::exists(run.folder() / "history.h5"));
 }
 
-TEST(Failure, AnEntangledMeshGoesOnInSmallStrainWhereTheSceneAsksForIt) {
-    json scene = unsupported_column();
-    scene["fem"]["stages"][1]["duration"] = 1.5;
-    bench::Run stopping(scene);
-    stopping.go();
-    const json& known = stopping.session().result().at("entanglement");
-    EXPECT_EQ(known.at("went_on"), false);
-    scene["fem"]["at_entanglement"] = "go_on";
-    bench::Run run(scene);
-    const std::vector<Reading>& history = run.go().history;
-    json facts = run.session().result();
-    EXPECT_EQ(facts.at("ended"), "complete");
-    EXPECT_EQ(facts.at("end_time"), 1.5);
-    EXPECT_EQ(facts.at("entanglement").at("went_on"), true);
-    facts["entanglement"].erase("went_on");
-    json same = known;
-    same.erase("went_on");
-    EXPECT_EQ(facts.at("entanglement"), same) << "the first corner that folds, as without";
-    ASSERT_EQ(run.session().flags().size(), 1u);
-    EXPECT_EQ(run.session().flags()[0].code, "entangled");
-    EXPECT_EQ(run.session().flags()[0].pointer, "/fem/at_entanglement");
-    EXPECT_GT(history.back().inverted_elements, 0.0);
-    const json& milestones = facts.at("milestones");
-    const double crest_1 = milestones.at("crest_1_m");
-    for (const Reading& each : history) {
-        EXPECT_EQ(each.crest_displacement >= 1.0, each.time >= crest_1) << each.time << " s";
-    }
-    EXPECT_EQ(milestones.at("kinetic_energy_peak").at("time"), history.back().time)
-        << "it falls faster and faster";
-    EXPECT_EQ(history.back().kinetic_energy_over_peak, 1.0);
-}
-
 /// An elastic column under sudden gravity, with mass-proportional damping.
 TEST(KineticEnergy, OverItsPeakFallsToZeroWithTheMotion) {
     constexpr double H = 10.0, damping = 5.0, duration = 4.0;
@@ -189,18 +157,6 @@ TEST(KineticEnergy, OverItsPeakFallsToZeroWithTheMotion) {
     EXPECT_LT(told.at("time"), 1.1 * quarter) << "on its way down for the first time";
 }
 
-TEST(Failure, AMovingMeshCannotGoOnWhereItFolds) {
-    json scene = unsupported_column();
-    scene["fem"]["kinematics"] = "updated_lagrangian";
-    scene["fem"]["at_entanglement"] = "go_on";
-    try {
-        bench::parse(scene);
-        FAIL();
-    } catch (const fault::BadInput& fault) {
-        EXPECT_EQ(fault.faults().at(0).pointer, "/fem/at_entanglement");
-    }
-}
-
 TEST(Failure, AMeshThatFoldsInItsFirstStepIsAFaultOfTheScene) {
     json scene = unsupported_column();
     scene["fem"]["least_jacobian_ratio"] = 0.999999;  // any strain is beyond the limit
@@ -229,8 +185,7 @@ Entanglement judged(const std::function<double(std::size_t)>& epsilon_q) {
     Distortion folded;
     folded.least = 0.0;
     folded.worst_element = 55;
-    return entanglement_of(scene.section, model, watch, motion, folded, 6.7,
-                           scene::AtEntanglement::stop);
+    return entanglement_of(scene.section, model, watch, motion, folded, 6.7);
 }
 
 TEST(Entangled, OneCornerInSoundSoilIsNoFailureOfTheDam) {
@@ -266,8 +221,7 @@ TEST(Entangled, OnAThinBandFromGroundToGroundItIsTheEndOfTheFailure) {
 }
 
 TEST(Entangled, IsReadBackAsItWasWritten) {
-    Entanglement what = judged([](std::size_t) { return 0.3; });
-    what.then = scene::AtEntanglement::go_on;
+    const Entanglement what = judged([](std::size_t) { return 0.3; });
     const scene::Scene scene = bench::parse(bench::scene_of({}));
     EXPECT_EQ(as_json(entanglement_from(as_json(what), scene.section)), as_json(what));
     EXPECT_EQ(entanglement_from(as_json(what), scene.section).region, 0u);
@@ -312,71 +266,14 @@ TEST(Refusal, SaysWhetherTheStrainLimitOrTheEvaluationsWereHit) {
     Motion trial = motion;
     std::vector<Voigt> d_epsilon(model.points(), Voigt::Zero());
     d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.06);
-    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, {}, motion, trial), MemoryPass::Answer::refused);
+    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u) << "four points in each";
     EXPECT_NE(in_words(pass.refusal()).find("beyond the limit of 0.05"), std::string::npos);
     law.options.most_evaluations = 1;
     d_epsilon[5] = Voigt(0.0, 0.0, 0.0, 0.04);
-    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, {}, motion, trial), MemoryPass::Answer::refused);
+    ASSERT_EQ(pass.integrate(law, 0, d_epsilon, motion, trial), MemoryPass::Answer::refused);
     EXPECT_EQ(pass.refusal().element, 1u);
     EXPECT_NE(in_words(pass.refusal()).find("evaluations were used up"), std::string::npos);
-}
-
-TEST(Refusal, OnAMovingMeshDistinguishesALawThatRefusedFromAnElementThatTurnedInsideOut) {
-    bench::Block block{.columns = 2, .gravity = 0.0};
-    block.law = {{"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
-    json scene = bench::scene_of(block);
-    scene["fem"]["kinematics"] = "updated_lagrangian";
-    bench::BegunElement two(scene, Voigt(-25e3, -50e3, -25e3, 0.0));
-    // The second one's outer edge, half a metre from its inner one.
-    const auto pulled_by = [&](double d) {
-        EXPECT_EQ(two.move([d](const Vec2& x) { return Vec2(x.x() > 0.9 ? d : 0.0, 0.0); }),
-                  Geometry::degenerate);
-        return two.force.why_degenerate();
-    };
-    const auto holds = [](const std::string& words, const char* part) {
-        return words.find(part) != std::string::npos;
-    };
-    const std::string strained = pulled_by(0.04);
-    EXPECT_TRUE(holds(strained, "PM4Sand refused the strain increment of element 1")) << strained;
-    EXPECT_TRUE(holds(strained, "beyond the limit of 0.05")) << strained;
-    EXPECT_EQ(pulled_by(-0.6), "element 1 turned inside out");
-    std::get<materials::PM4Sand>(two.laws[0]).options.most_evaluations = 1;
-    const std::string costly = pulled_by(0.015);
-    EXPECT_TRUE(holds(costly, "PM4Sand refused the strain increment of element 1")) << costly;
-    EXPECT_TRUE(holds(costly, "evaluations were used up")) << costly;
-}
-
-/// Message of a column on a moving mesh that gets a load in one step of half a second that cannot
-/// be cut.
-std::string given_up_under(double pressure_kPa) {
-    json scene = unsupported_column();
-    scene["materials"]["soil"]["law"] = {
-        {"type", "pm4sand"}, {"D_R", 0.35}, {"G_0", 476}, {"h_po", 2.7}};
-    scene["fem"]["kinematics"] = "updated_lagrangian";
-    scene["fem"]["stages"][1].update(
-        {{"time_step", 0.5},
-         {"least_time_step", 0.5},
-         {"surcharge", {{{"from", 0}, {"to", 10}, {"pressure_kPa", pressure_kPa}}}}});
-    bench::Run run(scene);
-    try {
-        run.go();
-    } catch (const fault::Breakdown& breakdown) {
-        std::printf("    %s\n", breakdown.what());
-        return breakdown.what();
-    }
-    return "";
-}
-
-TEST(Refusal, IsTheCauseThatARunOnAMovingMeshReportsUnlessAnElementTurnedInsideOut) {
-    const std::string strained = given_up_under(8e3), folded = given_up_under(2e4);
-    for (const std::string& words : {strained, folded})
-        EXPECT_TRUE(words.starts_with("no convergence at 0 s with the least time step 0.5 s: "));
-    EXPECT_NE(strained.find("PM4Sand refused the strain increment of element "), std::string::npos);
-    EXPECT_NE(strained.find("beyond the limit of 0.05"), std::string::npos);
-    EXPECT_EQ(strained.find("inside out"), std::string::npos);
-    EXPECT_NE(folded.find("turned inside out"), std::string::npos);
-    EXPECT_EQ(folded.find("refused"), std::string::npos);
 }
 
 TEST(Crest, FarFromEveryNodeIsSaid) {

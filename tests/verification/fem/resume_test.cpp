@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-json failing_column(scene::Kinematics kinematics) {
+json failing_column() {
     bench::Block block{.width = 10.0, .height = 20.0, .columns = 10, .rows = 20};
     block.law = {
         {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 1}, {"phi_deg", 30}};
@@ -24,9 +24,6 @@ json failing_column(scene::Kinematics kinematics) {
     json scene = bench::scene_of(block);
     scene["fem"]["supports"].erase(1);
     scene["fem"]["snapshot_times"] = {0.1, 0.2, 0.333};
-    if (kinematics == scene::Kinematics::updated_lagrangian) {
-        scene["fem"]["kinematics"] = "updated_lagrangian";
-    }
     return scene;
 }
 
@@ -48,12 +45,10 @@ void expect_same_snapshot(const std::filesystem::path& a, const std::filesystem:
 }
 
 /// fem_solver itself, stopped by SIGTERM after its first snapshot.
-class Resume : public testing::TestWithParam<scene::Kinematics> {};
-
-TEST_P(Resume, GivesTheSameBitsAsAnUninterruptedRun) {
+TEST(Resume, GivesTheSameBitsAsAnUninterruptedRun) {
     const bench::Folder folder;
     const auto scene_file = folder.path() / "scene.json";
-    std::ofstream(scene_file) << failing_column(GetParam()).dump();
+    std::ofstream(scene_file) << failing_column().dump();
     const std::string command = std::string(BREACH_BIN) + "/fem_solver " + scene_file.string() +
                                 " --progress none --output " + folder.path().string();
     ASSERT_EQ(std::system((command + "/whole 2>/dev/null").c_str()), 0);
@@ -137,15 +132,6 @@ TEST(Stopped, AShakenWetSceneGoesOnBitForBit) {
     EXPECT_EQ(end_1.quads.size(), 40U) << "columns stay behind";
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinematics, Resume,
-                         testing::Values(scene::Kinematics::small_strain,
-                                         scene::Kinematics::updated_lagrangian),
-                         [](const auto& parameter) {
-                             return parameter.param == scene::Kinematics::small_strain
-                                        ? "SmallStrain"
-                                        : "MovingMesh";
-                         });
-
 /// An archive of the dynamic stage.
 exchange::Archive archive_in_failure(bench::Run& run) {
     Kept kept = run.course();
@@ -154,10 +140,10 @@ exchange::Archive archive_in_failure(bench::Run& run) {
 }
 
 TEST(Checkpoint, OfAnotherSceneIsRefused) {
-    bench::Run run(failing_column(scene::Kinematics::small_strain));
+    bench::Run run(failing_column());
     const Course& a = run.go();
     exchange::Archive archive = archive_in_failure(run);
-    json other = failing_column(scene::Kinematics::small_strain);
+    json other = failing_column();
     other["materials"]["soil"]["density"] = 1999;
     EXPECT_THROW(checkpoint_from(archive, bench::parse(other), a.model, "checkpoint.h5"),
                  fault::BadInput);
@@ -165,7 +151,7 @@ TEST(Checkpoint, OfAnotherSceneIsRefused) {
 }
 
 TEST(Checkpoint, WithArraysThatAreNotTheMeshsIsRefused) {
-    bench::Run run(failing_column(scene::Kinematics::small_strain));
+    bench::Run run(failing_column());
     const Course& a = run.go();
     const exchange::Archive sound = archive_in_failure(run);
     const auto expect_refused = [&](const exchange::Archive& changed, const std::string& name) {
@@ -195,7 +181,7 @@ TEST(Checkpoint, WithArraysThatAreNotTheMeshsIsRefused) {
 }
 
 TEST(Checkpoint, WithTheMatrixOfAnotherMeshIsRefused) {
-    const json scene = failing_column(scene::Kinematics::small_strain);
+    const json scene = failing_column();
     bench::Run run(scene);
     run.go();
     const auto file = run.folder() / "checkpoint.h5";
@@ -209,7 +195,7 @@ TEST(Checkpoint, WithTheMatrixOfAnotherMeshIsRefused) {
 }
 
 TEST(Checkpoint, KeepsTheFlagsOfTheWay) {
-    const json scene = failing_column(scene::Kinematics::small_strain);
+    const json scene = failing_column();
     bench::Run run(scene);
     run.go();
     const auto file = run.folder() / "checkpoint.h5";

@@ -1,4 +1,4 @@
-// Stage actions on parts of the body: softening by region, nodal forces, creep; against closed
+// Stage actions on parts of the body: loads, moved edges, softening by region; against closed
 // forms.
 #include <algorithm>
 #include <cmath>
@@ -20,23 +20,8 @@ constexpr double E = 20e6, nu = 0.3, q = 50e3;
 constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));  // one-dimensional [Pa]
 constexpr double G = E / (2.0 * (1.0 + nu));
 
-/// A block on a smooth base and with a smooth wall at its left, free to widen.
-json free_block(bench::Block block, const std::string& element) {
-    json scene = bench::scene_of(block);
-    json& supports = scene["fem"]["supports"];
-    supports.erase(1);
-    supports[1]["fixes"] = "y";
-    scene["fem"]["element"] = element;
-    return scene;
-}
-
 json pressed(double kPa) {
     return {{"surcharge", {{{"from", -1}, {"to", 9}, {"pressure_kPa", kPa}}}}};
-}
-
-json force(const Vec2& at, double right_kN, double down_kN) {
-    return {
-        {"name", "weight"}, {"at", {at.x(), at.y()}}, {"right_kN", right_kN}, {"down_kN", down_kN}};
 }
 
 /// Force, and its moment about the origin along x and y, of all nodes [N, N m].
@@ -102,56 +87,6 @@ TEST(Loads, OfAPondEndAtItsShore) {
     const Vec2 pond = under(4.5) - under(0.0);
     EXPECT_NEAR(pond.y(), -10e3 * 0.5 * 5.0 * 2.5, 1e-3);
     EXPECT_NEAR(pond.x(), -10e3 * 0.5 * 2.5 * 2.5, 1e-3);
-}
-
-TEST(NodeForces, EqualLoadsOnTheTopNodesSettleAColumnAsAPressure) {
-    constexpr double H = 6.0;
-    const json weights{force({0, H}, 0, 12.5), force({0.5, H}, 0, 25), force({1, H}, 0, 12.5)};
-    json scene = bench::scene_of({.height = H,
-                                  .columns = 2,
-                                  .rows = 6,
-                                  .gravity = 0.0,
-                                  .stages = {static_stage("load", {{"forces", weights}}),
-                                             static_stage("held", {{"load_steps", 2}})}});
-    bench::Run loaded(scene);
-    expect_error("settlement under forces on the top's nodes",
-                 std::abs(-u_at(loaded.go(), {1, H}).y() / (q * H / M) - 1.0), 1e-8);
-    scene["fem"]["stages"].push_back(static_stage("gone", {{"forces", json::array()}}));
-    bench::Run unloaded(scene);
-    EXPECT_NEAR(u_at(unloaded.go(), {1, H}).norm(), 0.0, 1e-12);
-}
-
-TEST(NodeForces, TheBasesReactionIsTheForce) {
-    json scene = bench::scene_of(
-        {.columns = 3,
-         .rows = 3,
-         .gravity = 0.0,
-         .stages = json::array({static_stage("load", {{"forces", {force({0.9, 1.1}, 10, 4)}}})})});
-    json& supports = scene["fem"]["supports"];
-    supports.erase(1);
-    supports.erase(0);
-    scene["thickness"] = 2.0;
-    bench::Run run(scene);
-    const Course& done = run.go();
-    Vec2 borne = Vec2::Zero();
-    for (std::size_t i = 0; i < done.model.mesh.nodes.size(); ++i)
-        if (done.model.mesh.nodes[i].y() == 0.0)
-            borne += done.motion.force.segment<2>(static_cast<Eigen::Index>(2 * i));
-    expect_error("what the base bears, over the force",
-                 (borne / 2.0 - Vec2(-10e3, 4e3)).norm() / 10e3, 1e-8);
-}
-
-TEST(NodeForces, WhatCannotActIsRefusedWithItsPlace) {
-    const auto refused = [](const json& each) {
-        return place_refused(bench::scene_of(
-            {.stages = json::array({static_stage("a"), static_stage("b", {{"forces", {each}}})})}));
-    };
-    EXPECT_EQ(refused(force({1, 1}, 0, 1)), "");
-    EXPECT_EQ(refused(force({1, 2}, 0, 1)), "/fem/stages/1/forces/0") << "no node within 0.5 m";
-    json far = force({1, 2}, 0, 1);
-    far["within"] = 1.5;
-    EXPECT_EQ(refused(far), "");
-    EXPECT_EQ(refused(force({1, 1}, 1, 0)), "/fem/stages/1/forces/0") << "the wall holds it";
 }
 
 TEST(DisplacedEdges, ThrustHasAllThatTheSupportBeforeGave) {
@@ -246,136 +181,6 @@ TEST(DisplacedEdges, HoldTheBodyInTheDirectionsThatTheyMove) {
     bench::Run run(scene);
     const Course& done = run.go();
     EXPECT_LT(done.motion.u.lpNorm<Eigen::Infinity>(), 1e-9) << "the block rests on its edge";
-}
-
-/// Creep of epsilon_q is a principal strain of that times sqrt(3)/2 in the plane.
-constexpr double principal(double epsilon_q) { return 0.5 * std::numbers::sqrt3 * epsilon_q; }
-
-TEST(Creep, AFreeBlockTakesTheStrainWithoutStress) {
-    constexpr double epsilon_q = 0.01, H = 2.0;
-    for (const std::string element : {"ssp", "bbar"}) {
-        json scene = free_block(
-            {.height = H,
-             .columns = 2,
-             .rows = 2,
-             .gravity = 0.0,
-             .stages = {static_stage("press", pressed(q / 1e3)),
-                        static_stage("creep",
-                                     {{"load_steps", 4}, {"creep", {{"block", epsilon_q}}}}),
-                        static_stage("rest")}},
-            element);
-        scene["fem"]["force_tolerance"] = 1e-12;
-        bench::Run run(scene);
-        const Course& done = run.go();
-        double worst = 0.0;
-        for (const State& point : done.motion.points)
-            worst = std::max({worst, std::abs(point.sigma[1] + q), std::abs(point.sigma[0]),
-                              std::abs(point.sigma[3])});
-        expect_error(element + ": stress that creep leaves in a free block, over its own",
-                     worst / q, 1e-8);
-        const Vec2 elastic(nu * (1 + nu) * q / E, -(1 - nu * nu) * q * H / E);
-        const Vec2 expected = elastic + principal(epsilon_q) * Vec2(1.0, -H);
-        expect_error(element + ": displacement of a free block that creeps",
-                     (u_at(done, {1, H}) - expected).norm() / expected.norm(), 1e-8);
-    }
-}
-
-TEST(Creep, AHeldBlockTakesStressInstead) {
-    constexpr double epsilon_q = 2e-4;
-    const json held = {{{"name", "top"}, {"from", {0, 1}}, {"to", {1, 1}}, {"y", -1e-3}}};
-    for (const std::string element : {"ssp", "bbar"}) {
-        json scene = bench::scene_of(
-            {.columns = 2,
-             .rows = 2,
-             .gravity = 0.0,
-             .stages = {
-                 static_stage("drive", {{"displace", held}}),
-                 static_stage("creep", {{"load_steps", 3}, {"creep", {{"block", epsilon_q}}}})}});
-        scene["fem"]["element"] = element;
-        bench::Run run(scene);
-        const double lost = 2.0 * G * principal(epsilon_q);
-        for (const State& point : run.go().motion.points) {
-            expect_error(element + ": stress of a held block that creeps, along its creep",
-                         std::abs((point.sigma[1] - (-M * 1e-3 + lost)) / (M * 1e-3)), 1e-8);
-            expect_error(
-                element + ": the same, across",
-                std::abs((point.sigma[0] - (-M * 1e-3 * nu / (1 - nu) - lost)) / (M * 1e-3)), 1e-8);
-        }
-    }
-}
-
-/// A pillar of clay (c = 16 kPa) and a column of undrained CJ1 side by side under a stiff cap, 100
-/// kPa from above and 70 from the side; the pillar creeps, and its load moves to the column.
-json pillar_and_column(double psi_0, const json& creep) {
-    constexpr double G_soil = 30e6, nu_soil = 0.7 / 1.7;
-    json scene = free_block({.width = 1.0, .height = 6.0, .rows = 6, .gravity = 0.0}, "ssp");
-    json& regions = scene["section"]["regions"];
-    json soil = regions[0];
-    regions[0]["name"] = "pillar";
-    soil["name"] = "column";
-    soil["polygon"] = {{1, 0}, {2, 0}, {2, 6}, {1, 6}, {1, 0}};
-    json cap = soil;
-    cap["name"] = "cap";
-    cap["polygon"] = {{0, 6}, {2, 6}, {2, 7}, {0, 7}, {0, 6}};
-    cap["mesh"]["divisions"] = {2, 1};
-    soil["material"] = "silt";
-    regions[0]["material"] = "clay";
-    regions.push_back(soil);
-    regions.push_back(cap);
-    json& materials = scene["materials"];
-    materials["soil"]["law"] = {{"type", "linear_elastic"}, {"E_MPa", 2e4}, {"nu", 0.0}};
-    materials["soil"]["void_ratio"] = 0.8;
-    materials["soil"]["permeability"] = {1e-6, 1e-6};
-    materials["silt"] = materials["clay"] = materials["soil"];
-    materials["silt"]["law"] = cj1(psi_0);
-    materials["silt"]["law"]["S"] = 1.0;
-    materials["clay"]["law"] = {{"type", "mohr_coulomb"}, {"E_MPa", 2e-6 * G_soil * (1 + nu_soil)},
-                                {"nu", nu_soil},          {"c_kPa", 16},
-                                {"phi_deg", 0},           {"psi_deg", 0}};
-    json& fem = scene["fem"];
-    fem["water"] = {{"line", {{0, 7}}}};
-    fem["supports"][0]["to"] = {0, 7};
-    fem["supports"][1]["to"] = {2, 0};
-    fem["crest"] = {2, 7};
-    json cell = pressed(100);
-    cell["pressures"] = {
-        {{"name", "cell"}, {"from", {2, 0}}, {"to", {2, 7}}, {"pressure_kPa", 70}}};
-    json creeps{{"laws", "scene"}, {"undrained", {"pillar", "column", "cap"}}, {"load_steps", 20}};
-    if (!creep.is_null()) creeps["creep"] = creep;
-    fem["stages"] = {
-        static_stage("cell", cell),
-        static_stage("law", {{"laws", "scene"}}),
-        static_stage("creep", creeps),
-        {{"type", "dynamic"}, {"name", "look"}, {"duration", 1e-3}, {"time_step", 1e-3}}};
-    fem["largest_iterations"] = 200;
-    fem["force_tolerance"] = 1e-5;
-    return scene;
-}
-
-TEST(Creep, OfAPillarTriggersALooseColumnBesideIt) {
-    const json much{{"pillar", 0.025}};
-    bench::Run loose(pillar_and_column(0.05, much)), dense(pillar_and_column(-0.05, much)),
-        without(pillar_and_column(0.05, nullptr));
-    const auto past_peak = [](bench::Run& run) { return run.go().history.front().past_peak_share; };
-    EXPECT_GT(past_peak(loose), 0.8) << "the pillar's load went to the column";
-    EXPECT_EQ(past_peak(dense), 0.0);
-    EXPECT_EQ(past_peak(without), 0.0);
-    // At mid-height: sigma'_yy was 100 kPa.
-    const auto held = [](const bench::Run& run) {
-        return -run.course().motion.points.at(9).sigma[1];
-    };
-    EXPECT_LT(held(loose), 60e3);
-    EXPECT_GT(held(dense), 100e3);
-    EXPECT_NEAR(held(without), 100e3, 2e3);
-}
-
-TEST(Creep, OfARegionThatIsNotThereIsRefused) {
-    const auto refused = [](const char* region) {
-        return place_refused(bench::scene_of(
-            {.stages = json::array({static_stage("a", {{"creep", {{region, 0.01}}}})})}));
-    };
-    EXPECT_EQ(refused("block"), "");
-    EXPECT_EQ(refused("clay"), "/fem/stages/0/creep/clay");
 }
 
 /// A saturated column of CJ1, two regions of 2 m, each of its own material, compressed dynamically.

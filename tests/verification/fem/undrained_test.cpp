@@ -262,26 +262,6 @@ TEST(StageLoads, PressureOnASideAndADisplacedEdgeGiveTheClosedForms) {
                  std::abs(path.back().at("force_y").get<double>() / (-M * 1e-3) - 1.0), 1e-8);
 }
 
-TEST(StageLoads, ALocalOverpressureComesAndGoes) {
-    constexpr double E = 20e6, nu = 0.3, H = 6.0, head = 4.0;
-    constexpr double M = E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
-    const json over = {
-        {"water_boundaries",
-         {{{"name", "base"}, {"from", {0, 0}}, {"to", {1, 0}}, {"level", H + head}}}}};
-    json scene = wet_block(
-        {.height = H, .rows = 6, .stages = {static_stage("gravity"), static_stage("over", over)}},
-        "ssp");
-    const auto settled = [H](const Course& done) { return -u_at(done, {1, H}).y(); };
-    const double own = (rho - rho_w) * g * H * H / (2.0 * M);
-    bench::Run run(scene);  // the excess falls linearly from the base to the ground
-    expect_error("settlement under an overpressure of 4 m of water at the base",
-                 std::abs(settled(run.go()) / (own - rho_w * g * head * H / (2.0 * M)) - 1.0),
-                 1e-8);
-    scene["fem"]["stages"].push_back(static_stage("gone", {{"water_boundaries", json::array()}}));
-    bench::Run gone(scene);
-    expect_error("settlement when it has gone", std::abs(settled(gone.go()) / own - 1.0), 1e-8);
-}
-
 TEST(StageLoads, PsiOverDepthBeginsEachPointWithItsOwn) {
     json law = cj1(0.0, 0.7);
     law.erase("psi_0");

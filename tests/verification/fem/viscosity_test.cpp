@@ -145,17 +145,6 @@ double velocity_error(const Course& a) {
     return worst / steady(0.0);
 }
 
-TEST(Viscosity, FlowsOnTheMovingMeshAsOnTheOtherOne) {
-    for (const char* element : {"bbar", "ssp"}) {
-        json scene = channel(element);
-        scene["fem"]["kinematics"] = "updated_lagrangian";
-        bench::Run run(scene);
-        // The rotating stress deviates from the wall's direction by c / G = 0.4 %.
-        expect_error(std::string(element) + ", moving mesh, velocities over the fastest",
-                     velocity_error(run.go()), 5e-3);
-    }
-}
-
 TEST(Viscosity, SoilOfYieldStrengthFallsAsBinghamSays) {
     for (const char* element : {"bbar", "ssp"}) {
         bench::Run run(channel(element));

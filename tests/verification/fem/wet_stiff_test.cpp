@@ -103,7 +103,6 @@ TEST(WetExtreme, ThreeGEndsClearly) {
     json& fem = scene["fem"];
     fem["supports"] = json::array({scene["fem"]["supports"][2]});
     fem["element"] = "ssp";
-    fem["kinematics"] = "updated_lagrangian";
     fem["water"] = {{"line", {{0, 9}}}};
     fem["base"] = {{"density", 2300}, {"V_s", 760}};
     fem["free_field"] = {{"width", 2}};

@@ -131,16 +131,6 @@ TEST(FreeWater, AgainstAFaceInsideTheMassHoldsItToo) {
     compare("wet", F_of(wet), resisting / (driving - water), 1e-6);
 }
 
-TEST(LineLoad, TurnsWithItsArms) {
-    const double to = std::sqrt(R * R - (R - H) * (R - H));
-    const double P = 100e3;
-    const json down = cut_scene(R, {{"line_loads", {{{"x", 6.0}, {"down_kN", P / 1e3}}}}});
-    compare("down", F_of(down), c * R * R * angle(to) / (moment_between(R, 0, to) + P * 6.0), 1e-6);
-    const json left = cut_scene(R, {{"line_loads", {{{"x", 6.0}, {"right_kN", -P / 1e3}}}}});
-    compare("left", F_of(left), c * R * R * angle(to) / (moment_between(R, 0, to) + P * (R - H)),
-            1e-6);
-}
-
 TEST(Methods, AgreeWithoutFrictionOnACircle) {
     // The resultant's moment is unique: every method in moment equilibrium gives the same F.
     json text = small::two_layers(small::some_circle());

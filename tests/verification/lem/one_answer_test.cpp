@@ -115,7 +115,7 @@ double least_by_hand(const FillOnSeam& dam) {
                          {leaves, dam.bottom(leaves)},
                          {exit, end_level(model.strata, exit, SurfaceEnd::lower)}}};
                     const auto found = analyse(model, surface, slices);
-                    if (!found || found->spencer.m_alpha < scene.lem->m_alpha.least) continue;
+                    if (!found || found->spencer.m_alpha < least_m_alpha) continue;
                     least = std::min(least, found->spencer.factor_of_safety);
                 }
             }

@@ -71,14 +71,13 @@ Reach reach_of(const Points& points) {
     return {runout.beyond_50, runout.all};
 }
 
-void slumps_as_lubrication_says(scene::Kernel kernel) {
+TEST(BinghamSlump, RunsAsLubricationSays) {
     scene::Scene scene = one_soil(sand(1e7, 0.49, c, 0.0), rho, rectangle(0.0, 0.0, length, height),
                                   0.8, width, 4.8);
     scene.gravity = g;
     scene.materials[0].viscosity = eta;
     scene.mpm->left = scene::Wall::roller;
     scene.mpm->floor.friction[0].coefficient = 5.0;
-    scene.mpm->kernel = kernel;
     scene.mpm->blending_rate = 0.1;
     scene.mpm->cfl = 0.8;
     scene.mpm->fill_points = 4;
@@ -100,11 +99,6 @@ void slumps_as_lubrication_says(scene::Kernel kernel) {
                         0.10);
     expect_error_within("way of the middle / thin layer - 1",
                         (end.half - begin.half) / (layer_end.half - layer_begin.half) - 1.0, 0.10);
-}
-
-TEST(BinghamSlump, RunsAsLubricationSays) { slumps_as_lubrication_says(scene::Kernel::gimp); }
-TEST(BinghamSlump, RunsAsLubricationSaysOnSplines) {
-    slumps_as_lubrication_says(scene::Kernel::b_spline);
 }
 
 }  // namespace

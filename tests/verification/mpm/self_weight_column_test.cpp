@@ -49,15 +49,5 @@ TEST(SelfWeightColumn, StressIsTheOverburdenAtLargeStrain) {
     expect_error_within("gimp, E 2 MPa (15 % strain): sigma_yy L2", stress_error(column(2e6)),
                         0.03);
 }
-// Without boundary-modified kernels the base is off by 30 %.
-TEST(SelfWeightColumn, StressIsTheOverburdenWithTheBSpline) {
-    for (const double E : {50e6, 2e6}) {
-        scene::Scene scene = column(E);
-        scene.mpm->kernel = scene::Kernel::b_spline;
-        expect_error_within(E > 1e7 ? "b_spline, E 50 MPa: sigma_yy L2"
-                                    : "b_spline, E 2 MPa (15 % strain): sigma_yy L2",
-                            stress_error(scene), 0.03);
-    }
-}
 }  // namespace
 }  // namespace breach::mpm::test::self_weight_column_test

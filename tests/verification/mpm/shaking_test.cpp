@@ -8,13 +8,10 @@ namespace breach::mpm::test::shaking_test {
 namespace {
 
 using mechanics::Vec2;
-using scene::UpdateOrder;
 
 constexpr double g = 9.81;
 constexpr double rho = 2000.0;
 constexpr double pi = std::numbers::pi;
-
-const char* name_of(UpdateOrder order) { return order == UpdateOrder::usl ? "usl" : "musl"; }
 
 GroundMotion sampled(double dt, double end, const std::function<double(double)>& velocity) {
     exchange::BaseMotion base{.time_step = dt, .velocity = {}};
@@ -38,12 +35,11 @@ void shake(Body& body, const scene::Scene& scene, const GroundMotion& ground, do
 constexpr double length = 8.0, height = 1.0;  ///< flat: a tall block rocks, and rides on its edges
 
 /// 100 MPa: rho g H / M is 1.5e-4, so elastic vibration does not matter.
-scene::Scene block_on_plane(double mu, UpdateOrder order) {
+scene::Scene block_on_plane(double mu) {
     scene::Scene scene =
         one_soil(elastic(100e6, 0.3), rho, rectangle(10, 0, 10 + length, height), 0.5, 30.0, 5.0);
     scene.gravity = g;
     scene.mpm->floor.friction = {{0.0, 30.0, mu}};
-    scene.mpm->order = order;
     return scene;
 }
 
@@ -60,18 +56,15 @@ TEST(ShakenBlock, SlipsWhatNewmarkSaysUnderARectangularPulse) {
     const double mu = 0.3, A = 6.0, V = 3.0;
     const double exact = -V * V / (2.0 * mu * g) * (1.0 - mu * g / A);
     const GroundMotion ground = sampled(0.05, V / A, [&](double t) { return A * t; });
-    for (const auto order : {UpdateOrder::usl, UpdateOrder::musl}) {
-        const scene::Scene scene = block_on_plane(mu, order);
-        Body body = filled_body(scene);
-        settle(body);
-        const double from = centre_of_mass(body.points).x();
-        shake(body, scene, ground, 2.0);
-        const double slid = centre_of_mass(body.points).x() - from;
-        expect_error_within(std::string(name_of(order)) + ": slip of 0.78 m", slid / exact - 1.0,
-                            0.01);
-        expect_error_within(std::string(name_of(order)) + ": velocity left [m/s]",
-                            momentum_of(body.points).x() / (rho * length * height), 2e-3);
-    }
+    const scene::Scene scene = block_on_plane(mu);
+    Body body = filled_body(scene);
+    settle(body);
+    const double from = centre_of_mass(body.points).x();
+    shake(body, scene, ground, 2.0);
+    const double slid = centre_of_mass(body.points).x() - from;
+    expect_error_within("slip of 0.78 m", slid / exact - 1.0, 0.01);
+    expect_error_within("velocity left [m/s]",
+                        momentum_of(body.points).x() / (rho * length * height), 2e-3);
 }
 
 /// A rigid block on a plane that dips by theta to the right, shaken horizontally: slip down the
@@ -109,31 +102,28 @@ TEST(ShakenBlock, WalksDownASlopeAsNewmarkSays) {
     });
     const GroundMotion ground =
         sampled(0.002, end, [&](double t) { return A / omega * (1.0 - std::cos(omega * t)); });
-    for (const auto order : {UpdateOrder::usl, UpdateOrder::musl}) {
-        scene::Scene scene =
-            one_soil(elastic(100e6, 0.3), rho,
-                     {at(0, 0), at(length, 0), at(length, height), at(0, height)}, 0.5, 20.0, 20.0);
-        scene.gravity = g;
-        scene.mpm->domain_y = {-4.0, 8.0};
-        scene.mpm->floor = {.level = -4.0, .friction = {{0.0, 20.0, mu}}};
-        scene.mpm->terrain = {at(-2.0, 0.0), at(17.0, 0.0)};
-        scene.mpm->order = order;
-        Body body = filled_body(scene);
-        for (std::size_t p = 0; p < body.points.size(); ++p) {
-            const double d = normal.dot(Vec2{body.points.x[p], body.points.y[p]} - foot);
-            const double s = -rho * g * std::cos(theta) * (height - d);
-            body.points.sxx[p] = s * normal.x() * normal.x();
-            body.points.syy[p] = s * normal.y() * normal.y();
-            body.points.sxy[p] = s * normal.x() * normal.y();
-            body.points.szz[p] = 0.3 * s;
-        }
-        const Vec2 from = centre_of_mass(body.points);
-        shake(body, scene, ground, end + 1.0);
-        const double slid = (centre_of_mass(body.points) - from).dot(along);
-        std::printf("    a rigid block slips %.4f m, this one %.4f m\n", exact, slid);
-        expect_error_within(std::string(name_of(order)) + ": slip down 10 degrees in 6 cycles",
-                            slid / exact - 1.0, smoother / exact - 1.0);
+    scene::Scene scene =
+        one_soil(elastic(100e6, 0.3), rho,
+                 {at(0, 0), at(length, 0), at(length, height), at(0, height)}, 0.5, 20.0, 20.0);
+    scene.gravity = g;
+    scene.mpm->domain_y = {-4.0, 8.0};
+    scene.mpm->floor = {.level = -4.0, .friction = {{0.0, 20.0, mu}}};
+    scene.mpm->terrain = {at(-2.0, 0.0), at(17.0, 0.0)};
+    Body body = filled_body(scene);
+    for (std::size_t p = 0; p < body.points.size(); ++p) {
+        const double d = normal.dot(Vec2{body.points.x[p], body.points.y[p]} - foot);
+        const double s = -rho * g * std::cos(theta) * (height - d);
+        body.points.sxx[p] = s * normal.x() * normal.x();
+        body.points.syy[p] = s * normal.y() * normal.y();
+        body.points.sxy[p] = s * normal.x() * normal.y();
+        body.points.szz[p] = 0.3 * s;
     }
+    const Vec2 from = centre_of_mass(body.points);
+    shake(body, scene, ground, end + 1.0);
+    const double slid = (centre_of_mass(body.points) - from).dot(along);
+    std::printf("    a rigid block slips %.4f m, this one %.4f m\n", exact, slid);
+    expect_error_within("slip down 10 degrees in 6 cycles", slid / exact - 1.0,
+                        smoother / exact - 1.0);
 }
 
 // A column on a fixed base whose surface gets twice the base's pulse after H / c, and then its
@@ -173,7 +163,7 @@ TEST(ShakenColumn, AnswersARickerPulseAsAFixedBaseSays) {
 // A steadily accelerated frame is an inclined gravity: the same motion and energy.
 TEST(ShakenBlock, ASteadyAccelerationIsATurnedGravity) {
     const double a = 5.0, end = 0.5;
-    scene::Scene scene = block_on_plane(0.3, UpdateOrder::usl);
+    scene::Scene scene = block_on_plane(0.3);
     Body turned = filled_body(scene), shaken = filled_body(scene);
     settle(turned), settle(shaken);
     turned.gravity.x() = -a;
@@ -196,7 +186,7 @@ TEST(ShakenBlock, KeepsTheLedger) {
     const double omega = 2.0 * pi, A = 4.0;
     const GroundMotion ground =
         sampled(0.002, 5.0, [&](double t) { return A / omega * (1.0 - std::cos(omega * t)); });
-    scene::Scene smooth = block_on_plane(0.0, UpdateOrder::usl);
+    scene::Scene smooth = block_on_plane(0.0);
     smooth.gravity = 0.0;
     Body free = filled_body(smooth);
     double most = 0.0;
@@ -204,7 +194,7 @@ TEST(ShakenBlock, KeepsTheLedger) {
     expect_error_within("free block: kinetic energy less work, over the peak",
                         (free.tally.kinetic - free.tally.shaking) / most, 1e-9);
 
-    const scene::Scene rough = block_on_plane(0.3, UpdateOrder::usl);
+    const scene::Scene rough = block_on_plane(0.3);
     Body body = filled_body(rough);
     settle(body);
     const Energy start = energy_of(body);

@@ -8,11 +8,10 @@ namespace {
 
 constexpr double g = 9.81;
 
-scene::Scene block(double E, double mu, scene::UpdateOrder order) {
+scene::Scene block(double E, double mu) {
     scene::Scene scene = one_soil(elastic(E, 0.3), 2000.0, rectangle(2, 0, 6, 2), 0.5, 40.0, 5.0);
     scene.gravity = g;
     scene.mpm->floor.friction = {{0.0, 40.0, mu}};
-    scene.mpm->order = order;
     return scene;
 }
 
@@ -40,18 +39,14 @@ TEST(SlidingBlock, StopsWhereCoulombSaysItStops) {
     const double mu = 0.3;
     const double exact = v0 * v0 / (2.0 * mu * g);
     const double stops = v0 / (mu * g);
-    for (const auto order : {scene::UpdateOrder::usl, scene::UpdateOrder::musl}) {
-        const double slid = slide(block(100e6, mu, order), v0, stops + 0.5);
-        expect_error_within(std::string(order == scene::UpdateOrder::usl ? "usl" : "musl") +
-                                ": stopping distance 4.25 m",
-                            slid / exact - 1.0, 0.01);
-    }
+    const double slid = slide(block(100e6, mu), v0, stops + 0.5);
+    expect_error_within("stopping distance 4.25 m", slid / exact - 1.0, 0.01);
 }
 
 TEST(SlidingBlock, AcceleratesDownAnInclineAsCoulombSays) {
     const double theta = 20.0 * std::numbers::pi / 180.0;
     const double mu = 0.2;
-    const scene::Scene scene = block(100e6, mu, scene::UpdateOrder::usl);
+    const scene::Scene scene = block(100e6, mu);
     Body body = filled_body(scene);
     body.gravity = g * mechanics::Vec2{std::sin(theta), -std::cos(theta)};
     settle(body, 2000.0 * std::cos(theta), 2.0, 0.3);
@@ -65,7 +60,7 @@ TEST(SlidingBlock, AcceleratesDownAnInclineAsCoulombSays) {
 
 /// Friction for which the block would have gone as far in t [-].
 double effective_friction(double theta, double mu, double t, double damping_ratio) {
-    scene::Scene scene = block(100e6, mu, scene::UpdateOrder::usl);
+    scene::Scene scene = block(100e6, mu);
     scene.mpm->damping_ratio = damping_ratio;
     Body body = filled_body(scene);
     body.gravity = g * mechanics::Vec2{std::sin(theta), -std::cos(theta)};
@@ -93,7 +88,7 @@ TEST(SlidingBlock, RestsWhereFrictionJustHoldsItWhenItsWavesAreDamped) {
 
 TEST(SlidingBlock, EnergyGoesIntoFriction) {
     const double v0 = 5.0;
-    const scene::Scene scene = block(100e6, 0.3, scene::UpdateOrder::usl);
+    const scene::Scene scene = block(100e6, 0.3);
     Body body = filled_body(scene, [&](const mechanics::Vec2&) { return mechanics::Vec2{v0, 0}; });
     settle(body, 2000.0, 2.0, 0.3);
     const Energy start = energy_of(body);
@@ -110,12 +105,12 @@ TEST(SlidingBlock, EnergyGoesIntoFriction) {
 // Stiff: mu = 10 holds a block that is pushed at 1 m/s within v0^2 / (2 mu g) = 5 mm, plus the
 // shear of the block itself.
 TEST(SlidingBlock, HoldsAtAFrictionOfTen) {
-    const double slid = slide(block(100e6, 10.0, scene::UpdateOrder::usl), 1.0, 1.0);
+    const double slid = slide(block(100e6, 10.0), 1.0, 1.0);
     expect_error_within("slide [m]", slid, 0.05);
 }
 
 TEST(SlidingBlock, NeverSlowsDownWithoutFriction) {
-    const double slid = slide(block(100e6, 0.0, scene::UpdateOrder::usl), 5.0, 2.0);
+    const double slid = slide(block(100e6, 0.0), 5.0, 2.0);
     expect_error_within("distance in 2 s", slid / 10.0 - 1.0, 1e-9);
 }
 

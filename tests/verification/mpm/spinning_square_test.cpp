@@ -17,11 +17,9 @@ double angular_momentum(const Points& points) {
     return sum;
 }
 
-void expect_spin(const std::string& what, scene::UpdateOrder order, double blending_rate,
-                 double allowed) {
+void expect_spin(const std::string& what, double blending_rate, double allowed) {
     scene::Scene scene =
         one_soil(elastic(1e6, 0.3), 1000.0, rectangle(4, 4, 8, 8), 0.5, 12.0, 12.0);
-    scene.mpm->order = order;
     scene.mpm->blending_rate = blending_rate;
     scene.mpm->anti_locking = scene::AntiLocking::off;  // nu = 0.3 does not lock
     const double omega = 1.0;
@@ -39,14 +37,9 @@ void expect_spin(const std::string& what, scene::UpdateOrder order, double blend
                         1e-9);
 }
 
-TEST(SpinningSquare, KeepsItsAngularMomentumUsl) {
-    expect_spin("usl, rate 0", scene::UpdateOrder::usl, 0.0, 0.005);
-}
-TEST(SpinningSquare, KeepsItsAngularMomentumMusl) {
-    expect_spin("musl, rate 0", scene::UpdateOrder::musl, 0.0, 0.005);
-}
+TEST(SpinningSquare, KeepsItsAngularMomentum) { expect_spin("rate 0", 0.0, 0.005); }
 TEST(SpinningSquare, KeepsItsAngularMomentumAtTheDefaultRate) {
-    expect_spin("usl, rate 1/s", scene::UpdateOrder::usl, 1.0, 0.02);
+    expect_spin("rate 1/s", 1.0, 0.02);
 }
 
 }  // namespace

@@ -141,26 +141,5 @@ TEST(Stop, BothModesStopOnRequestAndReportTheirProgress) {
     }
 }
 
-// Points at the Gauss points are recovered exactly; others with the error of two interpolations.
-TEST(RoundTrip, IsExactAtGaussPointsAndForLinearFields) {
-    auto mesh = meshes::grid({.nx = 12, .ny = 10, .skew = 0.2, .regions = 2});
-    meshes::set_in_motion(mesh);
-    const auto places = meshes::gauss_places(mesh);
-    for (std::size_t i = 0; i < places.size(); ++i)
-        mesh.stress[i] = mechanics::Voigt(0.5, 1.0, 0.5, 0.1) * linear(places[i], 0);
-    for (const int n : {2, 3}) {
-        auto how = meshes::settings(n);
-        how.round_trip = true;
-        const auto t = meshes::transferred(mesh, meshes::scene_for(mesh, meshes::elastic, how));
-        ASSERT_TRUE(t.round_trip.has_value());
-        std::cout << "  n = " << n << ": stress " << t.round_trip->stress_rms << " of "
-                  << t.round_trip->stress_scale << " Pa, velocity " << t.round_trip->velocity_rms
-                  << " of " << t.round_trip->velocity_scale << " m/s\n";
-        EXPECT_LT(t.round_trip->stress_rms,
-                  (n == 2 ? 0.0 : 1e-10 * t.round_trip->stress_scale) + 1e-300);
-        EXPECT_LT(t.round_trip->velocity_rms, 0.1 * t.round_trip->velocity_scale);
-    }
-}
-
 }  // namespace
 }  // namespace breach::transfer::extremes_test

@@ -116,7 +116,6 @@ inline scene::Transfer settings(int n = 3,
     return {.points_per_direction = n,
             .interpolation = mode,
             .neighbours = 40,
-            .softening_start = scene::SofteningStart::carried,
             .largest_mass_loss = 1e-12,
             .largest_momentum_loss = 1e-10};
 }
@@ -167,16 +166,17 @@ inline scene::Scene scene_for(const MeshSnapshot& s, const materials::Law& law,
     return scene;
 }
 
+/// Half size of a point's domain with which the weights are hat functions, to round-off.
+constexpr double hat = 1e-14;
+
 /// An MPM grid of square cells from the origin.
-inline scene::Mpm cells(double size, double width, double height,
-                        scene::Kernel kernel = scene::Kernel::linear) {
+inline scene::Mpm cells(double size, double width, double height, double half_size = hat) {
     scene::Mpm mpm{};
     mpm.cell_size = size;
     mpm.domain_x = {0.0, width};
     mpm.domain_y = {0.0, height};
     mpm.left = mpm.right = scene::Wall::roller;
-    mpm.kernel = kernel;
-    mpm.gimp_half_size = 0.25;
+    mpm.gimp_half_size = half_size;
     return mpm;
 }
 

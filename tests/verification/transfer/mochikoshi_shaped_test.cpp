@@ -71,25 +71,6 @@ Transferred transferred_with(const scene::Scene& shipped, const exchange::MeshSn
     return *transfer(mesh, scene, {.threads = 2}, "snapshot");
 }
 
-TEST_F(MochikoshiShaped, PointsOutsideTheRangeAreLeftOutAndReported) {
-    const Transferred cut = transferred_with(*scene_, *mesh_, [](auto& t) {
-        t.keep_x = {{20.0, 220.0}};
-    });
-    for (const auto& place : cut.state.position) {
-        EXPECT_GE(place.x(), 20.0);
-        EXPECT_LE(place.x(), 220.0);
-    }
-    EXPECT_EQ(cut.state.size() + cut.left_out->points, transferred_->state.size());
-    double mass = cut.left_out->mass;
-    for (const double each : cut.state.mass) mass += each;
-    const double whole = meshes::row_of(transferred_->ledger, "total", "mass").after;
-    EXPECT_NEAR(mass / whole, 1.0, 1e-12);
-    EXPECT_EQ(cut.state.stress.size(), cut.state.size());
-    EXPECT_EQ(cut.state.region.size(), cut.state.size());
-    EXPECT_NO_THROW(refuse_cut({.largest_epsilon_q = 0.01}));
-    EXPECT_THROW(refuse_cut({.largest_epsilon_q = 0.06}), fault::BadInput);
-}
-
 TEST_F(MochikoshiShaped, PointsStandWhereTheSectionWasDrawnWithoutTheBasesDisplacement) {
     exchange::MeshSnapshot moved = *mesh_;
     for (auto& each : moved.displacement) each.x() += 0.37;

@@ -17,7 +17,7 @@ _many_digits = 10  # an entry with more is derived from others
 _groups = [
     ("water", "Water", ("/lem/water", "/lem/piezometric_lines", "/lem/pore_pressure_ratios", "/lem/undrained", "/lem/liquefaction", "/fem/water",
                         "/fem/liquefaction", "/transfer/phreatic_line", "/transfer/liquefied")),
-    ("boundary", "Boundary and loads", ("/fem/supports", "/fem/base", "/fem/free_field", "/fem/surcharge", "/lem/surcharge", "/lem/line_loads",
+    ("boundary", "Boundary and loads", ("/fem/supports", "/fem/base", "/fem/free_field", "/fem/surcharge", "/lem/surcharge",
                                         "/mpm/left", "/mpm/right", "/mpm/floor", "/mpm/terrain", "/mpm/domain_x", "/mpm/domain_y")),
     ("motion", "Motion and stages", ("/fem/motion", "/fem/stages", "/lem/seismic_coefficient", "/mpm/shaking")),
     ("settings_lem", "Limit equilibrium: all other settings", ("/lem",)),

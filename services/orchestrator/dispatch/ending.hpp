@@ -1,4 +1,4 @@
-// Maps the end of an attempt to a verdict on its task, from the exit record and whether the attempt
+// Maps the end of an attempt to a ending on its task, from the exit record and whether the attempt
 // resumed from a checkpoint.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace breach::orchestrator {
 
-enum class Verdict {
+enum class Ending {
     well,         ///< outputs are there
     badly,        ///< a retry would fail the same way
     retryable,    ///< due to the machine or the moment: killed, out of memory, "try again", or a
@@ -16,7 +16,7 @@ enum class Verdict {
     interrupted,  ///< stopped because the service stops
 };
 
-Verdict judge(const ExitRecord& record, bool resumed);
+Ending ending_of(const ExitRecord& record, bool resumed);
 
 /// "exit code 70", "killed by signal 9 (Killed)"
 std::string in_words(const ExitRecord& record);

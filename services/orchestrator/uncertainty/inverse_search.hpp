@@ -1,8 +1,8 @@
 // State of an inverse study: the values computed so far, and the advice for the next value.
 #pragma once
 
-#include "services/orchestrator/ensemble/ensemble.hpp"
 #include "services/orchestrator/study/target.hpp"
+#include "services/orchestrator/uncertainty/ensemble.hpp"
 
 namespace breach::orchestrator {
 

@@ -1,6 +1,4 @@
-// The answer of GET /v1/runs/{run}/uncertainty: statistics by quantity, with sentences.
-// Everything that the pages, the CLI and the report say about samples comes from this document.
-#include "services/orchestrator/ensemble/findings.hpp"
+#include "services/orchestrator/uncertainty/answer.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +10,8 @@
 #include "core/statistics/surrogate.hpp"
 #include "services/findings/flags.hpp"
 #include "services/findings/uncertainty.hpp"
-#include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
+#include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 namespace breach::orchestrator {
 
@@ -250,7 +248,7 @@ json until_of(const Ensemble& ensemble) {
 
 }  // namespace
 
-json findings_of(const Ensemble& ensemble, const json& scene, const std::string& quantity) {
+json uncertainty_of(const Ensemble& ensemble, const json& scene, const std::string& quantity) {
     const auto search = inverse_search(ensemble, scene);
     json quantities = json::object();
     for (const ResultColumn* each : quantities_of(ensemble))

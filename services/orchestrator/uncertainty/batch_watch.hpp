@@ -1,5 +1,5 @@
 // Adds variants to uncertainty studies, on the dispatcher's thread. An inverse study gets the next
-// value of the parameter until the target is met (ensemble/inverse_search.hpp). A study with
+// value of the parameter until the target is met (uncertainty/inverse_search.hpp). A study with
 // "until" gets batches of samples until the percentile is accurate enough or all requested samples
 // exist.
 //
@@ -15,9 +15,6 @@
 #include "services/orchestrator/study/study.hpp"
 
 namespace breach::orchestrator {
-
-/// Batches::spec of a study with "until" or "target"; null for others.
-nlohmann::json batches_of(const Study& study);
 
 class BatchWatch {
   public:

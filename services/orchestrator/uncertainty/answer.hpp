@@ -4,13 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "services/orchestrator/ensemble/ensemble.hpp"
+#include "services/orchestrator/uncertainty/ensemble.hpp"
 
 namespace breach::orchestrator {
 
 /// The answer of GET /v1/runs/{id}/uncertainty. scene: of the run. quantity: only this one; empty:
 /// all. An inverse study has no statistics: its values are not sampled.
-nlohmann::json findings_of(const Ensemble& ensemble, const nlohmann::json& scene,
-                           const std::string& quantity = {});
+nlohmann::json uncertainty_of(const Ensemble& ensemble, const nlohmann::json& scene,
+                              const std::string& quantity = {});
 
 }  // namespace breach::orchestrator

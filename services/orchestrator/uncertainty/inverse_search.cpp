@@ -1,4 +1,4 @@
-#include "services/orchestrator/ensemble/inverse_search.hpp"
+#include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 #include <algorithm>
 

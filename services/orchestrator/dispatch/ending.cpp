@@ -1,7 +1,4 @@
-// Maps an exit record to what happens to the task; Attempts::note_exit is its only caller. A
-// breakdown would end the same way again, so only transient ends are retried; bad input is one
-// after a resume, when the checkpoint may be at fault.
-#include "services/orchestrator/dispatch/verdict.hpp"
+#include "services/orchestrator/dispatch/ending.hpp"
 
 #include <cstring>
 
@@ -11,26 +8,26 @@ namespace breach::orchestrator {
 
 using fault::ExitCode;
 
-Verdict judge(const ExitRecord& record, bool resumed) {
+Ending ending_of(const ExitRecord& record, bool resumed) {
     const bool ours = record.stopped == StopReason::shutdown;
     const bool asked = ours || record.stopped == StopReason::signal;
-    if (!record.exit_code) return ours ? Verdict::interrupted : Verdict::retryable;
+    if (!record.exit_code) return ours ? Ending::interrupted : Ending::retryable;
     switch (static_cast<ExitCode>(*record.exit_code)) {
         case ExitCode::done:
-            return Verdict::well;
+            return Ending::well;
         case ExitCode::try_again:
-            return Verdict::retryable;
+            return Ending::retryable;
         case ExitCode::interrupted:
         case ExitCode::terminated:  // resumes from the checkpoint at little cost
-            return asked ? Verdict::interrupted : Verdict::retryable;
+            return asked ? Ending::interrupted : Ending::retryable;
         case ExitCode::bad_input:
-            return resumed ? Verdict::retryable : Verdict::badly;
+            return resumed ? Ending::retryable : Ending::badly;
         case ExitCode::usage:
         case ExitCode::breakdown:
         case ExitCode::io:
             break;
     }
-    return Verdict::badly;
+    return Ending::badly;
 }
 
 std::string in_words(const ExitRecord& record) {

@@ -1,8 +1,4 @@
-// Called by the dispatcher in each round; does something only when an event was stored since. It
-// waits until all tasks and triggers of a run have ended, then adds a batch or ends the plan.
-// Killed before the transaction, the next start comes to the same batch: samples follow from the
-// seed and the number drawn.
-#include "services/orchestrator/ensemble/batch_watch.hpp"
+#include "services/orchestrator/uncertainty/batch_watch.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -11,9 +7,9 @@
 
 #include "core/fault/fault.hpp"
 #include "core/statistics/percentiles.hpp"
-#include "services/orchestrator/ensemble/inverse_search.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
+#include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 namespace breach::orchestrator {
 
@@ -52,16 +48,6 @@ Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
 }
 
 }  // namespace
-
-json batches_of(const Study& study) {
-    if (study.target) return {{"target", study.target->question.target}};
-    if (!study.uncertainty || !study.uncertainty->until) return nullptr;
-    const Until& until = *study.uncertainty->until;
-    return {{"quantity", until.quantity},
-            {"percentile", until.percentile},
-            {"half_width", until.half_width},
-            {"batch", until.batch}};
-}
 
 bool BatchWatch::look() {
     const std::int64_t newest = store_.last_event();
