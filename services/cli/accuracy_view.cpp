@@ -1,3 +1,5 @@
+// Table of an accuracy study for `breach accuracy`. It only formats: what is recommended, on the
+// front or below the noise was decided by the server, so that the page and the report agree.
 #include "services/cli/accuracy_view.hpp"
 
 #include <cstdio>

@@ -1,3 +1,5 @@
+// Builds paths for the server. Ids and names come from users and may hold any character, so each
+// part is encoded; a name with a slash must not become another route.
 #include "services/cli/address.hpp"
 
 #include <cctype>
@@ -27,6 +29,7 @@ std::optional<Address> address_from(const std::string& url) {
     std::smatch match;
     if (!std::regex_match(url, match, shape)) return std::nullopt;
     Address address{match[1], match[2]};
+    // A service may be behind a proxy below a path; the prefix goes before /v1.
     while (address.prefix.ends_with('/')) address.prefix.pop_back();
     return address;
 }

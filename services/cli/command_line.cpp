@@ -1,3 +1,6 @@
+// The words of `breach`: reads arguments, chooses one command, and turns what it throws into an
+// exit code. Commands are in files of their own and know nothing of arguments, so that tests call
+// them with options. Parsing ends before the first request: a wrong flag costs no connection.
 #include "services/cli/command_line.hpp"
 
 #include <unistd.h>
@@ -34,6 +37,7 @@ namespace {
 constexpr const char* default_server = "http://127.0.0.1:8470";
 
 /// The arguments; each command reads its own part.
+/// Lives as long as the program; only the fields of the chosen command are filled.
 struct Arguments {
     std::string server = default_server;
     std::string token_file;
@@ -74,6 +78,7 @@ struct Arguments {
 
 using Command = std::function<ExitCode(Server&, const Console&)>;
 
+/// From a file, because others on the machine can read a program's arguments.
 std::optional<std::string> read_token(const std::string& file) {
     if (file.empty()) return std::nullopt;
     std::ifstream stream(file);

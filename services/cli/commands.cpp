@@ -1,3 +1,5 @@
+// Commands that are one or two requests: submit, list, show, cancel and the like. A refusal by
+// the server is an exception (cli/http/server.hpp), so each command reads as its good case.
 #include "services/cli/commands.hpp"
 
 #include <algorithm>
@@ -22,6 +24,7 @@ namespace {
 constexpr std::size_t length_of_ids = 26;  // of runs: ULIDs
 
 /// Ids of tasks begin with their run's: "<run>-00007".
+/// By the form alone, which saves a request to find out.
 bool names_task(const std::string& id) { return id.find('-') == length_of_ids; }
 
 void show_as_csv(const json& lines, const Console& console) {
@@ -39,6 +42,8 @@ void show_as_csv(const json& lines, const Console& console) {
 
 }  // namespace
 
+/// A whole id is taken as it is. Everything else costs one request, as the server may have got a
+/// newer run of this name.
 std::string run_named(Server& server, const std::string& name) {
     if (name.size() == length_of_ids) return name;
     const bool latest = name == "latest";
@@ -72,6 +77,7 @@ json post_submission(Server& server, const std::string& route, const SubmitOptio
     if (!options.transfer_times.empty()) study["transfer_times"] = options.transfer_times;
     for (const std::string& each : overruled(study, options.overrides))
         console.notes << harmless(each) << "\n";
+    // The key makes a repeated submission, after a lost answer, return the first run.
     Headers headers;
     if (!options.idempotency_key.empty()) headers["Idempotency-Key"] = options.idempotency_key;
     return post_study(server, route, std::move(study), headers,

@@ -1,3 +1,5 @@
+// Scripts for bash and fish, made from the program's own options, so that they cannot lag behind.
+// Ids of runs are asked for when the user presses the key, by a call of breach.
 #include "services/cli/completion.hpp"
 
 #include <nlohmann/json.hpp>
@@ -34,6 +36,7 @@ bool takes_a_run(const CLI::App& word) {
     return false;
 }
 
+/// By sed, as jq may not be installed; it relies on the indentation of --json.
 constexpr const char* ids_of_runs =
     R"sed(breach --json list 2>/dev/null | sed -n 's/^    "id": "\(.*\)",$/\1/p')sed";
 

@@ -1,3 +1,5 @@
+// `breach draw`: the section, its faults and its cost before anything is submitted. It works
+// without a server. Then the cost follows from the scene alone, and no earlier run corrects it.
 #include "services/cli/draw.hpp"
 
 #include <algorithm>
@@ -25,6 +27,8 @@ json study_of(const DrawOptions& options, bool is_study) {
 }
 
 /// The fem_solver beside this program; meshes go to the user's cache folder.
+/// Meshes of a large section take a while, and are the same until the scene changes: hence the
+/// cache.
 drawing::Mesher mesher_here() {
     const auto value = [](const char* name) {
         const char* found = std::getenv(name);
@@ -37,6 +41,7 @@ drawing::Mesher mesher_here() {
             caches / "breachline" / "meshes"};
 }
 
+/// A mesh file is always drawn: it may not fit the section.
 std::optional<drawing::DrawnMesh> wanted_mesh(const drawing::Draft& draft,
                                               const DrawOptions& options) {
     const auto& fem = draft.scene.fem;

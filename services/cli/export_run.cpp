@@ -1,3 +1,6 @@
+// `breach export`: a folder that can be read, verified and repeated without the server. Every
+// file is compared with its SHA-256. Killed in between, the same command goes on: files that are
+// right are not fetched again.
 #include "services/cli/export_run.hpp"
 
 #include <fstream>
@@ -40,6 +43,7 @@ void write_json(const fs::path& file, const json& content) {
 }
 
 /// True: the file was downloaded.
+/// To a temporary file first; only a verified one gets its name.
 bool fetch(Server& server, const char* kind, const std::string& promised, const fs::path& file) {
     if (fs::is_regular_file(file) && exchange::sha256_of_file(file) == promised) return false;
     make_folder(file.parent_path());

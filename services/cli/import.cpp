@@ -1,3 +1,6 @@
+// `breach import`: reads the files, calls services/import, and shows the drawing with its faults.
+// The import itself needs no server, and reads no file: the dashboard uses the same code with
+// bytes.
 #include "services/cli/import.hpp"
 
 #include <unistd.h>
@@ -19,6 +22,7 @@ using nlohmann::json;
 
 namespace {
 
+/// Drawings are read whole into memory, once as bytes and once as outlines.
 constexpr std::uintmax_t most_bytes = 256 << 20;
 constexpr std::size_t most_lines = 12;  // of corrections
 
@@ -40,7 +44,8 @@ std::optional<importing::Sent> sent(const std::filesystem::path& file) {
     return importing::Sent{file.filename().string(), bytes_of(file)};
 }
 
-/// Whether to_confirm are the only faults, and the user at a terminal confirms them.
+/// Whether to_confirm are the only faults, and the user at a terminal confirms them. Asks only at
+/// a terminal: a script must give --yes or fail.
 bool is_confirmed(const importing::Imported& imported, const Console& console) {
     const auto& to_confirm = imported.to_confirm;
     if (to_confirm.empty() || to_confirm.size() < imported.faults.size()) return false;
@@ -87,6 +92,7 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
         motion.shaking = options.shaking.value_or(motion.shaking);
     }
     importing::Imported imported = importing::import_section(asked);
+    // The whole import again: with the confirmation it goes on to checks that it had left out.
     if (is_confirmed(imported, console)) {
         asked.confirmed = true;
         imported = importing::import_section(asked);

@@ -1,3 +1,5 @@
+// `breach logs`: reads an attempt's log in parts and follows it. It asks for more than once per
+// read, because the server limits the size of an answer.
 #include "services/cli/logs.hpp"
 
 #include <charconv>
@@ -31,6 +33,7 @@ std::string more_of(Server& server, const std::string& task, std::int64_t attemp
             const std::string& digits = *answer.next_offset;
             std::from_chars(digits.data(), digits.data() + digits.size(), next);
         }
+        // Otherwise an answer without progress would be asked for without end.
         if (next <= offset) return text;
         offset = next;
     }

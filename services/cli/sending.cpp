@@ -1,3 +1,5 @@
+// Submits a study whose scene names files on this machine. A server on the same machine may read
+// them itself; another gets them sent first, and the study then names their hashes.
 #include "services/cli/sending.hpp"
 
 #include <algorithm>
@@ -34,6 +36,8 @@ bool is_this_machine(const std::string& origin) {
     return words::is_loopback_authority(origin.substr(origin.find("//") + 2));
 }
 
+/// Two clients may send one file at a time, or an old part may be damaged: the next try asks the
+/// server how much has arrived.
 bool is_about_a_part(const Refused& refused) {
     return refused.type() == "/problems/hash-mismatch" ||
            refused.type() == "/problems/other-part" || refused.type() == "/problems/being-sent";
@@ -41,6 +45,7 @@ bool is_about_a_part(const Refused& refused) {
 
 /// Returns how many entries were replaced by references. Keeps paths without a file here: they may
 /// be the server's.
+/// A file that several entries name is sent once.
 std::size_t send_files_of(Server& server, json& study, const Console& console) {
     std::map<std::string, std::string> references;
     std::size_t replaced = 0;

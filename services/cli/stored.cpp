@@ -1,3 +1,5 @@
+// `breach rm` and what else changes the server's storage. Removal cannot be undone, so names are
+// resolved and shown with their sizes before the question.
 #include "services/cli/stored.hpp"
 
 #include <unistd.h>
@@ -21,6 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// After a cancel: the server refuses to remove a run whose processes are still ending.
 void wait_for_the_end(Server& server, const std::string& run) {
     constexpr auto pause = std::chrono::milliseconds(200);
     while (server.get(path_of({"runs", run})).at("finished").is_null())

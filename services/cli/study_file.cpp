@@ -1,3 +1,6 @@
+// Reads a study or a scene as submit and draw send it: the scene inlined and paths absolute,
+// because the server does not know the folder of the file. What is wrong inside is left to the
+// server, which names the entry.
 #include "services/cli/study_file.hpp"
 
 #include <fstream>

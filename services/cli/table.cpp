@@ -1,3 +1,5 @@
+// Text for the terminal. Everything that came from a server passes through harmless(), as a run's
+// title or a log line could contain control sequences.
 #include "services/cli/table.hpp"
 
 #include <algorithm>
@@ -15,6 +17,7 @@ namespace {
 
 constexpr int bar_width = 20;
 
+/// Widths count characters, not bytes: units and names are UTF-8.
 bool begins_character(char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }
 
 std::size_t width_of(std::string_view text) {

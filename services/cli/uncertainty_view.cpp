@@ -1,3 +1,5 @@
+// Tables of `breach uncertainty`, from the server's findings; it computes nothing. A result is
+// marked as a lower bound where soil of a sample was still moving.
 #include "services/cli/uncertainty_view.hpp"
 
 #include <nlohmann/json.hpp>

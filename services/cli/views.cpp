@@ -1,3 +1,5 @@
+// Lists and pages of runs, tasks and results as text. It gets the server's answers and asks for
+// nothing itself.
 #include "services/cli/views.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// `breach watch`: follows a run by its events and redraws lines of progress. A server that
+// restarts or is busy does not end it: it waits patience_for_the_server before it gives up.
 #include "services/cli/watch.hpp"
 
 #include <sys/ioctl.h>
@@ -20,6 +22,7 @@ using std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t most_lines = 8;  // tasks shown at once
+/// Each look is a request, and short tasks have many events a second.
 constexpr auto least_time_between_looks = std::chrono::milliseconds(250);
 constexpr auto patience_for_the_server = std::chrono::seconds(60);
 

@@ -1,3 +1,6 @@
+// Supports, columns, water, loads and the like over the soil, so that an entry with a wrong sign
+// or unit is seen before it costs a run. Called by section_drawing for the parts that the scene
+// has.
 #include "services/drawing/features.hpp"
 
 #include <algorithm>
@@ -40,6 +43,7 @@ void draw_support(Canvas& canvas, const scene::Scene& scene, const scene::Suppor
     Vec2 along(1.0, 0.0);
     if (length > 0.0) along = (b - a) / length;
     Vec2 out(-along.y(), along.x());
+    // The side without soil: supports are drawn outside.
     const Vec2 probe = canvas.panel.back(0.5 * (a + b) + 6.0 * out);
     if (geometry::in_soil(scene.section, probe)) out = -out;
     std::string signs;

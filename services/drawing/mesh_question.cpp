@@ -1,3 +1,5 @@
+// The mesh to draw, from the program that will compute with it: a mesh of our own here could
+// differ. Cached by everything it depends on.
 #include "services/drawing/mesh_question.hpp"
 
 #include <cstdlib>
@@ -17,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A folder that the destructor removes with its files.
+/// Inside the cache's folder, so that the mesh can be moved within one disk.
 class Scratch {
   public:
     explicit Scratch(const fs::path& in) {
@@ -37,6 +40,7 @@ class Scratch {
 };
 
 /// Everything that a mesh depends on: its geometry and sizes, and the mesher.
+/// With the program's time, as another version may mesh differently.
 std::string key_of(const Draft& draft, const fs::path& program) {
     const json completed = json::parse(draft.scene.completed);
     const auto& file = draft.scene.fem->mesh.msh_file;
@@ -47,6 +51,7 @@ std::string key_of(const Draft& draft, const fs::path& program) {
                                     program.string() + std::to_string(built));
 }
 
+/// Ends a mesher that hangs.
 constexpr auto longest_meshing = std::chrono::hours(1);
 
 /// Throws the fault that the phase wrote.

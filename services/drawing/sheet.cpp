@@ -1,3 +1,5 @@
+// Places a section on a page: one scale for x and y, because slopes must look as steep as they
+// are.
 #include "services/drawing/sheet.hpp"
 
 #include <algorithm>
@@ -59,6 +61,7 @@ Vec2 Panel::inside(const Vec2& place) const {
     return place.cwiseMax(shown.low + margin).cwiseMin(shown.high - margin);
 }
 
+/// Names come from users; in SVG they must not become elements.
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : text) {

@@ -1,3 +1,5 @@
+// SVG of lines and marks, shared by all features so that equal things look equal. Marks are in
+// pixels and do not scale with the section.
 #include "services/drawing/strokes.hpp"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ std::string shape(const std::string& path, const std::string& look) {
 void draw_line(Canvas& canvas, const std::string& name, const Line& line, const std::string& colour,
                const std::string& dashes) {
     const std::string path = path_of(canvas.panel, line);
+    // A white line below keeps it visible on any soil.
     canvas.svg << shape(path, stroke("#fff", 4, "stroke-opacity=\"0.7\""))
                << shape(path, stroke(colour, 2, "class=\"" + name + "\"" + dashes));
 }
@@ -44,6 +47,7 @@ void draw_loads(Canvas& canvas, const scene::Scene& scene,
     for (const scene::Surcharge& each : loads) {
         for (const Line& ground : geometry::ground_between(scene.section, each.from, each.to)) {
             const Vec2 a = canvas.panel.at(ground.front()), b = canvas.panel.at(ground.back());
+            // One in 14 pixels, on every width of load.
             const int arrows = std::max(2, static_cast<int>((b.x() - a.x()) / 14.0));
             std::string path;
             for (int i = 0; i <= arrows; ++i) {

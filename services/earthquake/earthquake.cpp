@@ -1,3 +1,6 @@
+// One place for the assumptions of a seismic study, used by templates and by the import with a
+// motion. Numbers without a measurement are written into the scene with notes, so that a reader
+// of the scene sees them.
 #include "services/earthquake/earthquake.hpp"
 
 #include <algorithm>
@@ -25,6 +28,7 @@ std::optional<Json> free_field_of(const Section& section) {
 }
 
 /// The monitored soil: from one height upstream of the crest to the crest.
+/// The crest's upstream side is where the dam is lost if the soil below it liquefies.
 std::optional<Json> watch_of(const Section& section) {
     Json names = Json::array();
     double right = section.left;  // right end of the soil that can liquefy
@@ -56,9 +60,12 @@ Json fem_of(const Section& section, const Motion& motion) {
                         {"to", {nanometres(section.right), nanometres(section.base)}},
                         {"fixes", "xy"}}};
     fem["water"] = {{"line", points(section.phreatic)}};
+    // 760 m/s is the usual boundary between rock and stiff soil (NEHRP B/C).
     fem["base"] = {{"density", 2243}, {"V_s", 760}, {"motion_at", "outcrop"}};
     fem["motion"] = {{"file", motion_file}};
     if (const auto columns = free_field_of(section)) fem["free_field"] = *columns;
+    // gamma = 5/6 and beta = (gamma + 1/2)^2 / 4: damps high frequencies, stays unconditionally
+    // stable.
     fem["newmark_beta"] = 4.0 / 9;
     fem["newmark_gamma"] = 5.0 / 6;
     fem["damping"] = {{"ratio", 0.005}, {"frequency_Hz", 3}};

@@ -1,3 +1,5 @@
+// Materials as JSON, from a soil's numbers. Rounding happens here, so that scenes are readable
+// and the same options give the same scene, to the last digit: the cache compares scenes.
 #include "services/earthquake/soils.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// Mean stress of each layer, from which its residual strength follows. Overburden of one density:
+// a stress analysis would need the scene that is being made.
 #include "services/earthquake/stress.hpp"
 
 #include <algorithm>
@@ -29,6 +31,8 @@ double largest_sigma_v0(const Polygon& polygon, const Overburden& above) {
 }
 
 void add(Sum& sum, const Polygon& polygon, const Overburden& above, double from) {
+    // Points on a grid rather than integration over the polygon, which may be cut by the ground
+    // in any shape.
     constexpr int lines = 40;
     const geometry::Box box = geometry::bounding_box(polygon);
     const Vec2 size = box.high - box.low;

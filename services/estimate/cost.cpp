@@ -1,3 +1,6 @@
+// The cost that `breach submit --dry-run`, `breach draw` and the study's page show before a run.
+// It counts instead of meshing, and multiplies by rates, so that the answer is there at once.
+// Earlier runs of this server correct the rates.
 #include "services/estimate/cost.hpp"
 
 #include <algorithm>
@@ -29,6 +32,7 @@ constexpr double bytes_per_point = 210;                // of a whole state
 constexpr double bytes_per_framed_point = 20;          // of a frame with the usual fields
 constexpr double bytes_per_fem_line = 900, bytes_per_mpm_line = 250;  // of telemetry
 constexpr double bytes_beside = 5e4;                                  // result, scene, history
+/// Ranges are the middle divided and multiplied by fold.
 constexpr double fold = 2.0, widening_of_means = 1.5;
 
 Range around(double middle) { return {middle / fold, middle * fold}; }

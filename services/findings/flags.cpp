@@ -1,3 +1,5 @@
+// Reads flags as result.json and the store hold them. What a flag means for a number (lower
+// bound, doubtful) is decided here and nowhere else.
 #include "services/findings/flags.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// One line from a run's governing result. It never gives a distance without its error or the
+// words that it is unknown.
 #include "services/findings/headline.hpp"
 
 #include <cmath>

@@ -1,3 +1,5 @@
+// Sentences and cautions from the document of uncertainty/answer.cpp, which calls it. Words are
+// made on the server, so that page, CLI and report say the same.
 #include "services/findings/uncertainty.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// From facts to "can it be used?". The store fills the facts for runs, so the verdict needs no
+// files. Each fact that speaks against use gives a reason; the worst decides, and all are listed.
 #include "services/findings/verdict.hpp"
 
 #include <algorithm>
@@ -30,6 +32,7 @@ static constexpr auto words_of(Usable) {
 
 namespace {
 
+/// The same words as run_summaries and sweep_state of the store.
 bool is_over(const std::string& state) {
     static const std::set<std::string> open{"queued", "running", "planning", "refining"};
     return !open.contains(state);

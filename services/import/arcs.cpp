@@ -1,3 +1,5 @@
+// Arcs as DXF stores them: bulge = tan(a quarter of the angle), positive to the left. A bulge
+// cannot hold a full circle, so arcs are cut in two halves.
 #include "services/import/arcs.hpp"
 
 #include <algorithm>
@@ -25,8 +27,10 @@ std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, 
     const Vec2 left(-chord.y() / length, chord.x() / length);
     const Vec2 centre = from + 0.5 * chord + left * (0.25 * length * (1.0 / bulge - bulge));
     const double off = std::min(sagitta / std::abs(radius), 1.0);
+    // The chord that is at most `sagitta` from the arc: sagitta = r (1 - cos(step / 2)).
     const double step = 2.0 * std::acos(1.0 - off);
     const double wanted = step > 0.0 ? std::ceil(std::abs(angle) / step) : 512.0;
+    // At most 512, so that a tiny tolerance cannot make millions of points.
     const int chords = static_cast<int>(std::clamp(wanted, 2.0, 512.0));
     std::vector<Vec2> points;
     const Vec2 spoke = from - centre;

@@ -1,3 +1,7 @@
+// Puts all outlines on common nodes: vertices within the tolerance become one, edges are bent to
+// nodes near them and cut where they cross. Repeated until nothing moves, as bending an edge can
+// bring it near another node. The first outline decides a node's place, so the order of the
+// drawing matters and is kept.
 #include "services/import/arrangement.hpp"
 
 #include <algorithm>
@@ -13,6 +17,8 @@ namespace breach::importing {
 
 namespace {
 
+/// Drawings settle in a few passes; one that does not is reported as unsettled
+/// (Snapped::settled).
 constexpr int most_passes = 20;
 constexpr std::size_t most_nodes = 8000, most_steps = 40000;  // limits where lines cross everywhere
 
@@ -34,6 +40,7 @@ class Snapping {
     }
 
   private:
+    // Beyond these limits the work grows with the square of the nodes.
     bool is_tangle() const {
         std::size_t steps = 0;
         for (const auto& each : result_.chains) steps += each.size();

@@ -1,3 +1,5 @@
+// Reads a section from a table of vertices. Spreadsheets write many dialects: separators, decimal
+// commas, units in titles and a byte order mark are recognised, and what is ambiguous is refused.
 #include "services/import/csv.hpp"
 
 #include <algorithm>
@@ -45,6 +47,8 @@ struct Title {
     std::string name, unit;
 };
 
+/// "x_ft" and "x_offset" look alike: the rest is a unit only if it is a known one, or in
+/// brackets.
 Title title_of(const std::string& column) {
     std::string name = lower(column);
     const std::size_t end = std::min(name.find_first_of("_ ([/"), name.size());

@@ -1,3 +1,5 @@
+// Makes the scene from healed outlines. All entries that a drawing cannot give are guessed here,
+// and listed in `guessed` with their reason, so that the user sees what to check.
 #include "services/import/document.hpp"
 
 #include <algorithm>
@@ -12,6 +14,7 @@ using nlohmann::json;
 namespace {
 
 /// To a micrometre; shared points of regions stay equal.
+/// Same rounding for all regions: neighbours must share their points exactly.
 double rounded(double value) { return std::round(1e6 * value) / 1e6; }
 
 json line_as_json(const std::vector<Vec2>& line) {

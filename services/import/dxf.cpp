@@ -1,3 +1,7 @@
+// Reads the outlines of a drawing. Layers have meanings by the user's map, or by materials'
+// names; the reader takes polylines, lines and arcs of layers with a meaning, refuses what it
+// cannot represent exactly (splines, blocks), and counts the rest. It collects faults instead of
+// stopping, so that one pass shows all of them.
 #include "services/import/dxf.hpp"
 
 #include <algorithm>
@@ -13,9 +17,11 @@ namespace breach::importing {
 
 namespace {
 
+/// The import is refused already; the picture of the faults needs some line.
 constexpr double flatten_meanwhile = 0.05;  // m: for drawing arcs that are refused
 constexpr std::array<std::string_view, 6> shapes{"LWPOLYLINE", "POLYLINE", "LINE",
                                                  "ARC",        "CIRCLE",   "INSERT"};
+/// Entities without soil; passing over them needs no word of the user's.
 constexpr std::array<std::string_view, 19> writing{
     "TEXT",   "MTEXT",      "DIMENSION", "POINT",     "LEADER",           "MLEADER", "MULTILEADER",
     "ATTDEF", "ATTRIB",     "VIEWPORT",  "IMAGE",     "WIPEOUT",          "SEQEND",  "VERTEX",
@@ -26,6 +32,11 @@ bool is_one_of(std::string_view word, const Words& words) {
     return std::ranges::find(words, word) != words.end();
 }
 
+/// State while reading: section_ is set by SECTION and cleared by ENDSEC; block_ is set by BLOCK
+/// and cleared by ENDBLK; current_ and corners_ are the outline being read, from begin() to
+/// finish(). An old POLYLINE stays open (in_polyline_) while its VERTEX records follow, and any
+/// other record finishes it. The unit must be known before the first coordinate: settle_unit()
+/// runs at the first entity.
 class DxfReader {
   public:
     DxfReader(std::string_view text, const LayerMap& layers, const DxfOptions& request)
@@ -176,6 +187,7 @@ class DxfReader {
         const bool area = is_area(record.type);
         if (is_one_of(record.type, writing) || (area && meaning.role != Role::soil))
             return pass_over(record, layer, meaning);
+        // A hidden layer that the user maps by name is wanted.
         if (hidden_.contains(lower(layer)) && !meaning.told) {
             ++hidden_entities_[layer];
             return;

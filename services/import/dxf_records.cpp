@@ -1,3 +1,6 @@
+// Splits a DXF file into records of (code, value) pairs. A record ends where the next code 0
+// begins, so one group is read ahead (ahead_). A broken file ends the reading with its line
+// number.
 #include "services/import/dxf_records.hpp"
 
 #include <charconv>
@@ -12,6 +15,7 @@ namespace {
 
 constexpr const char* again =
     "export the drawing again, as DXF in text form (R12 or 2000 and later)";
+/// A file without code 0 would otherwise become one record of any size.
 constexpr std::size_t most_groups = 1'000'000;  // of one record
 constexpr int largest_code = 1071;
 

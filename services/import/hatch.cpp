@@ -1,3 +1,5 @@
+// Boundaries of HATCH, SOLID and the like as closed rings. Edges of a hatch come in order, but
+// each may point either way, so they are chained by their ends.
 #include "services/import/hatch.hpp"
 
 #include <algorithm>
@@ -70,6 +72,7 @@ std::vector<Corner> reversed(std::vector<Corner> edge) {
     return edge;
 }
 
+/// Relative: programs write coordinates with 16 digits, and far from the origin they round more.
 bool meets(const Corner& a, const Corner& b) {
     return (a.at - b.at).norm() <= 1e-6 * (1.0 + a.at.norm());
 }

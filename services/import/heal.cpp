@@ -1,3 +1,6 @@
+// Removes what drawings have and a mesh cannot: short sides, spikes, slivers between regions,
+// gaps and overlaps within the tolerance. Each change is recorded with its place and size and
+// shown to the user; larger ones are faults, because only the author knows what was meant.
 #include "services/import/heal.hpp"
 
 #include <algorithm>
@@ -17,6 +20,7 @@ namespace {
 // ---------------------------------------------------------------- one outline
 
 /// Width of a spike, narrower than a thousandth of its length; negative: not a spike.
+/// Relative to its length: a wide tip is a corner of the section, however small.
 double spike_width(const Vec2& before, const Vec2& tip, const Vec2& after) {
     const Vec2 in = before - tip, out = after - tip;
     const double shorter = std::min(in.norm(), out.norm());
@@ -83,7 +87,8 @@ double slimness(const Polygon& ring) {
     return length > 0.0 ? 2.0 * geometry::area(ring) / length : 0.0;
 }
 
-/// Crossings of the outline with itself that cut off more than a sliver.
+/// Crossings of the outline with itself that cut off more than a sliver. A sliver within the
+/// tolerance is no fault.
 std::vector<Vec2> self_crossings(const Polygon& ring, double tolerance) {
     std::vector<Vec2> places;
     const std::size_t n = ring.size();

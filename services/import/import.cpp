@@ -1,3 +1,7 @@
+// The order of an import: check the options, read the drawing, sort outlines by meaning, take
+// lines, heal, divide into depth layers, write the scene. A step that fails ends the import where
+// later faults would mislead. Called by `breach import` and by POST of the dashboard with bytes;
+// it writes no file.
 #include "services/import/import.hpp"
 
 #include <algorithm>
@@ -22,6 +26,7 @@ using nlohmann::json;
 
 namespace {
 
+/// Outside of these a drawing was most likely read in a wrong unit.
 constexpr double longest_section = 10'000.0, shortest_section = 1.0;  // m
 constexpr std::size_t most_faults = 200;
 
@@ -32,6 +37,7 @@ std::set<std::string> names_in(const json& materials) {
     return names;
 }
 
+/// By the name if it says so, because a CSV file may contain the word SECTION.
 bool is_dxf(const Sent& sent) {
     const std::string extension = lower(std::filesystem::path(sent.name).extension().string());
     if (extension == ".dxf" || extension == ".dwg") return true;
@@ -60,6 +66,9 @@ std::string scene_name(const Request& request) {
     return name;
 }
 
+/// Steps fill members in order: drawing_ by read_drawing, soils_ and drawn_lines_ by sort_out,
+/// lines by take_lines and read_line. Any step adds to result_.faults; give_up() then drops the
+/// scene and keeps the sketch, on which the faults are drawn.
 class Import {
   public:
     explicit Import(const Request& request)

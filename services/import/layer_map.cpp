@@ -1,3 +1,6 @@
+// What each layer of a drawing means: told by the user (`told`), else by the name of a material.
+// The last "=" separates, as a layer's name may contain one. Names are compared in lower case, as
+// CAD programs do.
 #include "services/import/layer_map.hpp"
 
 #include <optional>

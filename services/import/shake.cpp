@@ -1,3 +1,6 @@
+// Adds what a FEM with an earthquake needs to an imported section, or says why it cannot: a slope
+// to the right, a phreatic line, layers that can liquefy, a level base and upright sides. The
+// checks come before any mesh, with places on the drawing.
 #include "services/import/shake.hpp"
 
 #include <algorithm>
@@ -11,6 +14,7 @@ using nlohmann::json;
 
 namespace {
 
+/// document.cpp rounds to a micrometre.
 constexpr double same_place = 1e-6;  // m: rounding of a scene's vertices
 
 geometry::Box box_of(const std::vector<Soil>& soils) {

@@ -1,3 +1,6 @@
+// Combines envelopes of samples column by column. Samples may have different grids: each is read
+// at the x of the coarsest one. Where a flow did not arrive, depths count as 0 and times as
+// never, so that a percentile of arrival is unknown unless enough samples arrived.
 #include "services/outflow/envelopes.hpp"
 
 #include <algorithm>
@@ -18,8 +21,11 @@ using nlohmann::json;
 
 namespace {
 
+/// Sorts behind all times; the percentile turns it into unknown.
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+/// Must equal what mpm_solver writes: another header is another version, and its columns could
+/// mean something else.
 constexpr std::string_view header =
     "x_m,largest_depth_m,largest_velocity_m_per_s,largest_momentum_flux_m3_per_s2,arrival_s,"
     "time_of_peak_s,final_depth_m";

@@ -1,3 +1,5 @@
+// Hydrographs for flood programs. The model is per metre of width, so the discharge needs a
+// breach width with its range, which the user gives.
 #include "services/outflow/exports.hpp"
 
 #include <algorithm>
@@ -34,6 +36,7 @@ std::string number(const char* format, double value) {
 }
 
 /// Volume that does not flow back: the least of all later values.
+/// A flood program cannot take a discharge back; sloshing at the section would count twice.
 std::vector<double> passed_for_good(const std::vector<double>& volume) {
     std::vector<double> passed(volume.size());
     double least = volume.back();

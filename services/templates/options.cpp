@@ -1,3 +1,4 @@
+// All faults are collected, as a form shows them beside their fields.
 #include "services/templates/options.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// What all templates share: ground, water and parts. The phreatic line is a parabola from the
+// pond to its exit (Dupuit), or straight through a measured level.
 #include "services/templates/outline.hpp"
 
 #include <algorithm>
@@ -20,6 +22,7 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     constexpr int pieces = 8;
     const auto& [from, exit, measured] = flow;
     const double span = exit.x() - from.x();
+    // Points closer than this would give the mesh tiny elements.
     const double same = 0.005 * span;
     std::vector<double>
         xs;  // kinks of the ground, so that no chord leaves it, and points of the parabola

@@ -1,3 +1,4 @@
+// From options to a scene and its study.
 #include "services/templates/templates.hpp"
 
 #include <cmath>
@@ -22,6 +23,7 @@ Outline outline_of(const Values& values) {
 }
 
 /// Rounds lengths that appear in the scene to readable digits.
+/// Only those that follow from others; what the user gave stays as given.
 void round_sizes(Values& values) {
     for (const Option& each : values.of().options) {
         if (each.kind != Kind::number || each.follows.empty()) continue;

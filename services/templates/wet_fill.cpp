@@ -1,3 +1,5 @@
+// Called after the scene is whole, because it needs the water and the regions as the solver reads
+// them. The material points of the runout carry no pore pressure.
 #include "services/templates/wet_fill.hpp"
 
 #include <algorithm>
@@ -18,6 +20,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// Rounded down to a tenth of a degree.
+/// Down, the safe side.
 double reduced(double phi_deg, double r_u) {
     constexpr double degree = std::numbers::pi / 180.0;
     const double phi = std::atan((1.0 - r_u) * std::tan(phi_deg * degree)) / degree;

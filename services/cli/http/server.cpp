@@ -1,3 +1,6 @@
+// Requests to the server over one connection that stays open. A refusal (4xx) becomes Refused,
+// with the server's faults; 429, 5xx and a missing answer become Unreachable, after which a
+// command may try again.
 #include "services/cli/http/server.hpp"
 
 #include <httplib.h>
@@ -19,6 +22,7 @@ struct Server::Connection {
 namespace {
 
 constexpr std::chrono::seconds patience_to_connect{5};
+/// Longer than the longest wait for events that a command asks for.
 constexpr std::chrono::seconds patience_for_an_answer = longest_poll + std::chrono::seconds(40);
 
 std::string text_or(const json& object, const char* key, const std::string& otherwise) {

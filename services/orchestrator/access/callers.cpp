@@ -1,3 +1,6 @@
+// Who is calling, for every request, on its thread. The file of tokens is read again at most once
+// a second, so that a removed token loses its rights without a restart. A file that cannot be
+// read leaves the last tokens in force: an editor's slip must not lock everyone out.
 #include "services/orchestrator/access/callers.hpp"
 
 #include <openssl/crypto.h>

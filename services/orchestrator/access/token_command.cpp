@@ -1,3 +1,5 @@
+// `breachline token`: changes the file, which a running service reads within a second. It needs
+// no service, because the first token is made before there is one.
 #include "services/orchestrator/access/token_command.hpp"
 
 #include <iostream>

@@ -1,3 +1,5 @@
+// The file of tokens keeps SHA-256 of secrets. A plain hash is enough, as secrets are 256 random
+// bits and cannot be guessed; a slow one would delay every request.
 #include "services/orchestrator/access/tokens.hpp"
 
 #include <openssl/rand.h>

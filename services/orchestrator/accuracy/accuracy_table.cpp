@@ -1,3 +1,5 @@
+// Rows, error and recommendation from the results so far. Means are over the repeats that have a
+// value; a rung without any keeps its row, with the reason of its first failed repeat.
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Ratios of measured to estimated cost, by phase. Requests for a cost ask for them.
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 using estimate::Earlier;
 using Found = std::optional<Earlier>;  // nothing: the task has no usable cost
 
+/// Newer runs resemble the next one, and each costs an estimate of its scene.
 constexpr std::size_t newest_runs = 8, tasks_of_a_phase = 8;
 
 double bytes_of(const Store& store, const std::string& task) {

@@ -1,3 +1,5 @@
+// Words for the accuracy page, the CLI and the report. A number appears with its noise, or with
+// what would measure it.
 #include "services/orchestrator/accuracy/sentences.hpp"
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// The life of an attempt, all on the dispatcher's thread. start() claims the task, attach() adds
+// it to live_, observe() moves it on, settle() marks it `over`, and forget_the_ended() removes
+// it. Rows are written before processes are started: if the service is killed in between, adopt()
+// finds the row, probe() finds no process, and note_loss() retries the task. The other order
+// could leave a process of which no row knows.
 #include "services/orchestrator/dispatch/attempts.hpp"
 
 #include <spdlog/spdlog.h>
@@ -19,15 +24,20 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
+/// A folder watch may miss changes (another machine's file system, a full queue of the kernel),
+/// so every attempt is observed once a second even without a notice.
 constexpr auto look_at_all_after = std::chrono::seconds(1);
 
 /// 1, 2, 4, ... times the first delay, at most a minute.
+/// The shift stops at 2^10, before it overflows; longest_retry_ms decides long before.
 std::int64_t delay_ms(std::chrono::milliseconds first, std::int64_t tries) {
     return std::min(longest_retry_ms, first.count() << std::min<std::int64_t>(tries - 1, 10));
 }
 
 }  // namespace
 
+/// Called by Dispatcher::reconcile, after a start and after every error. The three flags come
+/// from the rows, so that no event is stored twice; lines are read again from the first.
 void Attempts::adopt() {
     for (const LiveAttempt& live : live_) stop_watching(live);
     live_.clear();
@@ -38,6 +48,8 @@ void Attempts::adopt() {
             const Attempt& last = attempts.back();
             spdlog::info("{} ({}): attempt {} was going on", task.id, task.label, last.number);
             LiveAttempt& live = attach(task, last.number);
+            // `cancelling` does not say whether the start was noted; the table allows the event
+            // there, so it may be noted twice.
             live.submission_noted = last.state != AttemptState::submitting;
             live.start_noted = task.state == TaskState::running;
             live.begun = last.state == AttemptState::running;
@@ -71,6 +83,9 @@ void Attempts::stop_all() {
     for (const LiveAttempt& live : live_) executor_.stop(live.folder, StopReason::shutdown);
 }
 
+/// A cancelled task stays in `cancelling` until its process is gone: note_exit or note_loss then
+/// moves it by `stopped`. asked_to_stop is in memory only; after a restart the executor is asked
+/// again, and the stop file that exists stays as it is.
 void Attempts::stop_cancelled() {
     if (live_.empty()) return;
     for (const Task& task : store_.tasks_in(TaskState::cancelling, live_.size())) {
@@ -90,6 +105,9 @@ Capacity Attempts::capacity() const {
 
 // ---------------------------------------------------------------- starting
 
+/// The tasks come from ReadyTasks::to_start in the same round. One that was cancelled since then
+/// is not claimed. Outputs that the cache had placed go first, as the phase must not write into
+/// links to another run's files.
 void Attempts::start(const std::vector<Task>& tasks) {
     for (const Task& task : tasks) drop_placed_outputs(data_, task);
     pass_failpoint("claim_before");
@@ -104,6 +122,8 @@ void Attempts::start(const std::vector<Task>& tasks) {
     pass_failpoint("claim_after");
     std::vector<LiveAttempt*> started;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+        // A very short phase may have ended by now. Slurm's jobs still wait: observe() notes
+        // their start.
         if (numbers[i] == 0) continue;
         LiveAttempt& live = attach(tasks[i], numbers[i]);
         if (!hand_over(live)) continue;
@@ -115,6 +135,7 @@ void Attempts::start(const std::vector<Task>& tasks) {
     forget_the_ended();
 }
 
+/// Also creates the output folder, because a watch needs a folder that exists.
 LiveAttempt& Attempts::attach(const Task& task, std::int64_t number) {
     const AttemptFolder folder = data_.attempt(task, number);
     std::error_code error;  // a missing folder shows when the attempt starts
@@ -143,6 +164,7 @@ bool Attempts::hand_over(LiveAttempt& live) {
     return true;
 }
 
+/// For the metrics only. A snapshot's time is the file's own, which includes what the watch lost.
 void Attempts::note_latency(const Task& task) {
     const auto note = [&](Histogram& in, std::int64_t since) {
         if (const auto waited = clock_.seconds_since(since)) in.add(*waited);

@@ -1,3 +1,8 @@
+// How a ready task gets the files of an earlier one. Order: list the names in a file (`reused`),
+// place the links, store the reuse, delete the list. Whoever finds the list after a kill knows
+// which files in the output folder were never taken, and drop_placed_outputs removes them before
+// the task runs or is looked up again. The cache never holds rows or locks of its own: the
+// transaction in reuse_task decides whether the earlier result is still there.
 #include "services/orchestrator/dispatch/cache.hpp"
 
 #include <spdlog/spdlog.h>
@@ -18,6 +23,7 @@ using nlohmann::json;
 
 namespace {
 
+/// A bound, because each candidate costs a hash of all its files; the newest come first.
 constexpr std::size_t most_candidates = 8;
 
 }  // namespace
@@ -46,6 +52,8 @@ bool Cache::has_changed_since(const LookedUp& earlier, const Task& task) const {
 
 void Cache::examine(Task task) { queue_.add(std::move(task)); }
 
+/// On the cache's thread. An error is no reason to wait: ReadyTasks finds the task still `ready`
+/// and lets it run.
 void Cache::serve(const Task& task) {
     LookedUp found{.task = task.id, .input_sha256 = {}};
     try {
@@ -106,6 +114,8 @@ bool Cache::take(const Task& earlier, const Task& task) const {
     return taken;
 }
 
+/// Hashes again, because links share the bytes with the earlier run: someone who edits a result
+/// by hand would otherwise spread the edit.
 std::optional<std::string> Cache::damage_to(const Task& earlier) const {
     for (const Artifact& each : store_.artifacts_of(earlier.id)) {
         const auto damage = damage_of(data_.output(earlier) / each.name, each.bytes, each.sha256);
@@ -123,6 +133,7 @@ void Cache::place_outputs(const Task& earlier, const Task& task) const {
     const std::vector<Artifact> artifacts = store_.artifacts_of(earlier.id);
     json names = json::array();
     for (const Artifact& each : artifacts) names.push_back(each.name);
+    // The list before the first file: a file without a list would count as the task's own output.
     exchange::publish_text(data_.reused(task), names.dump());
     for (const Artifact& each : artifacts) {
         const fs::path from = data_.output(earlier) / each.name;

@@ -1,3 +1,6 @@
+// What one round may still start. Attempts builds it anew from the live attempts in every round,
+// and ReadyTasks takes from its copy; nothing is ever given back, so that no leak can shrink the
+// machine.
 #include "services/orchestrator/dispatch/capacity.hpp"
 
 #include <algorithm>
@@ -27,6 +30,8 @@ std::vector<std::string> Capacity::full_phases() const {
 bool Capacity::has_room_for(const Task& task) const {
     const bool fits = task.resources.cores <= cores_ &&
                       (settings_.memory_mb == 0 || task.resources.memory_mb <= memory_mb_);
+    // Otherwise a task larger than the machine would never start; it runs alone and slowly
+    // instead.
     return fits || running_.empty();
 }
 

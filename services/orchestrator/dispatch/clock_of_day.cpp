@@ -1,3 +1,6 @@
+// Keeps a clock that was set from spoiling the histograms of waiting times: a moment from before
+// the jump cannot be compared with one after it, so it gives no sample. The difference between
+// the two clocks reveals a jump without a timer.
 #include "services/orchestrator/dispatch/clock_of_day.hpp"
 
 namespace breach::orchestrator {

@@ -1,3 +1,7 @@
+// The one thread that moves tasks between `ready` and `finalizing`. Other threads (HTTP requests,
+// cache, registrar) change rows through the store and wake it; none of them starts or stops a
+// process. Every round asks the store again what there is to do, so that a lost notice costs at
+// most one longest_wait.
 #include "services/orchestrator/dispatch/dispatcher.hpp"
 
 #include <poll.h>
@@ -14,6 +18,8 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
+/// The poll's upper bound: the price of a notice that got lost, and the pace of the regular look
+/// at all attempts.
 constexpr auto longest_wait = std::chrono::milliseconds(1000);
 constexpr auto shortest_round = std::chrono::milliseconds(5);  // changes come in bursts
 
@@ -26,6 +32,8 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
       executor_(executor),
       settings_(std::move(settings)),
       registered_(notifier_),
+      // The registrar's thread only leaves a letter; children are settled on the dispatcher's
+      // thread.
       registrar_(store, data, [this](const std::string& task) { registered_.put(task); }),
       attempts_(store, data, executor, board, settings_,
                 [this](const Task& task) { registrar_.add(task); }),
@@ -37,6 +45,7 @@ Dispatcher::Dispatcher(Store& store, const DataFolder& data, Executor& executor,
 
 Dispatcher::~Dispatcher() { stop(); }
 
+/// Also called by the destructor; the second call finds no thread.
 void Dispatcher::stop() {
     if (!thread_.joinable()) return;
     thread_.request_stop();
@@ -52,6 +61,7 @@ void Dispatcher::settle_all() {
 }
 
 void Dispatcher::serve(const std::stop_token& stop) {
+    // Unset by any error below: memory (live attempts, letters) may then differ from the store.
     bool reconciled = false;
     while (!stop.stop_requested()) {
         try {
@@ -106,6 +116,7 @@ void Dispatcher::wait_for_something() {
         const auto left = std::chrono::milliseconds(*retry - epoch_ms());
         wait = std::clamp(left, std::chrono::milliseconds(0), longest_wait);
     }
+    // A window's end by time comes without any notice.
     wait = std::min(wait, triggers_.patience());
     pollfd wanted[] = {{attempts_.descriptor(), POLLIN, 0},
                        {triggers_.descriptor(), POLLIN, 0},
@@ -116,6 +127,9 @@ void Dispatcher::wait_for_something() {
     notifier_.clear();
 }
 
+/// Slurm's jobs go on without the service. Local attempts get the grace time to write a
+/// checkpoint, and two seconds more for their exit record; those that need longer are adopted or
+/// counted as lost at the next start.
 void Dispatcher::shut_down(const std::stop_token& stop) {
     if (executor_.at_stop() == AtStop::leaves_them) return;
     attempts_.stop_all();

@@ -1,3 +1,6 @@
+// Maps an exit record to what happens to the task. A breakdown would end the same way again, so
+// only transient ends are retried; bad input is one after a resume, when the checkpoint may be at
+// fault.
 #include "services/orchestrator/dispatch/ending.hpp"
 
 #include <cstring>

@@ -1,3 +1,6 @@
+// What an attempt needs before its process (scene on disk, command line) and what is made of its
+// end. Called by Attempts only. Phases know nothing of the store: all they get is these
+// arguments, so that each can be repeated by hand from the attempt's order.json.
 #include "services/orchestrator/dispatch/live_attempt.hpp"
 
 #include <algorithm>
@@ -19,6 +22,7 @@ using nlohmann::json;
 namespace {
 
 std::string last_line_of(const std::filesystem::path& file) {
+    // A log may have gigabytes, and a fault's line is short.
     constexpr std::streamoff tail = 4096;
     std::ifstream stream(file, std::ios::binary | std::ios::ate);
     if (!stream) return {};
@@ -42,6 +46,8 @@ bool may_resume(const Store& store, const std::string& task, std::int64_t number
     return true;
 }
 
+/// At the first attempt of a run, or the next one if the service was killed here. The scene comes
+/// last, as its presence means that all links are there.
 void lay_out_scene(const Store& store, const DataFolder& data, const std::string& run) {
     namespace fs = std::filesystem;
     const fs::path scene = data.scene(run);
@@ -97,6 +103,8 @@ TaskFault fault_of(const LiveAttempt& live, const ExitRecord& record, const Data
     std::string summary;
     if (said.is_object() && said.value("exit_code", 0) == *record.exit_code)
         summary = said.value("summary", "");
+    // In order of knowledge: the phase's own words, then the supervisor's on a full disk, where
+    // the phase could not write them, then the log.
     if (summary.empty() && *record.exit_code != 0) summary = record.disk;
     if (summary.empty()) summary = last_line_of(live.folder.log());
     if (!summary.empty()) fault.summary = summary;

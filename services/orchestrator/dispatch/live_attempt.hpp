@@ -8,6 +8,9 @@
 
 namespace breach::orchestrator {
 
+/// Memory of the dispatcher about one attempt. Attempts::start or adopt creates it, observe sets
+/// the flags as the rows follow the process, note_exit or note_loss sets `over`, and the end of
+/// the round removes it with its two watches. Nothing in it is needed after a restart.
 struct LiveAttempt {
     Task task;
     std::int64_t number;
@@ -18,6 +21,7 @@ struct LiveAttempt {
     std::streamoff lines_read = 0;
     bool submission_noted = false;  ///< the attempt's row says that the executor took it
     bool start_noted = false;       ///< the task's row says that it has a process
+    /// The attempt's row is `running`: the phase wrote a first line.
     bool begun = false;
     bool outputs_changed = true;  ///< a new file may release a child
     bool asked_to_stop = false;

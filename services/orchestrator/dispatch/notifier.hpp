@@ -28,6 +28,8 @@ class Notifier {
     int descriptor_;
 };
 
+/// Results of a thread for the dispatcher, which takes them at the start of its next round.
+/// Letters that were not taken are lost when the service ends; reconcile() does not need them.
 template <class Letter>
 class Mailbox {
   public:

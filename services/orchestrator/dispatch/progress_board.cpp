@@ -1,3 +1,6 @@
+// Written by the dispatcher (Attempts), read by requests on other threads: hence the lock.
+// Attempts erases an entry when it stops watching. Not in the store, because a commit per line of
+// progress would cost more than the phases' own writes.
 #include "services/orchestrator/dispatch/progress_board.hpp"
 
 namespace breach::orchestrator {

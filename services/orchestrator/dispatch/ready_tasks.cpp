@@ -1,3 +1,6 @@
+// Chooses once per round, on the dispatcher's thread. A task stays `ready` while the cache looks
+// it up: in_the_cache_ keeps it from starting, and answered() removes it there. Both collections
+// are in memory; after a restart each ready task is looked up once more.
 #include "services/orchestrator/dispatch/ready_tasks.hpp"
 
 #include <algorithm>
@@ -11,10 +14,13 @@ ReadyTasks::ReadyTasks(Store& store, const DataFolder& data, const Notifier& not
       cache_(store, data, [this](LookedUp found) { looked_up_.put(std::move(found)); }) {}
 
 std::vector<Task> ReadyTasks::to_start(Capacity capacity) {
+    // Enough to keep the cache's thread busy while all slots are taken.
     constexpr std::size_t look_ahead = 8;  // for the cache, which needs no slot
     std::vector<Task> chosen;
     bool held_back = false;
     const std::size_t most =
+        // Tasks that only wait for the cache or for an equal task must not hide those behind
+        // them.
         capacity.free_cores() + look_ahead + in_the_cache_.size() + wait_for_equals_;
     wait_for_equals_ = 0;
     for (Task& task : store_.tasks_to_start(capacity.full_phases(), most)) {
@@ -61,6 +67,9 @@ bool ReadyTasks::waits_for_an_equal(const Task& task, const std::vector<Task>& c
 }
 
 std::vector<std::string> ReadyTasks::answered() {
+    // Still `ready`: there was no answer, and it is not asked again until the number of earlier
+    // results changes. Else it was reused, cancelled or removed, and its children must be
+    // settled.
     const std::vector<LookedUp> looked_up = looked_up_.take();
     for (const LookedUp& each : looked_up) in_the_cache_.erase(each.task);
     std::vector<std::string> found;

@@ -1,3 +1,7 @@
+// Moves a task from `finalizing` to `succeeded`, or to `failed` if its outputs are unusable.
+// Attempts hands tasks in when their process has ended; Dispatcher::reconcile hands in those that
+// a killed service left in `finalizing`. Hashing twice is harmless: the transaction stores
+// everything or nothing.
 #include "services/orchestrator/dispatch/registrar.hpp"
 
 #include <spdlog/spdlog.h>
@@ -20,6 +24,7 @@ namespace {
 std::vector<Artifact> hashed_outputs(const Task& task, const std::filesystem::path& output) {
     std::vector<Artifact> found;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(output)) {
+        // A link may lead out of the folder, and its target may change later.
         if (!entry.is_regular_file() || entry.is_symlink()) continue;
         found.push_back({.task = task.id,
                          .name = std::filesystem::relative(entry.path(), output).string(),
@@ -30,7 +35,8 @@ std::vector<Artifact> hashed_outputs(const Task& task, const std::filesystem::pa
     return found;
 }
 
-/// The facts of result.json, without plan and provenance.
+/// The facts of result.json, without plan and provenance. Both stay readable in the file itself;
+/// no query needs them.
 json facts_of(const std::filesystem::path& file) {
     std::ifstream stream(file);
     json result = json::parse(stream);
@@ -51,6 +57,8 @@ Registrar::Registrar(Store& store, const DataFolder& data,
 
 void Registrar::add(Task task) { queue_.add(std::move(task)); }
 
+/// A full disk or a busy database passes: the queue tries again, and the task stays in
+/// `finalizing`.
 Handled Registrar::serve(const Task& task) {
     try {
         finalize(task);

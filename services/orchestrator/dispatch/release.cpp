@@ -1,3 +1,7 @@
+// Moves tasks out of `blocked` (to `ready` or `skipped`) and out of `retry_wait`. The dispatcher
+// calls it for one parent when that parent's folder or state has changed, and for all parents
+// after a start. Every call decides from store and disk alone, so that calls may be repeated or
+// lost.
 #include "services/orchestrator/dispatch/release.hpp"
 
 #include <algorithm>
@@ -27,6 +31,7 @@ std::set<std::string> outputs_of(const DataFolder& data, const Task& task) {
     const auto is_being_placed = [&] {
         return task.state == TaskState::ready && std::filesystem::exists(data.reused(task));
     };
+    // Asked before and after the listing: the cache may begin or end in between.
     const bool was_being_placed = is_being_placed();
     std::set<std::string> names;
     std::error_code error;
@@ -36,6 +41,7 @@ std::set<std::string> outputs_of(const DataFolder& data, const Task& task) {
     return names;
 }
 
+/// `not_reached` does not count as a failure of the run; anything else does.
 void skip(Transaction& transaction, const Task& parent, const BlockedTask& child) {
     if (const auto beyond = why_not_reached(parent, child)) {
         transaction.pass_over_task(child.id, *beyond);
@@ -72,6 +78,7 @@ void settle_children(Store& store, const DataFolder& data, const std::string& pa
             transaction.try_move_task(each.id, TaskEvent::release);
         for (const BlockedTask& each : skipped) skip(transaction, *parent, each);
     });
+    // A skipped task is final, so that its own children are skipped too. Depth: three phases.
     for (const BlockedTask& each : skipped) settle_children(store, data, each.id);
 }
 

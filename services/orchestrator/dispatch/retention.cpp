@@ -1,3 +1,6 @@
+// Removes runs in two steps. Transaction::remove_run deletes the rows and notes the run in
+// `removals`; this thread deletes the folder and then the note. Killed in between, the next look
+// finds the note and goes on. The other order would leave rows whose files are gone.
 #include "services/orchestrator/dispatch/retention.hpp"
 
 #include <spdlog/spdlog.h>
@@ -14,6 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Days and gigabytes change slowly; an order by a user calls wake() instead of waiting.
 constexpr auto between_looks = std::chrono::seconds(60);
 constexpr std::int64_t pages_at_once = 2000;  // 8 MB: bounds the wait of other writers
 constexpr double file_grace_days = 1.0;       // between the upload and a study that names it

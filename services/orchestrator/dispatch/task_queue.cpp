@@ -1,3 +1,5 @@
+// A thread with a queue, for the cache and the registrar. The queue is not stored: both can find
+// their work again in the store after a restart.
 #include "services/orchestrator/dispatch/task_queue.hpp"
 
 namespace breach::orchestrator {

@@ -1,3 +1,8 @@
+// Attempts as processes of this machine. The supervisor holds the attempt's lock, which the
+// kernel frees however it dies: whether an attempt lives is therefore asked of the lock, never of
+// a process number, which another process may have by now. The calls come from the dispatcher's
+// thread. Supervisors have a session of their own and outlive a killed service; the next one
+// adopts them.
 #include "services/orchestrator/executors/local_executor.hpp"
 
 #include <fcntl.h>
@@ -34,6 +39,8 @@ struct Attributes {
     Attributes& operator=(const Attributes&) = delete;
 };
 
+/// The mark is inherited by every descendant, so that kill_marked_processes finds them even after
+/// a supervisor was killed.
 std::vector<std::string> marked_environment(const std::string& attempt) {
     std::vector<std::string> entries{std::string(attempt_mark) + "=" + attempt};
     for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -60,6 +67,8 @@ void LocalExecutor::submit(const AttemptFolder& folder, const Order& order) {
     const auto lock = FileLock::try_take(folder.lock());
     if (!lock)
         throw fault::IoError(folder.lock().string() + ": is held; the attempt was started before");
+    // With the lock held, no supervisor writes there. A leftover exit record would be read as
+    // this attempt's.
     remove_remains(folder);
     write_order(folder, order);
 
@@ -69,6 +78,7 @@ void LocalExecutor::submit(const AttemptFolder& folder, const Order& order) {
                                      O_WRONLY | O_CREAT | O_APPEND, 0644);
     posix_spawn_file_actions_adddup2(&actions.value, STDOUT_FILENO, STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&actions.value, lock->descriptor(), lock_descriptor);
+    // Otherwise the supervisor would keep the database and sockets of the service open.
     posix_spawn_file_actions_addclosefrom_np(&actions.value, lock_descriptor + 1);
 
     Attributes attributes;
@@ -76,6 +86,7 @@ void LocalExecutor::submit(const AttemptFolder& folder, const Order& order) {
     sigemptyset(&none);
     sigset_t all{};
     sigfillset(&all);
+    // The service blocks SIGINT and SIGTERM and ignores SIGPIPE; the phases need them.
     posix_spawnattr_setsigmask(&attributes.value, &none);
     posix_spawnattr_setsigdefault(&attributes.value, &all);
     posix_spawnattr_setflags(

@@ -1,3 +1,7 @@
+// The files by which service and supervisor talk: order, stop, heartbeat, exit record. Files
+// rather than pipes, because each side may be killed and start again, and may be on another
+// machine. The exit record is published by a rename: it is there as a whole or not at all, and
+// decides that an attempt has ended.
 #include "services/orchestrator/executors/order.hpp"
 
 #include <fcntl.h>
@@ -96,6 +100,8 @@ std::optional<ExitRecord> read_exit_record(const AttemptFolder& folder) {
 }
 
 void write_heartbeat(const AttemptFolder& folder, const Heartbeat& beat) {
+    // In place rather than by a rename: it is written every two seconds, and only its time
+    // matters for life. It must work on a full disk too, where the time still changes.
     const int file = open(folder.heartbeat().c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
     if (file < 0) return;
     const json document{{"host", beat.host},
@@ -120,6 +126,8 @@ std::optional<Heartbeat> read_heartbeat(const AttemptFolder& folder) {
                      .memory_mb = said.value("memory_MB", std::int64_t{0})};
 }
 
+/// The first reason stays: a shutdown after a cancel must not make the task continue at the next
+/// start.
 void write_stop(const AttemptFolder& folder, StopReason reason) {
     if (!std::filesystem::exists(folder.stop()))
         exchange::publish_text(folder.stop(), words::name_of(reason));

@@ -13,6 +13,8 @@
 
 namespace breach::orchestrator {
 
+/// Written by the executor before the supervisor starts, read by the supervisor, and after a
+/// restart by the Slurm executor.
 struct Order {
     /// Attempt id; every process started for it carries it in its environment
     std::string attempt;
@@ -30,6 +32,8 @@ struct Order {
 enum class StopReason { cancel, shutdown, revoked, signal };
 std::string_view name_of(StopReason reason);
 
+/// Written once, by the supervisor, when no process of the attempt is left; its presence ends the
+/// attempt.
 struct ExitRecord {
     std::string attempt;
     std::optional<int> exit_code;
@@ -40,7 +44,8 @@ struct ExitRecord {
     std::string disk = {};  ///< why files could not be written at the end; empty: they could
 };
 
-/// A supervisor's report about its phase while it runs, every two seconds.
+/// A supervisor's report about its phase while it runs, every two seconds. Read for life by the
+/// Slurm executor, and for the cost of a lost attempt.
 struct Heartbeat {
     std::string host;
     std::int64_t pid = 0;        ///< of the phase; 0: it has not begun

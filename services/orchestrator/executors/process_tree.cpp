@@ -1,3 +1,6 @@
+// Reads /proc. The supervisor uses descendants() and usage_of(); the local executor and
+// `supervise --end-strays` use the mark in the environment, which is the only trace of an attempt
+// whose supervisor is gone and whose processes init has adopted.
 #include "services/orchestrator/executors/process_tree.hpp"
 
 #include <unistd.h>
@@ -132,6 +135,7 @@ Marked marked_processes(const std::string& attempt) {
 void kill_marked_processes(const std::string& attempt) {
     constexpr int most_waits = 100;  // limit for a process without any environment
     constexpr auto wait = std::chrono::milliseconds(1);
+    // Itself first: `--end-strays` carries the mark of the attempt that it ends.
     std::set<pid_t> killed{getpid()};
     // A process may fork before it is killed: repeat until there are no new ones.
     int waits = 0;

@@ -1,3 +1,6 @@
+// Calls sbatch, squeue and scancel, on the clerk's thread of SlurmExecutor. An error of sbatch
+// does not prove that there is no job: a controller may accept it and lose the connection.
+// Therefore three replies, and `doubtful` unless the refusal is certain.
 #include "services/orchestrator/executors/slurm_commands.hpp"
 
 #include <unistd.h>
@@ -14,6 +17,7 @@ namespace breach::orchestrator {
 namespace {
 
 constexpr const char* squeue_format = "%F %K %T %j %r";
+/// Users may only lower their jobs' priority (--nice), so the highest of ours is Slurm's zero.
 constexpr std::int64_t highest_priority = 100;
 
 /// Quotes a word for /bin/sh.
@@ -52,6 +56,7 @@ std::string script_of(const Batch& batch, const std::string& self) {
     return script.str();
 }
 
+/// Parts of Slurm's messages, some without the first letter, whose case varies.
 bool is_passing_trouble(const std::string& said) {
     constexpr std::array signs{
         "nable to contact", "timed out",    "onnection refused", "uthentication",  "temporarily",

@@ -1,3 +1,7 @@
+// Two threads meet in jobs_. The dispatcher calls submit, probe, stop and clear_away, which only
+// read the folder and change jobs_; the clerk (serve) talks to Slurm without the lock, because a
+// command may take half a minute. jobs_ is memory only: after a restart find_or_adopt makes a job
+// again from slurm_job and order in its folder.
 #include "services/orchestrator/executors/slurm_executor.hpp"
 
 #include <spdlog/spdlog.h>
@@ -18,8 +22,12 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t largest_array = 100;  // limits the script's size
+/// Tasks of one commit arrive within milliseconds; one sbatch for all of them spares the
+/// controller.
 constexpr auto gathering = std::chrono::milliseconds(30);
+/// After a scancel the queue is looked at again soon, to see it take effect.
 constexpr auto soon = std::chrono::seconds(1);
+/// The supervisor sends KILL after the grace time and then writes its record.
 constexpr auto margin_after_grace = std::chrono::seconds(5);
 
 std::chrono::milliseconds in_milliseconds(double seconds) {
@@ -114,6 +122,7 @@ std::optional<std::vector<QueuedJob>> SlurmExecutor::jobs() {
 
 // ---------------------------------------------------------------- calls by the dispatcher
 
+/// A folder with a job's name and no exit record may still get a job: a second one is refused.
 void SlurmExecutor::submit(const AttemptFolder& folder, const Order& order) {
     std::filesystem::create_directories(folder.root);
     const bool may_come = std::filesystem::exists(folder.slurm_job()) &&
@@ -200,6 +209,8 @@ std::string SlurmExecutor::Job::what_keeps() const {
     return {};
 }
 
+/// Only the last branch gives an attempt up, after the grace time: Slurm may list a job as over
+/// before its exit record is seen here.
 Vitals SlurmExecutor::vitals_of(Job& job) const {
     switch (job.stage) {
         case Stage::waiting:
@@ -238,6 +249,9 @@ void SlurmExecutor::stop(const AttemptFolder& folder, StopReason reason) {
     look_soon();
 }
 
+/// Called when the dispatcher counts the attempt as lost. The job may still start: the stop file
+/// makes its supervisor leave without a record, and scancel removes it from the queue.
+/// cancel_the_unwanted erases the entry once Slurm shows the job as over.
 void SlurmExecutor::clear_away(const AttemptFolder& folder, const std::string&) {
     try {
         write_stop(folder, StopReason::revoked);

@@ -43,6 +43,11 @@ class SlurmExecutor final : public Executor {
   private:
     using Clock = std::chrono::steady_clock;
 
+    /// submit() creates a job in `waiting`. open_round moves it to `asking`, close_round to
+    /// `submitted`, `refused` or `doubtful`. recover_the_unanswered moves `asking` to `doubtful`
+    /// after an error of the clerk. take_in moves `doubtful` by the queue's listing: to
+    /// `submitted`, or back to `waiting`. stop() moves `waiting` to `refused`. probe() erases a
+    /// job with an exit record, clear_away() and cancel_the_unwanted() those that were given up.
     enum class Stage {
         waiting,    ///< for its sbatch
         asking,     ///< its sbatch runs now

@@ -1,3 +1,8 @@
+// The process between executor and phase, started as `breachline supervise FOLDER` by the local
+// executor or a Slurm script. It holds the attempt's lock, takes the task's fence, starts the
+// phase, passes a stop on, ends all that the phase leaves, and writes the exit record last. If it
+// is killed, the phase dies with it (PDEATHSIG), no record appears, and the executor counts the
+// attempt as lost.
 #include "services/orchestrator/executors/supervisor.hpp"
 
 #include <fcntl.h>
@@ -31,6 +36,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// The shell's exit code for a command that is not found.
 constexpr int cannot_execute = 127;
 constexpr auto pause = std::chrono::milliseconds(20);
 constexpr auto heartbeat_interval = std::chrono::seconds(2);
@@ -65,6 +71,8 @@ class Supervision {
             wait_a_little();
             reap();
         }
+        // Before the record: whoever reads it may start the next attempt in the same output
+        // folder.
         kill_the_rest();
         pass_failpoint("supervisor_after_phase");
         record_exit();
@@ -116,6 +124,7 @@ class Supervision {
     /// Between fork and exec: own process group, dies with the supervisor, output into its files.
     [[noreturn]] void become_the_phase() {
         setpgid(0, 0);
+        // Does not reach the phase's own children: these the executor finds by their mark.
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         sigprocmask(SIG_UNBLOCK, &signals_, nullptr);
         const int lines =

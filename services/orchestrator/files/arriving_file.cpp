@@ -1,3 +1,8 @@
+// A file that a client is sending. POST /v1/files creates it locked, and its handler appends and
+// then moves it into its place. A broken connection leaves a resumable file, which the next
+// request with the same hash takes up; the destructor removes those that are not kept, and every
+// new upload removes those that no client continued for a day. The lock keeps two requests from
+// writing one file.
 #include "services/orchestrator/files/arriving_file.hpp"
 
 #include <sys/stat.h>
@@ -63,6 +68,7 @@ std::optional<ArrivingFile> ArrivingFile::resumable(const fs::path& folder,
     }
 }
 
+/// After a move to its place another file may have the path: it stays.
 ArrivingFile::~ArrivingFile() {
     std::error_code error;
     if (lock_.descriptor() >= 0 && !kept_ && is_at(path_, lock_)) fs::remove(path_, error);

@@ -1,3 +1,5 @@
+// The store knows what each output was; this compares. The cache looks at contents, the audit may
+// look at sizes only, which is much faster.
 #include "services/orchestrator/files/damage.hpp"
 
 #include "core/exchange/provenance.hpp"

@@ -1,3 +1,5 @@
+// The one place that knows the layout of the data folder. DataFolder holds the instance lock from
+// start to end, as two services on one store would start each task twice.
 #include "services/orchestrator/files/data_folder.hpp"
 
 #include <cassert>

@@ -1,3 +1,6 @@
+// Space on the disk by run. The cache shares files by hard links, so that a run's size is not
+// what its removal frees: contents are counted by inode, with the names that each run has for it.
+// Retention and the storage page call it; it visits every file.
 #include "services/orchestrator/files/disk_use.hpp"
 
 #include <sys/stat.h>
@@ -32,6 +35,7 @@ void for_each_below(const fs::path& folder, const std::function<void(const struc
 
 }  // namespace
 
+/// Without a look at other runs: the inode's link count says whether there are names elsewhere.
 std::int64_t freed_without(const fs::path& run) {
     std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint64_t> names_here;
     std::int64_t freed = 0;

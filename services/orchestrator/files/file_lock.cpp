@@ -1,3 +1,6 @@
+// Locks that the kernel frees when the last process that inherited them ends, even by KILL; so no
+// lock is ever left over. OFD locks rather than flock() because F_OFD_GETLK asks without taking,
+// and rather than POSIX locks because those vanish when any descriptor of the file is closed.
 #include "services/orchestrator/files/file_lock.hpp"
 
 #include <fcntl.h>
@@ -48,6 +51,8 @@ FileLock::~FileLock() {
     if (descriptor_ >= 0) close(descriptor_);
 }
 
+/// Where the file may be moved or deleted, the caller compares inodes (ArrivingFile): a second
+/// process could lock a new file of the same name.
 bool is_held(const std::filesystem::path& file) {
     const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0 && errno == ENOENT) return false;

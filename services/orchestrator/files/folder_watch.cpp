@@ -1,3 +1,6 @@
+// Notices of the kernel about folders on this machine. They only shorten the wait: callers look
+// again after a while without one, as other machines' changes give none and a full queue drops
+// them.
 #include "services/orchestrator/files/folder_watch.hpp"
 
 #include <sys/inotify.h>
@@ -18,6 +21,8 @@ FolderWatch::FolderWatch() : descriptor_(inotify_init1(IN_NONBLOCK | IN_CLOEXEC)
 
 FolderWatch::~FolderWatch() { close(descriptor_); }
 
+/// -1 for a folder that is missing or one too many; the caller then relies on its regular look.
+/// Adding a folder twice gives the same number.
 int FolderWatch::add(const std::filesystem::path& folder, Notice notice) {
     const std::uint32_t mask =
         notice == Notice::published_files ? IN_MOVED_TO : IN_MOVED_TO | IN_MODIFY | IN_CREATE;

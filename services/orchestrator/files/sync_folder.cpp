@@ -1,3 +1,4 @@
+// A new or renamed file survives a power cut only when its folder is written, too.
 #include "services/orchestrator/files/sync_folder.hpp"
 
 #include <fcntl.h>

@@ -1,3 +1,5 @@
+// Serves pages that draw a running FEM: they ask again from `next`, so an incomplete last line is
+// not counted and comes whole with the next answer.
 #include "services/orchestrator/files/telemetry.hpp"
 
 #include <nlohmann/json.hpp>

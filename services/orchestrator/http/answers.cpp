@@ -1,3 +1,5 @@
+// JSON of records, for all routes: one place, so that a run looks the same in a list, in an
+// answer to an order and in its own page. null means not known or not applicable.
 #include "services/orchestrator/http/answers.hpp"
 
 #include "core/exchange/csv.hpp"

@@ -1,3 +1,6 @@
+// Events for pages and clients: a stream, or a long poll for clients that cannot stream. Both
+// occupy a thread of the server while they wait, hence the two limits. The sequence number is all
+// the state there is, so that a client goes on after a restart where it was.
 #include <charconv>
 #include <memory>
 
@@ -15,8 +18,10 @@ constexpr int most_streams = 200;  // each needs a thread of the server
 constexpr int most_waiters = 32;
 constexpr std::size_t largest_batch = 500;
 constexpr std::int64_t longest_wait_seconds = 60;
+/// Larger integers are not exact in JavaScript.
 constexpr std::int64_t largest_seq = std::int64_t{1} << 53;
 constexpr auto look_at_stopping = std::chrono::milliseconds(250);
+/// Proxies close connections that are silent.
 constexpr auto sign_of_life = std::chrono::seconds(15);
 
 std::atomic<int> streams = 0;

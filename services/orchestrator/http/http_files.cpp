@@ -1,3 +1,6 @@
+// Files that studies name: motions and meshes. An upload is written to a file of its own and
+// hashed; only then the store publishes it under its hash, in the transaction of its row. With a
+// hash in the request, an interrupted upload is kept and resumed.
 #include <algorithm>
 #include <array>
 
@@ -25,6 +28,8 @@ namespace {
 constexpr std::array<std::string_view, 5> endings{".at2", ".vt2", ".dt2", ".csv", ".msh"};
 constexpr const char* other_ending = ".txt";
 
+/// The ending decides how a phase reads the file. It is kept because the name itself becomes the
+/// hash.
 std::string ending_of(const std::string& name) {
     std::string ending = fs::path(name).extension();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
@@ -51,6 +56,8 @@ Problem disk_refused(const std::string& why) {
 
 /// Appends the body to the file. `kept`: an interrupted upload may be resumed.
 void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
+    // Beyond this the connection is closed: a sender that ignores the limit must not occupy a
+    // thread.
     constexpr std::size_t dropped = std::size_t{64} << 20;
     auto bytes = static_cast<std::size_t>(file.bytes());
     std::optional<std::string> refused;

@@ -1,3 +1,5 @@
+// Finds the route for a method and path and turns what a handler throws into a problem document
+// (RFC 9457). Routes are added once at the start and only read afterwards, so no lock is needed.
 #include "services/orchestrator/http/http_router.hpp"
 
 #include <spdlog/spdlog.h>

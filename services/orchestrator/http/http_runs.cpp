@@ -1,3 +1,6 @@
+// Runs and tasks: submit, list, show, and a user's orders. Orders are one transaction each and
+// then wake the dispatcher; the answer shows the state after the transaction, not after the
+// processes have followed.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -25,6 +28,7 @@ using nlohmann::json;
 
 namespace {
 
+/// Bounds the memory of one answer; a run may have many thousand tasks.
 constexpr std::size_t tasks_at_once = 500;  // read and sent together
 
 /// The tasks with their attempts and artifacts: three queries for any number of tasks.
@@ -71,6 +75,7 @@ void list_runs(const Service& service, Call& call, Ask ask) {
                           (filter.sweeps_only ? "planning, refining, " : "") +
                           "running, succeeded, questionable, partial, failed or cancelled");
     if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
+    // One more than wanted says whether there is a next page.
     std::vector<Run> runs = service.store.runs(filter, length + 1);
     const json next =
         cut_to(length, runs, [](const Run& last) { return last.created + "~" + last.id; });

@@ -1,3 +1,6 @@
+// Between the sockets (httplib) and the router: limits, tokens and bodies. Each request runs on a
+// thread of the pool; the handlers below are the only ones. What is refused here never reaches a
+// route. stop() lets running requests end; streams see `stopping_` and close.
 #include "services/orchestrator/http/http_server.hpp"
 
 #include <spdlog/spdlog.h>
@@ -16,6 +19,7 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// Held in memory by each request. Files may be larger: POST /v1/files streams them.
 constexpr std::size_t largest_body = 16 << 20;
 constexpr std::size_t most_headers = 64;
 constexpr std::size_t added_by_httplib = 4;    // REMOTE_ADDR and the like

@@ -1,3 +1,5 @@
+// What the disk holds, and its removal by a user. Rows go in the request; folders follow on the
+// thread of retention, as a large run would block the answer.
 #include <filesystem>
 
 #include "services/orchestrator/files/disk_use.hpp"
@@ -15,6 +17,7 @@ void remove_run(Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];
     const Run run = wanted_run(service, id);
+    // Before the removal, while the files are there.
     const std::int64_t freed = freed_without(service.data.run(id));
     const Removal outcome = service.store.write(call.caller.name, [&](Transaction& transaction) {
         return transaction.remove_run(id, "asked for over the API");

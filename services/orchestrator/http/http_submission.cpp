@@ -1,3 +1,7 @@
+// From a sent study to a stored run; POST /v1/runs and /v1/sweeps call it on their request's
+// thread. The answer follows the commit: a client that gets none repeats the request with the
+// same Idempotency-Key and receives the first run. The key is stored in the run's transaction, so
+// that there is never one without the other.
 #include "services/orchestrator/http/http_submission.hpp"
 
 #include <algorithm>
@@ -13,6 +17,8 @@ using nlohmann::json;
 
 namespace {
 
+/// Two equal requests may arrive at once, before either has stored the key: the second gets 409
+/// and asks again. Ends with the request, also by an exception.
 class KeyInProgress {
   public:
     KeyInProgress(KeysInProgress& keys, std::string key, httplib::Response& response)

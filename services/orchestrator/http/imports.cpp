@@ -1,3 +1,5 @@
+// POST of a drawing from the dashboard's form. It stores nothing: the answer has the scene, which
+// the page then submits or downloads.
 #include "services/orchestrator/http/imports.hpp"
 
 #include <set>

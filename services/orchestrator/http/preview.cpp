@@ -1,3 +1,6 @@
+// Drawing, faults and cost of a study before it is submitted. It runs the checks of a submission,
+// so that what passes here is accepted there, and it still draws a scene with faults, with their
+// places.
 #include "services/orchestrator/http/preview.hpp"
 
 #include <algorithm>
@@ -58,6 +61,7 @@ Judged judged(const Service& service, const json& document, const drawing::Draft
         return {{}, sent_study(document, service).warnings};
     } catch (const fault::BadInput& refused) {
         Judged found{refused.faults(), draft.scene.warnings};
+        // The study repeats the faults of its scene; they are already on the drawing.
         std::erase_if(found.faults, [&](const fault::Fault& each) {
             return std::ranges::any_of(draft.faults, [&](const fault::Fault& known) {
                 return each.pointer == draft.base.pointer + known.pointer;

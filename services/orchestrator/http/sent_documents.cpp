@@ -1,3 +1,5 @@
+// Reads studies and scenes of request bodies. File faults get another remedy here, because a
+// client's paths are looked up on the service's machine.
 #include "services/orchestrator/http/sent_documents.hpp"
 
 #include <unistd.h>

@@ -17,6 +17,9 @@
 namespace breach::orchestrator {
 
 /// The Idempotency-Keys of requests being stored now. Those of stored runs are in the database.
+/// Idempotency keys whose first request is being handled: KeyInProgress enters and leaves. Memory
+/// only: when the service is killed, its requests are over too, and stored keys are in the
+/// database.
 class KeysInProgress {
   public:
     bool enter(const std::string& key) {
@@ -33,6 +36,7 @@ class KeysInProgress {
     std::set<std::string> keys_;
 };
 
+/// Made by serve() and shared by all requests; everything in it outlives the HTTP server.
 struct Service {
     Store& store;
     const DataFolder& data;

@@ -1,3 +1,5 @@
+// Asked once when the service starts. A phase of another build would put wrong results into the
+// cache, so a program that does not answer ends the start.
 #include "services/orchestrator/programs/numerics.hpp"
 
 #include <charconv>

@@ -1,3 +1,5 @@
+// Ids begin with the time, so that their order is the order of creation and a list needs no
+// further index.
 #include "services/orchestrator/records/identity.hpp"
 
 #include <array>
@@ -23,6 +25,7 @@ std::string new_run_id() {
     return id;
 }
 
+/// Five digits keep ids in order up to 100,000 tasks of a run.
 std::string task_id(const std::string& run, std::size_t ordinal) {
     std::array<char, 32> number{};
     std::snprintf(number.data(), number.size(), "-%05zu", ordinal);

@@ -1,3 +1,5 @@
+// The table of moves of tasks and attempts. `cancelling` and `starting` have exits of their own
+// for a service that was killed between a row and its process.
 #include "services/orchestrator/records/lifecycle.hpp"
 
 #include <algorithm>

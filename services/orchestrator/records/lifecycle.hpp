@@ -66,6 +66,12 @@ enum class TaskEvent {
     redo,             ///< asked for by a user: what ended badly is tried again
 };
 
+/// Attempts (dispatch/attempts.cpp) creates a row as `submitting`, in the transaction that claims
+/// the task, and moves it: to `submitted` when the executor took it, to `running` at the phase's
+/// first line of progress, to `exited` with its exit record, to `lost` if there is neither
+/// process nor record. No code reports the event that leads to `fenced` at present: a lost
+/// attempt stays lost. At most one attempt of a task is live. Rows stay until the run is removed;
+/// its folder goes with the run.
 enum class AttemptState { submitting, submitted, running, exited, lost, fenced };
 
 enum class AttemptEvent {

@@ -68,6 +68,8 @@ struct Batches {
     std::string reason;  ///< why it is given up or stopped
 };
 
+/// A run before it is stored: made by http_submission from a Study, stored whole by add_run or
+/// not at all.
 struct NewRun {
     std::string id;
     std::string name;
@@ -127,9 +129,10 @@ struct Run {
     std::string id;
     std::string name;
     std::string title;
-    /// Derived: queued running budget_exhausted succeeded questionable partial failed cancelled.
+    /// Derived by the view run_summaries, never stored: queued running succeeded questionable
+    /// partial failed cancelled.
     /// questionable: all succeeded, but a result has a flag that makes it unreliable.
-    /// budget_exhausted: tasks wait, and none is started until the budget is raised.
+    /// partial: some results are missing. A run is over when no task, trigger or batch is open.
     std::string state;
     std::string created;
     std::optional<std::string> started;
@@ -187,6 +190,10 @@ struct TaskFault {
     std::string summary;
 };
 
+/// Transaction::add_run, extend_run and add_transfer create it; records/lifecycle.hpp says who
+/// moves it on; remove_run ends it. parent, release and input say what it waits for. recipe NULL:
+/// never reused, also after the retry of a breakdown. started: the first claim; finished: set in
+/// final states only, and unset by a redo.
 struct Task {
     std::string id;
     std::string run;
@@ -221,6 +228,9 @@ struct BlockedTask {
     std::optional<double> transfer_time;  ///< t_T [s]
 };
 
+/// One process of a task, or the intent to start one. started NULL: no sign of life was noted.
+/// exit_code and signal NULL: it lives, was lost, or was stopped before its phase began.
+/// wall_seconds NULL for a lost one; its cpu_seconds are those of the last heartbeat.
 struct Attempt {
     std::string task;
     std::int64_t number;
@@ -234,6 +244,8 @@ struct Attempt {
     std::optional<double> cpu_seconds;
 };
 
+/// A file below a task's output folder, as the registrar or the cache stored it; replaced with
+/// each new end of the task, deleted by a retry and with the run.
 struct Artifact {
     std::string task;
     std::string name;  ///< path below the task's output folder
@@ -241,6 +253,8 @@ struct Artifact {
     std::int64_t bytes;
 };
 
+/// Written in the transaction of the change that it reports, never changed; deleted with its run,
+/// except the event of the removal itself.
 struct Event {
     std::int64_t seq;
     std::string time;
@@ -251,6 +265,8 @@ struct Event {
 };
 
 /// An uploaded file, identified by its content.
+/// keep_file creates it, and every use touches it. Retention deletes it with its row when no run
+/// names it and it was not used for a day; a user may do so earlier.
 struct StoredFile {
     std::string sha256;
     std::string file;   ///< in the folder of stored files: the digits and the ending

@@ -1,3 +1,6 @@
+// Equality to the last digit, because computations are deterministic: equal numbers mean that an
+// entry had no effect, not that it had a small one. cpu_seconds differs in each run and is left
+// out.
 #include "services/orchestrator/records/same_results.hpp"
 
 #include <algorithm>

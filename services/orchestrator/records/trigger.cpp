@@ -1,3 +1,5 @@
+// The table of moves is the only rule: the store asks next() and refuses what is not there. Specs
+// are checked here at submission, so that a watcher can rely on them.
 #include "services/orchestrator/records/trigger.hpp"
 
 #include <algorithm>

@@ -26,6 +26,7 @@ void Transaction::end_batches(const std::string& run, const std::string& state,
 }
 
 void Transaction::open_batches(const std::string& run, bool tasks_run_again) {
+    // A plan that was given up gets another chance only if the retry computes something new.
     const std::string ended = tasks_run_again ? "('given_up', 'stopped')" : "('stopped')";
     if (database_.change(
             "UPDATE batches SET state='open', reason='' WHERE run=? AND state IN " + ended, {run}) >

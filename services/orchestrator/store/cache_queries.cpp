@@ -1,4 +1,8 @@
 // Queries of the cache.
+// The dispatcher calls has_candidate and equal_in_flight for each ready task in every round, so
+// both must cost one step in an index however many tasks wait; INDEXED BY makes a changed index
+// an error instead of a slow service. answers_to runs on the cache's thread. The earlier_*
+// queries serve the page that explains why a task was computed again (dispatch/why.cpp).
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {
@@ -18,6 +22,7 @@ Recipe recipe_from(const Row& row) {
 
 }  // namespace
 
+/// Without the input's hash, which is not known yet. parent NULL: the phase has no input file.
 bool Store::has_candidate(const Task& task) const {
     // Another snapshot of the same FEM is no reason to hash this one. The index contains answers
     // only: an index of all tasks of the recipe would be slow when thousands wait.
@@ -39,6 +44,8 @@ std::vector<Task> Store::answers_to(const std::string& recipe, const std::string
     return found;
 }
 
+/// same_as leads to the task that computed an input first. coalesce(..., ''): tasks without a
+/// parent have equal (no) inputs.
 std::optional<std::string> Store::equal_in_flight(const Task& task) const {
     if (!task.recipe) return std::nullopt;
     // Inputs are equal if they are one file of one task, computed or reused; no hashing.
@@ -55,6 +62,8 @@ std::optional<Recipe> Store::recipe(const std::string& hash) const {
                            {hash}, recipe_from);
 }
 
+/// Ids grow with time, so that id<?3 means earlier. Equal input names first: a reader would have
+/// expected them as a hit.
 std::optional<Task> Store::earlier_equal_recipe(const Task& wanted) const {
     const auto id = reader()->text(
         R"(SELECT id FROM tasks WHERE phase=?1 AND recipe=?2 AND id<?3 AND (parent IS NULL OR parent<>?4)

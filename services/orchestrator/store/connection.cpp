@@ -1,3 +1,7 @@
+// One connection to SQLite with its prepared statements. A connection is used by one thread at a
+// time (NOMUTEX): the store's writer has one, each reader borrows another. Statements stay
+// prepared for the life of the connection, by their text, so a query's text must not contain
+// values.
 #include "services/orchestrator/store/connection.hpp"
 
 #include <sqlite3.h>
@@ -10,6 +14,8 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// Readers never wait in WAL mode. This is for another process that has the database open, such
+/// as a backup.
 constexpr int busy_timeout_ms = 10000;
 
 /// Resets the statement even when reading its rows throws.
@@ -40,6 +46,8 @@ int bind(sqlite3_stmt* statement, int index, const Value& value) {
 
 void Row::Close::operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
 
+/// Every row asks for its columns in the same order, so the place found for the first row is
+/// tried first for the next; names are compared, not searched.
 int Row::place_of(std::string_view column) const {
     if (turn_ == asked_.size()) asked_.push_back(0);
     int& place = asked_[turn_++];
@@ -57,6 +65,7 @@ bool Row::is_null_at(int place) const {
 
 std::string Row::text_at(int place) const {
     const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), place));
+    // NULL reads as empty; where they differ, the caller uses optional_text.
     if (data == nullptr) return {};
     return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), place))};
 }
@@ -120,6 +129,8 @@ void Connection::script(const std::string& sql) {
         refuse(sql);
 }
 
+/// Returns the number of changed rows, by which callers learn whether a condition in the
+/// statement held.
 std::int64_t Connection::change(const std::string& sql, const std::vector<Value>& values) {
     sqlite3_stmt* statement = prepared(sql, values).statement_.get();
     const Rewind rewind{statement};
@@ -182,6 +193,8 @@ Row& Connection::prepared(const std::string& sql, const std::vector<Value>& valu
     return kept;
 }
 
+/// A full disk is the one error that callers treat apart: they answer 503 and repeat, and nothing
+/// is lost.
 void Connection::refuse(const std::string& what) const {
     const std::string text =
         "database: " + std::string(sqlite3_errmsg(database_.get())) + " (" + what + ")";

@@ -1,3 +1,4 @@
+// Text for Prometheus. Its buckets are cumulative, ours are not: hence the running sum.
 #include "services/orchestrator/store/histogram.hpp"
 
 #include <sstream>

@@ -15,6 +15,8 @@ using nlohmann::json;
 
 namespace {
 
+/// The index tasks_unfinished finds these runs. It misses the moment in which all tasks have
+/// ended and only a trigger or a batch is open.
 bool is_open_state(const std::string& state) {
     return state == "queued" || state == "running" || state == "planning" || state == "refining";
 }
@@ -34,6 +36,8 @@ std::string sweep_state() {
         THEN 'refining' ELSE r.state END)";
 }
 
+/// run_summaries derives the state from counts. message is the first fault in order of id, a real
+/// fault before a time that was not reached. submitted_by comes from the first event.
 std::string selected_runs(const std::string& state = "r.state") {
     return "SELECT " + state +
            R"( AS shown, r.id, r.name, r.title, r.created, r.started, r.finished,
@@ -166,6 +170,8 @@ std::optional<Run> Store::one_run(const std::string& id, const std::string& stat
     return std::move(found.front());
 }
 
+/// Attempts overlap: each counts only from the latest end before it (window `before`), so that
+/// the sum is the time with at least one process. finished NULL: it still runs.
 std::pair<double, double> Store::computing_and_idle(const Run& run) const {
     const auto found = reader()->first(
         R"(WITH spans AS (SELECT julianday(attempts.started) AS begin,
@@ -212,6 +218,8 @@ std::optional<Task> Store::stability_of(const std::string& run, const std::strin
         {run, phases::lem.program, variant}, task_from);
 }
 
+/// An even choice of at most ?2 tasks of each phase, over its transfer times and variants: place
+/// * most / n steps up at each chosen one.
 std::vector<Task> Store::computed_tasks_of(const std::string& run, std::size_t most) const {
     return reader()->select(selected_tasks + R"(WHERE id IN (SELECT id
     FROM (SELECT id, row_number() OVER places AS place, count(*) OVER (PARTITION BY phase) AS n
@@ -226,6 +234,8 @@ std::vector<Task> Store::tasks_in(TaskState state, std::size_t most) const {
                             {as_value(state), as_value(most)}, task_from);
 }
 
+/// In order of priority, then age. full_queues are phases at their limit: without them here, a
+/// thousand of them would hide all others behind the LIMIT.
 std::vector<Task> Store::tasks_to_start(const std::vector<std::string>& full_queues,
                                         std::size_t most) const {
     return reader()->select(selected_tasks + R"(INDEXED BY tasks_to_start WHERE state='ready'
@@ -326,6 +336,8 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return reader()->first(selected_artifacts + "WHERE sha256=? LIMIT 1", {sha256}, artifact_from);
 }
 
+/// Equal content may belong to many tasks; the one that computed it comes before those that took
+/// it from the cache.
 std::optional<Artifact> Store::maker_of(const std::string& sha256) const {
     return reader()->first(selected_artifacts + R"(JOIN tasks ON tasks.id=task WHERE sha256=?
 ORDER BY same_as IS NOT NULL, state='cached', task LIMIT 1)",
@@ -344,6 +356,7 @@ std::map<std::string, FactorsOfSafety> Store::factors_of_safety(const std::strin
     return found;
 }
 
+/// recipe NULL: it was not reusable, so there is no part of a scene to compare.
 std::vector<AccuracyRung> Store::accuracy_rungs(std::size_t most_runs) const {
     // The condition on the study must equal that of the index runs_with_accuracy.
     return reader()->select(
@@ -447,6 +460,8 @@ ORDER BY variant_place, transfer_time LIMIT ?2 OFFSET ?3)";
     return found;
 }
 
+/// draw_of NULL: not a repeat. A mean is a lower bound as soon as one of its repeats is, hence
+/// the disjunction in `moves`.
 std::vector<ResultRow> Store::means(const std::string& run) const {
     const Reader database = reader();
     if (!database->finds("SELECT 1 FROM variants WHERE run=? AND draw_of IS NOT NULL LIMIT 1",
@@ -491,6 +506,8 @@ const std::string selected_events = "SELECT seq, time, run, task, kind, detail F
 
 }  // namespace
 
+/// From memory if possible: each open page and client waits for the newest events, and would
+/// otherwise query after every commit.
 std::vector<Event> Store::events_after(std::int64_t seq, std::size_t most) const {
     {
         const std::lock_guard lock(events_mutex_);

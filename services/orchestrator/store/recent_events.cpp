@@ -1,3 +1,5 @@
+// The newest events, for those who follow the stream. Store::commit adds under its lock and
+// forgets all when a run is removed, because events of removed runs must not be sent any more.
 #include "services/orchestrator/store/recent_events.hpp"
 
 #include <algorithm>
@@ -7,6 +9,7 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// A client that is further behind reads the database.
 constexpr std::size_t most_kept = 1000;
 
 }  // namespace
@@ -18,6 +21,8 @@ void RecentEvents::add(std::vector<Event> committed) {
 }
 
 std::optional<std::vector<Event>> RecentEvents::after(std::int64_t seq, std::size_t most) const {
+    // Nothing: events are missing between seq and the first kept one, so the database must
+    // answer.
     if (kept_.empty() || seq + 1 < kept_.front().seq) return std::nullopt;
     const auto first = std::ranges::upper_bound(kept_, seq, {}, &Event::seq);
     const auto count = std::min(most, static_cast<std::size_t>(kept_.end() - first));

@@ -33,6 +33,7 @@ constexpr std::array rows_of_run{
 
 Removal Transaction::remove_run(const std::string& run, const std::string& why) {
     if (!database_.finds("SELECT 1 FROM runs WHERE id=?", {run})) return Removal::unknown;
+    // Open triggers and batches may still add tasks.
     const bool goes_on =
         database_.finds("SELECT 1 FROM tasks WHERE run=? AND finished IS NULL LIMIT 1", {run}) ||
         database_.finds(
@@ -47,6 +48,7 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
         "NOT EXISTS (SELECT 1 FROM firing_plans WHERE instr(tasks, hash) > 0)",
         {});
     removes_events_ = true;
+    // Deleted again by Retention when the folder is gone.
     database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
     add_run_event(run, {{"event", "remove"}, {"why", why}});
     return Removal::done;
@@ -81,6 +83,8 @@ const std::string unneeded =
 
 }  // namespace
 
+/// In the transaction that adds the run: retention may have removed a file since the study was
+/// checked.
 void Transaction::add_files(const NewRun& run) {
     const std::string now = utc_now();
     for (const std::string& each : run.files) {
@@ -92,6 +96,8 @@ void Transaction::add_files(const NewRun& run) {
     }
 }
 
+/// publish moves the file to its place, before the commit: killed in between, a file without a
+/// row is left, which the next upload of the same content replaces.
 void Transaction::keep_file(const StoredFile& file, const std::function<void()>& publish) {
     const std::string now = utc_now();
     database_.change(
@@ -114,6 +120,8 @@ Removal Transaction::forget_file(const std::string& sha256, const std::function<
     return Removal::done;
 }
 
+/// The condition is asked again here, because a study may have named the file since it was
+/// listed.
 bool Transaction::forget_unused_file(const std::string& sha256, const std::string& before,
                                      const std::function<void()>& erase) {
     const bool forgotten =

@@ -14,6 +14,7 @@ using nlohmann::json;
 
 namespace {
 
+/// A page has some dozen runs, so a search is cheaper than an index.
 Run& run_named(std::vector<Run>& runs, const std::string& id) {
     return *std::ranges::find(runs, id, &Run::id);
 }
@@ -70,6 +71,8 @@ GROUP BY tasks.run)",
         });
 }
 
+/// Transfers before the FEM's liquefaction: the runout then begins from soil that is still
+/// strong. NULL comparisons are no counts: a FEM in which nothing liquefied drops out.
 void add_early(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
         R"(SELECT fem.run AS run, sum(transfer.transfer_time < liquefied) AS early, count(*) AS transfers,
@@ -87,6 +90,7 @@ GROUP BY fem.run)",
         });
 }
 
+/// Grouped by phase, with one of the reasons; not_reached is no failure (add_not_reached).
 void add_broken(Connection& database, const std::string& ids, std::vector<Run>& runs) {
     database.query(
         R"(SELECT run, phase, count(*) AS tasks,

@@ -1,3 +1,6 @@
+// Tables, indexes and SQL triggers of a new database. There is no migration: another version is
+// refused with the command that exports its runs. Views are made anew whenever their text changes
+// (store/views.cpp), without a new version.
 #include "services/orchestrator/store/schema.hpp"
 
 #include "services/orchestrator/store/views.hpp"
@@ -6,8 +9,15 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// Raise it with every change of a table, index or SQL trigger below.
 constexpr std::int64_t this_version = 14;
 
+/// run_counts and flags are kept by SQL triggers rather than by the service: they change with
+/// every move of a task in the same transaction, and a list of runs reads one row per run instead
+/// of thousands of tasks. Partial indexes stay small: they hold only rows that wait, are open or
+/// have a fault, and SQLite uses one only if the query repeats its condition. one_live_attempt
+/// makes a second process for a task an error. The states' meaning: records/lifecycle.hpp and
+/// records/trigger.hpp.
 const char* const tables = R"sql(
 -- What a phase computes: equal recipes and inputs have equal results.
 CREATE TABLE recipes (
@@ -284,6 +294,8 @@ std::optional<std::string> refusal_of(std::int64_t version) {
            "with another folder (--data)";
 }
 
+/// Called once per start. BEGIN IMMEDIATE: two services that start on one folder make the tables
+/// once; killed in between, SQLite rolls back and the next start finds version 0.
 void make_schema(Connection& database, const std::filesystem::path& file) {
     const std::int64_t version = version_of(database);
     if (const auto refusal = refusal_of(version)) throw StoreError(file.string() + " " + *refusal);

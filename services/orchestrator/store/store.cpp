@@ -1,3 +1,7 @@
+// One thread writes; all others queue a job and wait. It commits many jobs at once, because a
+// commit waits for the disk and the jobs do not. Each job has a savepoint: one that throws is
+// undone alone, the others are stored. Readers have connections of their own and see the last
+// commit.
 #include "services/orchestrator/store/store.hpp"
 
 #include <algorithm>
@@ -11,6 +15,7 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// Bounds how long the first job of a group waits for the others.
 constexpr std::size_t largest_group = 256;
 constexpr std::size_t most_idle_readers =
     32;  // typical number of concurrent readers; each needs some 100 kB
@@ -31,6 +36,8 @@ Store::Store(const std::filesystem::path& file)
 
 Store::~Store() = default;
 
+/// Returns after the commit: whoever has an answer may rely on the disk. Throws what the job
+/// threw, or StoreError for the whole group.
 void Store::wait_for(std::function<void(Transaction&)> change, const std::string& by) {
     Job job{std::move(change), by, {}, nullptr};
     std::future<void> done = job.done.get_future();
@@ -77,6 +84,7 @@ void Store::commit(std::deque<Job>& jobs) {
         }
         pass_failpoint("store_before_commit");
         writing_.script("COMMIT");
+        // Events are published after the commit, so that no client hears of what a crash undoes.
         pass_failpoint("store_after_commit");
     } catch (const StoreError&) {
         const std::exception_ptr failure = std::current_exception();

@@ -1,3 +1,7 @@
+// Operations within one transaction, on the writer's thread (store.cpp). Each checks the present
+// state of what it changes, as the caller decided on an older snapshot: try_ operations and those
+// that return bool let the caller learn that a cancel or removal came first. Every change writes
+// an event in the same transaction.
 #include "services/orchestrator/store/transaction.hpp"
 
 #include "core/phases/phases.hpp"
@@ -21,6 +25,7 @@ std::string text_of(const json& document) {
 
 const std::string is_a_run = "SELECT 1 FROM runs WHERE id=?";
 
+/// By the form of task ids (records/identity.hpp), without a query.
 std::string run_of(const std::string& task) { return task.substr(0, task.find('-')); }
 
 /// Replaces the task's artifacts.
@@ -70,6 +75,7 @@ VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?))",
          state == TaskState::ready ? Value(epoch_ms()) : Value(nullptr)});
 }
 
+/// From a counter rather than the number of tasks, so that no id is given twice.
 std::int64_t Transaction::next_ordinal(const std::string& run) {
     return database_
         .integer("UPDATE runs SET last_task = last_task + 1 WHERE id=? RETURNING last_task - 1",
@@ -97,6 +103,7 @@ void Transaction::extend_run(const std::string& run, const Extension& extension)
                      {extension.study.dump(), warnings_with(run, extension.warnings), run});
     add_run_event(run, {{"event", "extend"}, {"tasks", extension.tasks.size()}});
     const std::int64_t priority =
+        // NULL for a run without tasks.
         database_.integer("SELECT max(priority) FROM tasks WHERE run=?", {run}).value_or(0);
     std::vector<std::string> ids;
     for (const AddedTask& each : extension.tasks) {
@@ -132,6 +139,8 @@ TaskState Transaction::state_of(const std::string& task) const {
     return task_state_named(*state);
 }
 
+/// started keeps the first claim, so that a run's time includes retries. ready_at is the last
+/// time it became ready, from which the wait is measured.
 void Transaction::set_state(const std::string& task, TaskState from, TaskEvent event, TaskState to,
                             std::optional<std::int64_t> retry_at, json detail) {
     const std::string now = utc_now();
@@ -213,6 +222,9 @@ void Transaction::keep_remains(const std::string& task, const std::vector<Artifa
     database_.change("UPDATE tasks SET input_sha256=? WHERE id=?", {input_sha256, task});
 }
 
+/// Called by Cache::take, with the files in place. False: `earlier` was removed or retried, or
+/// the task is no longer ready; the cache then removes the files. same_as names the first of a
+/// chain, which alone computed.
 bool Transaction::reuse_task(const std::string& task, const Task& earlier) {
     const bool are_as_read = database_.finds(
         R"(SELECT 1 FROM tasks AS earlier JOIN tasks AS task ON task.id=?
@@ -286,6 +298,8 @@ std::int64_t Transaction::count_try(const std::string& task) {
         .value_or(0);
 }
 
+/// Triggers and batches first, so that nothing adds tasks to a run that is being cancelled.
+/// Running tasks go to `cancelling`; the dispatcher ends their processes.
 bool Transaction::cancel_run(const std::string& run, const std::string& why) {
     const std::vector<std::string> tasks =
         database_.texts("SELECT id FROM tasks WHERE run=? AND finished IS NULL", {run});
@@ -327,6 +341,8 @@ bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
     return known;
 }
 
+/// Ids are read first: moving tasks while the query steps over them would change what it returns.
+/// not_reached tasks stay skipped, as the same FEM would end as early again.
 std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
     std::vector<std::pair<std::string, std::string>> tasks;
     bool known = false;

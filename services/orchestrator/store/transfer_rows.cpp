@@ -6,6 +6,8 @@ namespace breach::orchestrator {
 // A time of the study has no firing. A transfer has one MPM task per variant that shares it.
 // start_ms: from ready (the snapshot was seen) to the start of the last attempt; null for a result
 // from the cache.
+/// Several triggers may share a snapshot: the first that noticed it counts. 2440587.5 is the
+/// Julian day of 1970-01-01, 86400000 the milliseconds of a day. Pages go by falling ids.
 std::vector<TransferRow> Store::transfers_of(const TransferFilter& filter, std::size_t most) const {
     return reader()->select(
         R"(SELECT t.id AS id, t.run AS run, t.parent AS parent, t.transfer_time AS transfer_time,

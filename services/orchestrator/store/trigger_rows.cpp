@@ -154,6 +154,9 @@ bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json 
     return true;
 }
 
+/// One transaction for the firing and its tasks: killed before it, the trigger is still open and
+/// fires again on the same snapshot. OR IGNORE: the key (trigger, time) makes a repeated firing
+/// harmless.
 bool Transaction::add_firing(const Trigger& trigger, const Firing& firing) {
     const auto added = database_.change(
         R"(INSERT OR IGNORE INTO firings (trigger, transfer_time, wanted_time, snapshot, sha256, crossed,
@@ -217,6 +220,8 @@ void Transaction::disarm_triggers(const std::string& run, const std::string& why
     for (const Trigger& each : open) move_trigger(each, TriggerEvent::disarm, {{"why", why}});
 }
 
+/// A disarmed trigger always; an expired one only if a task on which its decision rests runs
+/// again.
 std::vector<Trigger> Transaction::triggers_to_rearm(
     const std::string& run, const std::set<std::string>& tasks_tried_again) const {
     std::vector<Trigger> found =
@@ -231,6 +236,7 @@ std::vector<Trigger> Transaction::triggers_to_rearm(
 
 // ---------------------------------------------------------------- reading
 
+/// Those of a FEM that waits to start are left out: there is no telemetry to read.
 std::vector<Trigger> Store::open_triggers() const {
     return reader()->select(
         selected_triggers +

@@ -1,3 +1,7 @@
+// Views and the indexes that serve them. The views are made from result_columns(), so that a
+// column of the results stands in one place; sqlite_master keeps their text, and a service with
+// another text makes them anew at its start. A view costs nothing until it is read, and reads the
+// tables as they are.
 #include "services/orchestrator/store/views.hpp"
 
 #include <algorithm>
@@ -212,6 +216,8 @@ std::string factor_liquefied(const std::string& result) {
            "json_extract(" + result + ", '$.stages[#-1].factor_of_safety') END";
 }
 
+/// The rows of a table of results: every MPM task, or every stability analysis of a run that
+/// consists of nothing else.
 std::string makes_a_row(const std::string& task) {
     return "(" + task + ".phase = '" + phases::mpm.program + "' OR " + task + ".phase = '" +
            phases::lem.program +
@@ -219,6 +225,9 @@ std::string makes_a_row(const std::string& task) {
            ".run AND other.phase <> '" + phases::lem.program + "'))";
 }
 
+/// The deviation is summed from differences to the mean: the difference of squares would lose its
+/// digits. With one repeat, division by zero gives NULL: no deviation. condition stands inside
+/// the subquery, where SQLite can use it before the window.
 std::string selected_means(const std::string& condition) {
     std::string off;
     std::string columns;

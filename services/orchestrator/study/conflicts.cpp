@@ -1,3 +1,5 @@
+// A table instead of conditions in the readers: each pair of entries stands once, with its reason
+// and what to write instead.
 #include "services/orchestrator/study/conflicts.hpp"
 
 #include "services/orchestrator/study/variants.hpp"

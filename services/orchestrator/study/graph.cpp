@@ -1,3 +1,7 @@
+// From variants to tasks. Two variants share a task if recipe, parent and input are equal, which
+// merges most FEMs of a sweep before anything is computed; the cache catches what is equal across
+// runs. Called when a study is submitted, previewed or extended, and must give the same tasks
+// each time.
 #include "services/orchestrator/study/graph.hpp"
 
 #include <algorithm>

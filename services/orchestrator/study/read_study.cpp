@@ -1,3 +1,6 @@
+// From the sent document to a Study, or all its faults at once. Called for submissions, previews
+// and extensions, on the request's thread; extensions read the stored document again, so a stored
+// study must stay readable.
 #include "services/orchestrator/study/read_study.hpp"
 
 #include <algorithm>
@@ -32,6 +35,7 @@ void need_part(const json& scene, const std::string& part, std::vector<Fault>& f
 
 /// Phases that a scene allows: without a FEM the points fill the section; without material points
 /// too, only the stability analysis.
+/// A scene without any of them is read as a chain, whose missing parts are then reported.
 Reach reach_of(const json& scene) {
     if (scene.contains(phases::fem.part)) return Reach::chain;
     if (scene.contains(phases::mpm.part)) return Reach::filled_mpm;

@@ -1,3 +1,5 @@
+// Called for each phase of each variant when tasks are planned. Files count by their bytes, so
+// that a moved file hits the cache and a changed one does not.
 #include "services/orchestrator/study/recipe.hpp"
 
 #include <algorithm>

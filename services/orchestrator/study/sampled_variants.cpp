@@ -1,3 +1,5 @@
+// Samples are ordinary variants from here on: tasks, cache and results know nothing of
+// uncertainty.
 #include "services/orchestrator/study/sampled_variants.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Values of samples from the plan alone: plan, seed and number give the same values on every
+// machine. More samples later keep the first ones, so that an extended run reuses its results.
 #include "services/orchestrator/study/samples.hpp"
 
 #include <algorithm>

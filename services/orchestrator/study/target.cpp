@@ -1,3 +1,5 @@
+// Nothing but the values tried so far is stored (in the study's entry "values"); the next value
+// follows from their results (uncertainty/inverse_search.cpp).
 #include "services/orchestrator/study/target.hpp"
 
 #include <algorithm>

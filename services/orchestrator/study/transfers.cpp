@@ -1,3 +1,5 @@
+// Called while a study is read, before any task is planned. Times are fixed to microseconds here,
+// as they become names of snapshots, which the transfer must find again.
 #include "services/orchestrator/study/transfers.hpp"
 
 #include <algorithm>
@@ -19,6 +21,7 @@ using nlohmann::json;
 
 namespace {
 
+/// A slip in "step" must not make millions of tasks.
 constexpr std::size_t most_times = 10000;
 constexpr double unknown_span = 1e9;  // of an unreadable FEM [s]: no time is too late
 constexpr double microsecond = 1e-6;  // closer times would share a snapshot's name

@@ -1,3 +1,5 @@
+// Each variant is checked as a whole scene, because overrides that are fine alone may contradict
+// each other. Faults that the scene itself has are reported once, not once per variant.
 #include "services/orchestrator/study/variants.hpp"
 
 #include <algorithm>

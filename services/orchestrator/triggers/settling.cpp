@@ -1,3 +1,8 @@
+// What each kind of trigger does with the lines read so far. TriggerWatch calls settle() for
+// every open trigger in each round of the dispatcher; it decides from telemetry and snapshots
+// alone, so that a killed service comes to the same decision when it reads the file again. A
+// trigger goes from armed to holding (and back, if the condition ceases), then to fired or
+// expired; a cancelled run disarms it.
 #include "services/orchestrator/triggers/settling.hpp"
 
 #include <spdlog/spdlog.h>

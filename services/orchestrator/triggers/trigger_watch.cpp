@@ -1,3 +1,6 @@
+// Keeps one WatchedFem per FEM with open triggers, in memory only: load_open_triggers makes it
+// from the store, forget_what_is_not drops it with its last open trigger. After a restart the
+// telemetry is read again from its first line.
 #include "services/orchestrator/triggers/trigger_watch.hpp"
 
 #include <spdlog/spdlog.h>
@@ -13,6 +16,8 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr auto reload_interval = std::chrono::milliseconds(1000);
+/// A FEM whose file does not exist yet cannot be watched; short, because a snapshot's delay
+/// counts.
 constexpr auto look_for_telemetry = std::chrono::milliseconds(20);
 
 }  // namespace
@@ -42,6 +47,7 @@ void TriggerWatch::look_alone(WatchedFem& fem) {
     fem.trouble = trouble;
 }
 
+/// Zero: something was stored since the last look, perhaps a new trigger.
 std::chrono::milliseconds TriggerWatch::patience() const {
     if (store_.last_event() != seen_event_) return std::chrono::milliseconds(0);
     const bool blind = std::ranges::any_of(

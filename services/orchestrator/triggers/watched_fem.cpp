@@ -1,3 +1,6 @@
+// What is known of one FEM for its triggers: telemetry, snapshots, critical depth, end. Used by
+// TriggerWatch on the dispatcher's thread. All of it is derived from files and rows, none is
+// stored.
 #include "services/orchestrator/triggers/watched_fem.hpp"
 
 #include <algorithm>
@@ -53,6 +56,8 @@ WatchedFem::WatchedFem(Task of, const Store& store, const DataFolder& data)
       regular(has_regular_snapshots(task, json::parse(store.scene_of(task.run).value()))),
       planned(store.plans_transfers_of(task)) {}
 
+/// An entangled mesh or a breakdown is an end by physics, with valid snapshots before it; all
+/// other failures and a cancel are not, and a retry may go further.
 bool WatchedFem::was_cut_short() const {
     constexpr auto breakdown = static_cast<std::int64_t>(fault::ExitCode::breakdown);
     if (task.state == TaskState::failed) return !task.fault || task.fault->exit_code != breakdown;
@@ -79,6 +84,7 @@ void WatchedFem::look_for_stability(const Store& store) {
         if (is_final(lem->state)) why_no_depth = how_it_ended(*lem);
         return;
     }
+    // Not a number: the analysis found none, and no comparison with it is true.
     critical_depth = std::numeric_limits<double>::quiet_NaN();
     if (lem && lem->result && lem->result->contains("critical_depth"))
         critical_depth = lem->result->at("critical_depth").get<double>();

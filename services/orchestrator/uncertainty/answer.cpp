@@ -1,3 +1,5 @@
+// The answer of GET /v1/runs/{run}/uncertainty: statistics by quantity, with sentences.
+// Everything that the pages, the CLI and the report say about samples comes from this document.
 #include "services/orchestrator/uncertainty/answer.hpp"
 
 #include <algorithm>

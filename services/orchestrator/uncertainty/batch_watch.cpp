@@ -1,3 +1,7 @@
+// Called by the dispatcher in each round; does something only when an event was stored since. It
+// waits until all tasks and triggers of a run have ended, then adds a batch or ends the plan.
+// Killed before the transaction, the next start comes to the same batch: samples follow from the
+// seed and the number drawn.
 #include "services/orchestrator/uncertainty/batch_watch.hpp"
 
 #include <spdlog/spdlog.h>

@@ -1,3 +1,7 @@
+// Joins a run's variants with their rows of results. A sample has a row, or no transfer, or
+// nothing yet; each counts differently, as a slope that stood is a result and a failed sample is
+// none. Built anew for each request and each look of BatchWatch; the run may be removed at any
+// moment.
 #include "services/orchestrator/uncertainty/ensemble.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Rebuilds the search for a parameter's value from the stored samples. Nothing of the search is
+// stored but the values it asked for: BatchWatch asks for the next, requests for the present
+// state.
 #include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 #include <algorithm>
