@@ -10,7 +10,8 @@ namespace breach::cli {
 
 fault::ExitCode verify(const VerifyOptions& options, const Console& console) {
     const std::filesystem::path program =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "breach-verify";
+        std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() /
+        "lib/breachline/breach-verify";
     std::vector<std::string> words{program.string(), "--output", options.output.string()};
     if (options.quick) words.emplace_back("--quick");
     if (!options.catalogue.empty())

@@ -20,7 +20,7 @@ source = pathlib.Path(os.environ["BREACH_ROOT"])
 # Programs under sanitizers are not run for their help while they are built.
 instrumented = re.search(r"^BREACH_SANITIZE:\w+=(address|thread)", (build / "CMakeCache.txt").read_text(), re.MULTILINE)
 programs = {"breachline", "breach", "lem_tool", "fem_solver", "element_bench", "transfer_tool", "mpm_solver", "report",
-            "breachline-backup", "breachline-restore", "breach-verify"}
+            "breachline-backup", "breachline-restore"}
 
 
 def call(*command, **options):

@@ -206,11 +206,11 @@ class Variants(WetRun):
 
 class Inputs(WetRun):
     def test_the_annex_has_every_entry_and_marks_defaults(self):
-        self.write("study.json", {**STUDY, "scene": {**SCENE, "mpm": {**SCENE["mpm"], "kernel": "gimp"}}, "overrides": []})
-        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/kernel"), ["/mpm/kernel", "gimp *", ""])
+        self.write("study.json", {**STUDY, "scene": {**SCENE, "mpm": {**SCENE["mpm"], "anti_locking": "auto"}}, "overrides": []})
+        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/anti_locking"), ["/mpm/anti_locking", "auto *", ""])
         self.assertEqual(row(self.document(), "settings_mpm", "/mpm/cell_size"), ["/mpm/cell_size", "1.0", "m"])
-        self.edit("study.json", overrides=["/mpm/kernel=gimp"])
-        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/kernel")[1], "gimp")
+        self.edit("study.json", overrides=["/mpm/anti_locking=auto"])
+        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/anti_locking")[1], "auto")
 
     def test_the_reviewer_is_answered_from_the_run(self):
         self.result(LATE, flags=[{**IMPLAUSIBLE, "code": "coarse_cells"}], particles=4)

@@ -28,7 +28,8 @@ class Verify(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.here)
         (self.here / "bin").mkdir()
         (self.here / "catalogue").mkdir()
-        shutil.copy(program, self.here / "bin")
+        (self.here / "lib/breachline").mkdir(parents=True)
+        shutil.copy(program, self.here / "lib/breachline")
         for phase in ("lem_tool", "fem_solver", "transfer_tool", "mpm_solver"):
             self.write(phase, "printf 'phase 1\\nnumerics 2\\n'")
 
@@ -41,7 +42,7 @@ class Verify(unittest.TestCase):
         """(exit code, standard error, quantities of the first case)"""
         self.write("program", script)
         (self.here / "catalogue/topic.json").write_text(json.dumps(file))
-        done = subprocess.run([self.here / "bin/breach-verify", "--catalogue", self.here / "catalogue", "--output", self.here / "out"],
+        done = subprocess.run([self.here / "lib/breachline/breach-verify", "--catalogue", self.here / "catalogue", "--output", self.here / "out"],
                               capture_output=True, text=True)
         results = self.here / "out/results.json"
         return done.returncode, done.stderr, json.loads(results.read_text())["cases"][0]["quantities"] if results.exists() else []
