@@ -91,8 +91,9 @@ show_progress() {
 # no test libraries; a folder configured with tests keeps them.
 build() {
     local options=() target=(--target "$1") preset=${2:-release} jobs
-    [ "$1" = all ] && options=(-DBREACH_TESTS=ON) target=()  # `all`: the preset's targets
+    [ "$1" = all ] && options=(-DBREACH_TESTS=ON -DBREACH_THIS_CPU=OFF) target=()  # `all`: the preset's targets
     [ "$1" != all ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options=(-DBREACH_TESTS=OFF)
+    [ "$1" = first_result ] && [ ! -f "$root/build/$preset/CMakeCache.txt" ] && options+=(-DBREACH_THIS_CPU=ON)
     command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
     export CCACHE_BASEDIR=$root  # shares the cache between folders
     options+=("${@:3}")

@@ -1,3 +1,5 @@
+// Flags as result.json, checkpoints and the service store them. Written by the phase at its end, read
+// back when it resumes, so that a flag raised before a kill is not lost.
 #include "core/process/flags.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,3 +1,9 @@
+// Everything that the four programs share: arguments, the questions --plan and --check, provenance,
+// result.json or fault.json, exit codes. Each main() calls run_phase once; the physics begins in
+// Phase::run.
+//
+// Order at a start: the scene is read and reduced, then planned, then compared with the checkpoint,
+// and only then is the output folder touched. So a refused scene leaves an earlier result whole.
 #include "core/process/phase.hpp"
 
 #include <spdlog/sinks/stdout_color_sinks.h>
@@ -24,6 +30,7 @@ using nlohmann::json;
 
 namespace {
 
+/// What is asked instead of a run: an answer on stdout, no output folder.
 enum class Question { none, plan, check };
 
 struct Arguments {
@@ -100,6 +107,7 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
         a.settings.progress = ProgressStyle::bar;
     if (a.measure && a.question != Question::plan)
         return usage_fault("--measure belongs to --plan");
+    // A plan needs neither inputs nor a folder: the service asks for it before they exist.
     if (a.question != Question::none) return {a, ExitCode::done};
     if (a.settings.output.empty()) return usage_fault("--output is required");
     const int inputs = static_cast<int>(a.settings.inputs.size());
@@ -164,7 +172,7 @@ fault::Fault changed_entry(const json& change, const json& before) {
 
 /// Refuses to resume with another scene; lists the changed entries before changing the folder.
 void refuse_another_scene(const SessionSettings& settings, const scene::Scene& scene) {
-    constexpr std::size_t most_told = 20;
+    constexpr std::size_t most_told = 20;  // another scene altogether would fill the screen
     const auto checkpoint = settings.output / phases::files::checkpoint;
     const auto kept = settings.output / phases::files::scene;
     if (settings.start == Start::fresh || !std::filesystem::exists(checkpoint)) return;
@@ -179,6 +187,8 @@ void refuse_another_scene(const SessionSettings& settings, const scene::Scene& s
     if (!faults.empty()) throw fault::BadInput(kept.string(), std::move(faults));
 }
 
+/// Called when nothing can be refused any more. Removes what an earlier run left under the names by
+/// which the service recognises an end.
 void make_output_folder(const std::filesystem::path& folder, Start start) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
@@ -216,11 +226,14 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     exchange::publish_text(session.output(phases::files::scene),
                            json::parse(session.scene().completed).dump(2) + "\n");
     try {
+        // Stopped: a signal came and a checkpoint is written; no result.json, so that the service
+        // resumes it.
         if (phase.run(session) == Outcome::stopped) {
             spdlog::warn("stopped; go on with --resume");
             return code_of_stop();
         }
     } catch (...) {
+        // fault.json then has flags, provenance and times as well: guarded() writes it.
         known = known_of(session, plan);
         throw;
     }
@@ -262,7 +275,7 @@ Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene
     settings.start = Start::fresh;
     settings.switches.clear();
     Session session(settings, scene);
-    spdlog::set_level(spdlog::level::warn);
+    spdlog::set_level(spdlog::level::warn);  // the plan is on stdout; ten steps have nothing to say
     return phase.measure(session);
 }
 
@@ -345,6 +358,9 @@ ExitCode report(const Arguments& arguments, const json& known, ExitCode code,
     return code;
 }
 
+/// The one place where exceptions become exit codes: 65 for input, 70 for the numerics, 74 for files,
+/// 75 where another try may succeed. The service decides by them whether to retry
+/// (dispatch/ending.cpp).
 ExitCode guarded(const Phase& phase, Arguments& arguments) {
     json known = json::object();
     try {
@@ -370,7 +386,7 @@ ExitCode guarded(const Phase& phase, Arguments& arguments) {
 int run_phase(int argc, char** argv, const Phase& phase) {
     spdlog::set_default_logger(spdlog::stderr_color_mt(phase.name));
     spdlog::set_pattern("%H:%M:%S %n %l: %v");
-    watch_signals();
+    watch_signals();  // before anything that takes long: a TERM during reading must not be lost
     ParsedArguments parsed = parse(argc, argv, phase);
     if (!parsed.arguments) return static_cast<int>(parsed.code);
     return static_cast<int>(guarded(phase, *parsed.arguments));

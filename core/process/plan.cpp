@@ -1,3 +1,4 @@
+// A plan as text, for --plan and for the log of each run.
 #include "core/process/plan.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Frames in the order of their times, as ParaView reads a .series file. Rewritten after each frame, by
+// renaming, so that a killed run leaves a list of frames that are all there.
 #include "core/process/series.hpp"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// What a run of a phase holds from its first step to its last: output folder, telemetry, flags,
+// progress, provenance and times. simulate() in phase.cpp creates one; --measure has one of its own
+// in a folder that is removed.
 #include "core/process/session.hpp"
 
 #include <spdlog/spdlog.h>
@@ -22,6 +25,7 @@ using nlohmann::json;
 
 namespace {
 
+/// The service reads each line and stores none: four a second are enough for a bar that moves.
 constexpr auto least_time_between_lines = std::chrono::milliseconds(250);
 constexpr int bar_width = 30;
 

@@ -116,9 +116,11 @@ std::vector<Run> Store::runs(const RunFilter& filter, std::size_t most) const {
         sql += " AND shown=?";
         values.emplace_back(*filter.state);
     }
-    // Open runs are few: start from unfinished tasks instead of all runs.
+    // Open runs are few: start from what keeps them open (views.cpp) instead of all runs.
     if (filter.state && is_open_state(*filter.state))
-        sql += " AND r.id IN (SELECT run FROM tasks WHERE finished IS NULL)";
+        sql += R"( AND r.id IN (SELECT run FROM tasks WHERE finished IS NULL
+    UNION SELECT run FROM triggers WHERE state IN ('armed', 'holding')
+    UNION SELECT run FROM batches WHERE state='open'))";
     if (filter.name) {
         sql += " AND r.name=?";
         values.emplace_back(*filter.name);

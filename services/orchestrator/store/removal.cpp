@@ -1,4 +1,4 @@
-// Removal of runs, files and scenes from the store.
+// Removal of runs and files from the store.
 #include <array>
 
 #include "core/fault/fault.hpp"

@@ -237,6 +237,9 @@ TEST_F(StoreTest, AStudyThatCannotContinueDelaysNoOtherAndIsLookedAtAgain) {
             bring_to_success(store, task_id(each.id, i), {{"runout", 12.5}});
     }
     const auto state = [&](std::size_t i) { return store.batches_of(runs[i].id)->state; };
+    RunFilter open;
+    open.state = "running";
+    EXPECT_EQ(store.runs(open, 10).size(), 2u) << "open by their batches alone";
     BatchWatch watch(store, data, numerics);
     EXPECT_FALSE(watch.look());
     EXPECT_EQ(state(0), "open");
@@ -681,10 +684,11 @@ TEST_F(StoreTest, DatabaseOfAnotherVersionIsRefusedAndLeftAsItIs) {
     for (const char* version : {"11", "99"}) {
         { const Store store(file()); }
         Connection database(file(), Access::read_write);
+        const std::int64_t own = version_of(database);
         database.script(std::string("PRAGMA user_version=") + version);
         EXPECT_THROW(Store{file()}, StoreError);
         EXPECT_EQ(std::to_string(version_of(database)), version);
-        database.script("PRAGMA user_version=14");
+        database.script("PRAGMA user_version=" + std::to_string(own));
     }
 }
 
