@@ -36,7 +36,7 @@ def main(folder):
     check("the plan names the ground", "base_soil at 0 m" in plan.stdout + plan.stderr, plan.stdout + plan.stderr)
     shared = run("mpm_solver", SLOPE, folder / "shared", "--check", "--set", "/mpm/cell_size=0.8")
     said = shared.stdout + shared.stderr
-    check("a top within a cell is told with cells that fit", "0.25 of a cell above a line" in said and "--set /mpm/cell_size=0.714285714 or --set /mpm/cell_size=0.833333333" in said, said)
+    check("the plan names cells that fit under a top within a cell", "0.25 of a cell above a line" in said and "--set /mpm/cell_size=0.714285714 or --set /mpm/cell_size=0.833333333" in said, said)
 
 
 with tempfile.TemporaryDirectory() as scratch:
