@@ -16,6 +16,7 @@
 #include <optional>
 
 #include "core/exchange/publish.hpp"
+#include "core/exchange/temporary_folder.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/reads.hpp"
 #include "core/process/flags.hpp"
@@ -247,28 +248,8 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     return ExitCode::done;
 }
 
-/// Temporary folder of a trial.
-class ShortLived {
-  public:
-    ShortLived() {
-        std::string name = (std::filesystem::temp_directory_path() / "breach_XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw fault::IoError(name + ": cannot be made");
-        path_ = name;
-    }
-    ~ShortLived() {
-        std::error_code error;
-        std::filesystem::remove_all(path_, error);
-    }
-    ShortLived(const ShortLived&) = delete;
-    ShortLived& operator=(const ShortLived&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
 Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene& scene) {
-    const ShortLived folder;
+    const exchange::TemporaryFolder folder("breach_");
     SessionSettings settings = arguments.settings;
     settings.output = folder.path();
     settings.progress = ProgressStyle::none;

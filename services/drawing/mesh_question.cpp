@@ -2,13 +2,13 @@
 // differ. Cached by everything it depends on.
 #include "services/drawing/mesh_question.hpp"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "core/command/command.hpp"
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/exchange/temporary_folder.hpp"
 #include "core/phases/files.hpp"
 
 namespace breach::drawing {
@@ -17,27 +17,6 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A folder that the destructor removes with its files.
-/// Inside the cache's folder, so that the mesh can be moved within one disk.
-class Scratch {
-  public:
-    explicit Scratch(const fs::path& in) {
-        std::string name = (in / "meshing-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr) throw fault::IoError(name + ": cannot be made");
-        path_ = name;
-    }
-    ~Scratch() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 /// Everything that a mesh depends on: its geometry and sizes, and the mesher.
 /// With the program's time, as another version may mesh differently.
@@ -70,7 +49,8 @@ constexpr auto longest_meshing = std::chrono::hours(1);
 }
 
 void make(const Draft& draft, const Mesher& mesher, const fs::path& file) {
-    const Scratch scratch(mesher.cache);
+    // Inside the cache, so that the mesh can be moved within one disk.
+    const exchange::TemporaryFolder scratch("meshing-", mesher.cache);
     const fs::path scene = scratch.path() / "scene.json", output = scratch.path() / "mesh";
     exchange::publish_text(scene, draft.base.scene.dump());
     const auto made = command::run({mesher.fem_solver.string(), "mesh", scene.string(), "--output",

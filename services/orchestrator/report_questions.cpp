@@ -1,13 +1,11 @@
 #include "services/orchestrator/report_questions.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 
 #include "core/check/check.hpp"
 #include "core/criteria/window.hpp"
+#include "core/exchange/temporary_folder.hpp"
 #include "core/fault/fault.hpp"
 #include "core/telemetry/lines.hpp"
 #include "services/drawing/section_drawing.hpp"
@@ -27,26 +25,6 @@ namespace fs = std::filesystem;
 namespace {
 
 // ---------------------------------------------------------------- findings
-
-/// A data folder that the destructor removes.
-class ScratchData {
-  public:
-    ScratchData() {
-        std::string name = (fs::temp_directory_path() / "breachline-XXXXXX").string();
-        if (!mkdtemp(name.data())) throw fault::IoError(name + ": cannot be made");
-        path_ = name;
-    }
-    ~ScratchData() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchData(const ScratchData&) = delete;
-    ScratchData& operator=(const ScratchData&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 /// As its service would have stored it: the study beside the phases, or the scene of the first alone.
 NewRun run_of(const fs::path& folder, const std::vector<PhaseFolder>& phases) {
@@ -83,7 +61,7 @@ void store_results(Transaction& transaction, const NewRun& run,
 /// {"run", "results", "tasks"} as the API answers them, and the folder of each task.
 json findings_in(const fs::path& folder) {
     const std::vector<PhaseFolder> phases = phases_in(folder);
-    const ScratchData scratch;
+    const exchange::TemporaryFolder scratch("breachline-");
     const DataFolder data(scratch.path());
     Store store(data.database());
     const NewRun stored = run_of(folder, phases);

@@ -11,7 +11,6 @@
 // Equal tasks of different variants (recipe, parent, input) are one task, so variants that change
 // only /mpm share the FEM and all transfers. Where a trigger uses the critical depth, only variants
 // with equal stability analyses share a FEM: with another depth the trigger fires at another time.
-// another depth the trigger fires at another time.
 #pragma once
 
 #include <string_view>

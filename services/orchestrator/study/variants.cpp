@@ -35,21 +35,6 @@ std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& 
     return own;
 }
 
-/// Entries of the list that the service did not generate.
-std::vector<VariantEntry> own_among(const json& entries, const std::string& pointer) {
-    std::vector<VariantEntry> own;
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-        if (entries[i].contains("made_by")) continue;
-        const std::string at = pointer + "/" + std::to_string(i);
-        own.push_back({.name = entries[i].at("name"),
-                       .overrides = entries[i].at("overrides"),
-                       .name_pointer = at + "/name",
-                       .pointer = at + "/overrides",
-                       .made_by = ""});
-    }
-    return own;
-}
-
 struct CheckedVariant {
     json scene;  ///< completed; null where it has faults
     std::vector<Fault> faults;
@@ -126,7 +111,18 @@ void add_warnings(const std::vector<VariantEntry>& entries,
 }  // namespace
 
 std::vector<VariantEntry> own_variants(const json& document) {
-    return own_among(document["variants"], "/variants");
+    const json& entries = document["variants"];
+    std::vector<VariantEntry> own;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (entries[i].contains("made_by")) continue;
+        const std::string at = "/variants/" + std::to_string(i);
+        own.push_back({.name = entries[i].at("name"),
+                       .overrides = entries[i].at("overrides"),
+                       .name_pointer = at + "/name",
+                       .pointer = at + "/overrides",
+                       .made_by = ""});
+    }
+    return own;
 }
 
 void warn_about_overrides(const json& document, std::vector<Flag>& warnings) {
