@@ -23,7 +23,8 @@ void log_sampling(const std::vector<SampledRegion>& regions) {
 
 Body fresh_body(const scene::Scene& scene, const exchange::ParticleState& state,
                 const std::string& source, const Computing& computing) {
-    Body body = make_body(scene, zoned_points(scene, state, source), source, computing);
+    Body body = make_body(scene, zoned_points(scene, state, source), source, computing,
+                          state.steady_pressure);
     refuse_buried_points(body, source);
     return body;
 }
@@ -62,6 +63,7 @@ void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state)
     const double u_ground = ground.displacement(0.0);
     for (Vec2& v : state.velocity) v.x() -= v_ground;
     for (Vec2& x : state.position) x.x() -= u_ground;
+    for (Vec2& x : state.steady_pressure.position) x.x() -= u_ground;
     const double mass = std::accumulate(state.mass.begin(), state.mass.end(), 0.0);
     double momentum = 0.0;
     for (std::size_t p = 0; p < state.size(); ++p)

@@ -11,6 +11,7 @@ namespace {
 using exchange::Archive;
 
 constexpr const char* kind = "mpm_checkpoint";
+constexpr const char* water_nodes = "water.nodes";  ///< it came with the input's points
 constexpr const char* records_prefix = "records.";
 
 [[noreturn]] void refuse(const std::string& file, const std::string& where,
@@ -203,6 +204,7 @@ void save_checkpoint(const std::filesystem::path& file, const Simulation& simula
         const NonlocalSoftening::Pace& pace = body.softening.pace();
         archive.integers["run.softening_pace"] = {pace.done, pace.due};
     }
+    if (body.water.is_there()) archive.reals[water_nodes] = body.water.nodes();
     const Records& records = simulation.records();
     store(records.history, records_prefix, archive);
     store(simulation.gauges(), records.gauges, records_prefix, archive);
@@ -229,10 +231,19 @@ Resumed load_checkpoint(const std::filesystem::path& file, const scene::Scene& s
         refuse_if_homeless(points.points, archive.reals.at("run.strayed").at(0),
                            make_grid(scene::mpm_of(scene)), file.string());
         points.zones = zones_of(scene, points.points);
+        const bool is_wet = !points.points.displaced.empty();
         const bool has_shared = !points.points.epsilon_q_shared.empty();
         Body body = make_body(scene, std::move(points), file.string(), computing);
         if (body.softening.is_on() != has_shared)
             refuse(file.string(), "/epsilon_q_shared", "does not go with this scene's softening");
+        if (body.water.is_there() != is_wet)
+            refuse(file.string(), "/displaced", "does not go with this scene's water");
+        if (is_wet) {
+            const std::vector<double>& nodes = archive.reals.at(water_nodes);
+            if (nodes.size() != body.water.nodes().size())
+                refuse(file.string(), "/water.nodes", "is of another grid");
+            body.water.set_nodes(nodes);
+        }
         if (body.softening.is_on()) body.softening.go_on_from(load_pace(archive, file.string()));
         Clock clock;
         Start start;

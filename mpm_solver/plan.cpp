@@ -69,7 +69,16 @@ void plan_laws(const scene::Scene& scene, Plan& plan) {
                         ? "once per zone, points of a material are neighbours"
                         : "one material, one loop",
                     "/materials"});
-    plan.push_back({"pore pressure", Use::left_out, "points carry total stress", "/materials"});
+    plan.push_back({"pore pressure", Use::left_out,
+                    scene.mpm->water ? "points carry sigma + p I" : "points carry total stress",
+                    "/materials"});
+    plan.push_back(
+        {"standing water", scene.mpm->water ? Use::on : Use::left_out,
+         scene.mpm->water
+             ? "its still pressure acts at the points, which carry sigma + p I; drag and "
+               "added mass are left out: the runout is an upper bound"
+             : "no /mpm/water: the runout is in air",
+         "/mpm/water"});
 }
 
 /// The ratio in force, which the cells and the wave speed limit.

@@ -15,6 +15,7 @@
 #include "mpm_solver/measure/carried_slide.hpp"
 #include "mpm_solver/measure/ending_flags.hpp"
 #include "mpm_solver/measure/ends.hpp"
+#include "mpm_solver/measure/pool.hpp"
 
 namespace breach::mpm {
 
@@ -259,23 +260,15 @@ void write_history(const Session& session, const Simulation& simulation) {
 }
 
 /// Writes the deposit as a table.
-void write_profile(Session& session, const Simulation& simulation) {
-    const FlowView& view = simulation.view();
-    const Points& points = simulation.body().points;
-    const Grid& grid = simulation.body().grid;
-    const std::vector<double> places = profile_places(view);
+void write_profile(Session& session, const Simulation& simulation, const Surfaces& surfaces) {
+    const std::vector<double> places = profile_places(simulation.view());
     const std::vector<Flow> profile = simulation.profile();
-    std::vector<double> bottom(places.size(), session.scene().mpm->floor.level);
-    for (std::size_t k = 0; grid.terrain && k < places.size(); ++k)
-        bottom[k] = grid.terrain->level(places[k]);
-    const std::vector<double> ground = ground_profile(points, view, std::move(bottom));
-    const std::vector<double> surface = surface_profile(points, view, ground);
     std::ostringstream table;
     table.precision(10);
     table << "x_m,ground_m,depth_m,surface_m,velocity_m_per_s\n";
     for (std::size_t k = 0; k < places.size(); ++k) {
-        table << places[k] << "," << ground[k] << "," << profile[k].depth << "," << surface[k]
-              << "," << profile[k].velocity << "\n";
+        table << places[k] << "," << surfaces.ground[k] << "," << profile[k].depth << ","
+              << surfaces.top[k] << "," << profile[k].velocity << "\n";
     }
     const auto file = session.output("profile.csv");
     exchange::publish_text(file, table.str());
@@ -346,7 +339,10 @@ void say(const Session& session, const Ending& ending, const Row& row) {
 
 void write_results(Session& session, const Simulation& simulation, double speed) {
     write_history(session, simulation);
-    write_profile(session, simulation);
+    const Body& body = simulation.body();
+    const FlowView& view = simulation.view();
+    const Surfaces surfaces = surfaces_of(session.scene(), body, view);
+    write_profile(session, simulation, surfaces);
     write_envelope(session, simulation);
     const Ending ending = ending_of(session, simulation);
     conclude(session, simulation, ending, speed);
@@ -354,8 +350,8 @@ void write_results(Session& session, const Simulation& simulation, double speed)
     for (fault::Flag& each :
          flags_of_ends(session.scene(), simulation.view(), depths_of(simulation)))
         session.flag(std::move(each));
-    const Body& body = simulation.body();
-    const FlowView& view = simulation.view();
+    for (fault::Flag& each : flags_of_pool(session.scene(), body, view, surfaces))
+        session.flag(std::move(each));
     const Travel travel{
         .start = simulation.start().energy,
         .end = energy_of(body),

@@ -32,9 +32,12 @@ class GridOnce {
         }
     }
 
-    void add(const Points& points) {
+    void add(const Points& points, const std::vector<Vec2>& still_gradient) {
         const grid::GimpKernel kernel(mpm_.gimp_half_size);
-        for (std::size_t p = 0; p < points.state.size(); ++p) add(points, p, kernel);
+        for (std::size_t p = 0; p < points.state.size(); ++p)
+            add(points, p, kernel,
+                still_gradient.empty() ? Vec2(0.0, 0.0)
+                                       : Vec2(-points.state.volume[p] * still_gradient[p]));
     }
 
     std::vector<GridForce> sums() const {
@@ -55,7 +58,8 @@ class GridOnce {
   private:
     static constexpr long stride = 1L << 31;
 
-    void add(const Points& points, std::size_t p, const grid::GimpKernel& kernel) {
+    void add(const Points& points, std::size_t p, const grid::GimpKernel& kernel,
+             const Vec2& push) {
         const exchange::ParticleState& s = points.state;
         const double h = mpm_.cell_size;
         const auto x = kernel((s.position[p].x() - mpm_.domain_x[0]) / h,
@@ -76,6 +80,7 @@ class GridOnce {
                 node.force.x() -= s.volume[p] * ((sigma[0] - u) * dN.x() + sigma[3] * dN.y());
                 node.force.y() -= s.volume[p] * (sigma[3] * dN.x() + (sigma[1] - u) * dN.y());
                 node.force.y() -= m * gravity_;
+                node.force += x.N[i] * y.N[j] * push;
             }
     }
 
@@ -106,9 +111,10 @@ class GridOnce {
 
 }  // namespace
 
-std::vector<GridForce> grid_force(const scene::Scene& scene, const Points& points) {
+std::vector<GridForce> grid_force(const scene::Scene& scene, const Points& points,
+                                  const std::vector<Vec2>& still_gradient) {
     GridOnce once(scene);
-    once.add(points);
+    once.add(points, still_gradient);
     return once.sums();
 }
 

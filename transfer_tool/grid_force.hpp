@@ -24,7 +24,10 @@ struct GridForce {
     }
 };
 
-/// Internal force of the total stress, per soil: f_i = - sum_p V_p (sigma_p - u_p I) grad N_ip.
-std::vector<GridForce> grid_force(const scene::Scene& scene, const Points& points);
+/// Internal force of the stress, per soil: f_i = - sum_p V_p (sigma_p - u_p I) grad N_ip with u = 0
+/// beside total and buoyant stress, and of `still_gradient`, the standing water's at each point
+/// [Pa/m]: - sum_p V_p N_ip grad p; empty: no water.
+std::vector<GridForce> grid_force(const scene::Scene& scene, const Points& points,
+                                  const std::vector<Vec2>& still_gradient = {});
 
 }  // namespace breach::transfer

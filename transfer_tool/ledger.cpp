@@ -134,7 +134,8 @@ double elastic_energy_on_element(const Books& books, std::size_t e,
         const double V = jacobian(books.points.shape[e], xi).determinant() * weights[g];
         const SoilOfPoints& soil = books.map.soils()[books.map.at(e, xi)];
         const Voigt sigma =
-            stress_of(soil, mesh.stress[e * weights.size() + g], u.dot(shape_functions(xi)));
+            stress_of(soil, mesh.stress[e * weights.size() + g], u.dot(shape_functions(xi)),
+                      books.map.still_pressure(books.points.shape[e] * shape_functions(xi)));
         energy += V * mesh.thickness *
                   mechanics::elastic_energy_density(materials::elasticity(soil.law), sigma);
     }
@@ -191,7 +192,11 @@ std::vector<Amounts> on_points(const Books& books) {
 /// [regions of the mesh]
 std::vector<GridForce> on_grid(const Books& books, const scene::Scene& scene) {
     const std::vector<std::size_t> region_of_soil = mesh_regions(books);
-    const std::vector<GridForce> soils = grid_force(scene, books.points);
+    std::vector<Vec2> still;
+    if (books.map.water().is_there())
+        for (const Vec2& place : books.points.state.position)
+            still.push_back(books.map.still_gradient(place));
+    const std::vector<GridForce> soils = grid_force(scene, books.points, still);
     std::vector<GridForce> regions(books.mesh.regions.size());
     for (std::size_t i = 0; i < soils.size(); ++i) regions[region_of_soil[i]] += soils[i];
     return regions;

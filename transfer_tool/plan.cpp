@@ -38,14 +38,18 @@ std::string names_of_yielding(const scene::Scene& scene) {
     return names;
 }
 
-PlanLine stress_line(const scene::Scene& scene, const scene::Transfer& settings) {
+PlanLine stress_line(const scene::Scene& scene) {
+    if (scene.mpm && scene.mpm->water)
+        return {"pore pressure", Use::on,
+                "all points get sigma' + (p - u) I with the pressure p of still water",
+                "/mpm/water"};
     const bool wet = scene.fem && scene.fem->water;
     if (!wet)
         return {"pore pressure", Use::left_out,
                 "the scene's FEM has no water; a snapshot with water is carried all the same",
                 "/fem/water"};
     const auto stays_effective = [&](const scene::Material* material) {
-        return measure_for(material->law, settings.stress) == exchange::StressMeasure::effective;
+        return measure_for(material->law, scene) == exchange::StressMeasure::effective;
     };
     if (std::ranges::none_of(materials_of_points(scene), stays_effective))
         return {"pore pressure", Use::on, "all points get the total stress sigma' - u I",
@@ -146,7 +150,7 @@ process::Plan plan(const scene::Scene& scene) {
             softening_line(scene),
             gauss_line(settings),
             interpolation_line(settings),
-            stress_line(scene, settings),
+            stress_line(scene),
             liquefied_line(scene, settings),
             collapse_line(scene),
             cells_line(settings),

@@ -1,8 +1,10 @@
 #include "transfer_tool/shapes.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "core/fault/fault.hpp"
 
@@ -87,6 +89,14 @@ Corners undeformed_corners(const MeshSnapshot& mesh, std::size_t element) {
 Corners deformed_corners(const MeshSnapshot& mesh, std::size_t element) {
     return undeformed_corners(mesh, element) +
            corner_values(mesh.displacement, mesh.quads[element]);
+}
+
+double displacement_of_base(const exchange::MeshSnapshot& mesh) {
+    const auto lower = [](const Vec2& a, const Vec2& b) {
+        return std::pair(a.y(), a.x()) < std::pair(b.y(), b.x());
+    };
+    const auto lowest = std::ranges::min_element(mesh.position_0, lower);
+    return mesh.displacement[lowest - mesh.position_0.begin()].x();
 }
 
 Eigen::Vector4d corner_pressure(const std::vector<double>& pressure,

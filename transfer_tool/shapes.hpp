@@ -28,6 +28,9 @@ Eigen::Vector4d corner_values(const std::vector<double>& field,
 Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 Corners deformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 
+/// Horizontal displacement of the mesh's lowest node, the leftmost of several [m].
+double displacement_of_base(const exchange::MeshSnapshot& mesh);
+
 /// Nodal pressure [Pa] at the corners of an element of shape x, as it acts in the FEM's forces:
 /// without the part that alternates between corners. The mean and a pressure linear in x are
 /// unchanged.

@@ -83,9 +83,10 @@ std::vector<Vec2> water_table_of(const scene::Scene& scene) {
 
 }  // namespace
 
-StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted) {
-    const bool effective =
-        materials::traits(law).frictional && wanted == scene::TransferredStress::effective;
+StressMeasure measure_for(const materials::Law& law, const scene::Scene& scene) {
+    if (scene.mpm && scene.mpm->water) return StressMeasure::buoyant;
+    const bool effective = materials::traits(law).frictional &&
+                           scene.transfer->stress == scene::TransferredStress::effective;
     return effective ? StressMeasure::effective : StressMeasure::total;
 }
 
@@ -101,7 +102,7 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     for (const scene::Soil& soil : soils) {
         const scene::Material& material = scene.materials[soil.material];
         soils_.push_back({scene.section.regions[soil.region].name, material.name, material.law,
-                          measure_for(material.law, settings.stress), std::nullopt});
+                          measure_for(material.law, scene), std::nullopt});
         if (materials::has_strength_of_points(material.law))
             soils_.back().strength = material.strength;
     }
@@ -116,6 +117,7 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     }
     if (!faults.empty()) throw fault::BadInput(file, faults);
     phreatic_line_ = settings.phreatic_line;
+    set_water(scene);
     if (!settings.liquefied) return;
     collapse_ = Collapse(mesh, scene, match);
     for (const scene::LiquefiedLayer& layer : settings.liquefied->layers)
@@ -129,6 +131,20 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     liquefied_->keep_below(water_table_of(scene));
     for (const scene::LiquefiedLine& line : settings.liquefied->lines)
         if (std::abs(line.transfer_time - mesh.time) < 1e-6) liquefied_->add(line);
+}
+
+/// The pool stays where it is drawn, also where the base has moved; the soil's water moves with it.
+void SoilMap::set_water(const scene::Scene& scene) {
+    if (!scene.mpm || !scene.mpm->water) return;
+    const Vec2 base(displacement_of_base(mesh_), 0.0);
+    const bool kept = scene.transfer->base_displacement == scene::BaseDisplacement::kept;
+    if (!kept) offset_ = base;
+    if (!mesh_.pore_pressure_0.empty()) {
+        steady_ = {mesh_.position_0, mesh_.quads, mesh_.pore_pressure_0};
+        for (Vec2& node : steady_.position)
+            if (kept) node += base;
+    }
+    water_ = scene::StandingWater(scene, steady_);
 }
 
 void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
@@ -213,7 +229,8 @@ void assign_soils(const SoilMap& map, Points& points) {
     for (const SoilOfPoints& soil : map.soils()) {
         s.regions.push_back(soil.region);
         s.materials_of_regions.push_back(soil.material);
-        if (!s.pore_pressure.empty()) s.stress_of_regions.push_back(soil.stress);
+        if (!s.pore_pressure.empty() || map.water().is_there())
+            s.stress_of_regions.push_back(soil.stress);
     }
     for (std::size_t e = 0; e + 1 < points.first.size(); ++e)
         for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p)
@@ -250,16 +267,18 @@ std::optional<CollapseReport> SoilMap::collapse_report(const Points& points) con
 }
 
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,
-                           double u) {
+                           double u, double p) {
     if (soil.stress == StressMeasure::effective) return sigma_effective;
-    return sigma_effective - u * mechanics::Voigt(1.0, 1.0, 1.0, 0.0);
+    const double still = soil.stress == StressMeasure::buoyant ? p : 0.0;
+    return sigma_effective + (still - u) * mechanics::Voigt(1.0, 1.0, 1.0, 0.0);
 }
 
 void settle_stress(const SoilMap& map, Points& points) {
     exchange::ParticleState& s = points.state;
     for (std::size_t p = 0; p < s.size(); ++p)
         s.stress[p] = stress_of(map.soils()[s.region[p]], points.effective_stress[p],
-                                s.pore_pressure.empty() ? 0.0 : s.pore_pressure[p]);
+                                s.pore_pressure.empty() ? 0.0 : s.pore_pressure[p],
+                                map.still_pressure(s.position[p]));
 }
 
 std::vector<SoilShare> shares_of_soils(const SoilMap& map, const exchange::ParticleState& state) {

@@ -9,6 +9,7 @@
 #include "core/geometry/polyline.hpp"
 #include "core/scene/ground.hpp"
 #include "core/scene/scene.hpp"
+#include "core/scene/standing_water.hpp"
 #include "transfer_tool/collapse.hpp"
 #include "transfer_tool/liquefied_zone.hpp"
 #include "transfer_tool/points.hpp"
@@ -50,6 +51,17 @@ class SoilMap {
     const Collapse& collapse() const { return collapse_; }
     /// Report on that soil; none if there is none.
     std::optional<CollapseReport> collapse_report(const Points& points) const;
+    /// Standing water of the runout, none without /mpm/water.
+    const scene::StandingWater& water() const { return water_; }
+    /// Its pressure at a place of the displaced mesh, and the pressure's gradient [Pa, Pa/m].
+    double still_pressure(const Vec2& place) const {
+        return water_.is_there() ? water_.pressure(place - offset_) : 0.0;
+    }
+    Vec2 still_gradient(const Vec2& place) const {
+        return water_.is_there() ? water_.gradient(place - offset_) : Vec2(0.0, 0.0);
+    }
+    /// The FEM's pore pressure before the shaking, in the runout's coordinates; only with water.
+    const mechanics::NodalField& steady_pressure() const { return steady_; }
 
   private:
     struct RegionRule {
@@ -60,6 +72,7 @@ class SoilMap {
         bool collapses = false;                   ///< by state
         std::size_t region = 0;                   ///< index into the section's
     };
+    void set_water(const scene::Scene& scene);
     void add_rule(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
                   std::size_t region);
 
@@ -71,10 +84,14 @@ class SoilMap {
     std::optional<LiquefiedZone> liquefied_;
     Collapse collapse_;
     scene::Ground ground_;
+    mechanics::NodalField steady_;
+    scene::StandingWater water_;
+    Vec2 offset_{0.0, 0.0};
 };
 
-/// Stress measure for points of a soil. Only a frictional law can have an effective stress.
-exchange::StressMeasure measure_for(const materials::Law& law, scene::TransferredStress wanted);
+/// Stress measure for points of a soil: buoyant with standing water; else total, or effective where
+/// that is wanted and the law has friction.
+exchange::StressMeasure measure_for(const materials::Law& law, const scene::Scene& scene);
 
 /// Assigns a soil to every point: state.region and the lists it refers to.
 void assign_soils(const SoilMap& map, Points& points);
@@ -83,9 +100,10 @@ void assign_soils(const SoilMap& map, Points& points);
 /// collapsed, it softens with further strain only. Call after start_softening.
 void start_at_state(const SoilMap& map, Points& points);
 
-/// Effective to total stress, sigma' - u I, if the soil's points have total stress.
+/// From the effective stress: sigma' - u I for points with total stress, sigma' + (p - u) I for
+/// buoyant ones at the pressure p of the standing water there.
 mechanics::Voigt stress_of(const SoilOfPoints& soil, const mechanics::Voigt& sigma_effective,
-                           double u);
+                           double u, double p);
 void settle_stress(const SoilMap& map, Points& points);
 
 /// Points of one soil, for result.json and messages.

@@ -30,15 +30,6 @@ std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
                               zone.closed_width(), zone.gaps()};
 }
 
-/// Displacement of the mesh's lowest node, the leftmost of several [m].
-double displacement_of_base(const exchange::MeshSnapshot& mesh) {
-    const auto lower = [](const mechanics::Vec2& a, const mechanics::Vec2& b) {
-        return std::pair(a.y(), a.x()) < std::pair(b.y(), b.x());
-    };
-    const auto lowest = std::ranges::min_element(mesh.position_0, lower);
-    return mesh.displacement[lowest - mesh.position_0.begin()].x();
-}
-
 }  // namespace
 
 std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const scene::Scene& scene,
@@ -76,6 +67,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.collapse = map.collapse_report(points);
     t.state = std::move(points.state);
     t.state.base_motion = mesh.base_motion;
+    t.state.steady_pressure = map.steady_pressure();
     if (settings.base_displacement == scene::BaseDisplacement::subtracted) {
         t.base_displacement = displacement_of_base(mesh);
         for (mechanics::Vec2& place : t.state.position) place.x() -= t.base_displacement;

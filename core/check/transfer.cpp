@@ -99,7 +99,7 @@ double degrees(double tan_phi) { return std::atan(tan_phi) * 180.0 / std::number
 /// flagged instead.
 void warn_about_friction_under_water(const scene::Scene& scene,
                                      const std::vector<scene::Soil>& soils, Findings& findings) {
-    if (scene.fem || !is_whole(scene)) return;
+    if (scene.fem || !is_whole(scene) || (scene.mpm && scene.mpm->water)) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
     const scene::Ground ground(scene);
@@ -130,6 +130,34 @@ void warn_about_friction_under_water(const scene::Scene& scene,
                  ", and the LEM \"limit_strength\": {\"c_kPa\": " + text(c / 1e3) +
                  ", \"phi_deg\": " + words::text_of(degrees(drained), 4) +
                  "}; or give what flows an undrained strength (\"phi_deg\": 0)");
+    }
+}
+
+/// Warns of standing water whose line falls steeply within frictional soil: below it the pressure
+/// is hydrostatic and pushes sideways with the whole slope, more than seepage does. A FEM gives the
+/// pressure of seepage instead.
+void warn_about_steep_pool(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
+                           Findings& findings) {
+    if (scene.fem || !scene.mpm || !scene.mpm->water || !is_whole(scene)) return;
+    constexpr double steep = 0.5;
+    const std::vector<Vec2>& line = scene.mpm->water->line;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        const Vec2 middle = 0.5 * (line[i] + line[i + 1]), run = line[i + 1] - line[i];
+        if (std::abs(run.y()) <= steep * run.x()) continue;
+        for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+            const scene::Region& region = scene.section.regions[r];
+            if (soils[r].material >= scene.materials.size() ||
+                strength_of(scene.materials[soils[r].material]).tan_phi == 0.0 ||
+                !geometry::contains(region.polygon, middle))
+                continue;
+            warn(findings, "steep_water", "/mpm/water/line",
+                 "falls by " + metres(std::abs(run.y())) + " over " + metres(run.x()) +
+                     " in the frictional soil \"" + region.name +
+                     "\": hydrostatic pressure below it pushes sideways by that slope, more than "
+                     "seepage does, and the dry side may fail by it; run an FEM with /fem/water, "
+                     "whose seepage the transfer brings, or let the line fall over the whole dam");
+            return;
+        }
     }
 }
 
@@ -175,7 +203,11 @@ void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
     const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     const double pond = deepest_pond(scene, fem.water_in(fem.stages.size() - 1)->line);
-    if (pond > shallow) tell("/fem/water/line", "free water up to " + metres(pond) + " deep");
+    if (pond > shallow && !scene.mpm->water)
+        warn(findings, "load_ends", "/fem/water/line",
+             "free water up to " + metres(pond) +
+                 " deep ends at the transfer: the runout is in air; draw it as /mpm/water to keep "
+                 "its pressure");
 }
 
 /// Warns of a mapping to a material of another density: points keep their mass.
@@ -203,6 +235,7 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
     if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     warn_about_friction_under_water(scene, soils, findings);
+    warn_about_steep_pool(scene, soils, findings);
     warn_about_loads_that_end(scene, findings);
     warn_about_densities(scene, soils, findings);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {

@@ -104,13 +104,51 @@ std::vector<StressMeasure> read_stress_measures(Hdf5Reader& reader, std::size_t 
     for (const std::string& name : reader.strings(stress_of_regions)) {
         const auto measure = words::find<StressMeasure>(name);
         if (!measure)
-            reader.fault(stress_of_regions, "\"" + name + "\" is neither total nor effective");
+            reader.fault(stress_of_regions, "\"" + name + "\" is not total, effective or buoyant");
         measures.push_back(measure.value_or(StressMeasure::effective));
     }
     if (measures.size() != regions)
         reader.fault(stress_of_regions, std::to_string(measures.size()) + " entries for " +
                                             std::to_string(regions) + " regions");
     return measures;
+}
+
+const std::string steady_pressure = "/breachline/steady_pressure";
+
+void write_steady_pressure(Hdf5Image& image, const mechanics::NodalField& steady) {
+    if (!steady.any()) return;
+    const auto elements = static_cast<std::int64_t>(steady.quads.size());
+    image.group(steady_pressure);
+    image.attribute(steady_pressure, "elements", std::span(&elements, 1));
+    image.array(steady_pressure + "/position", flat(steady.position), 2, "m");
+    image.array(steady_pressure + "/quads",
+                std::span<const std::int32_t>(steady.quads.front().data(), 4 * steady.quads.size()),
+                4);
+    image.array(steady_pressure + "/pressure", steady.value, 0, "Pa");
+}
+
+mechanics::NodalField read_steady_pressure(Hdf5Reader& reader) {
+    mechanics::NodalField steady;
+    if (!reader.exists(steady_pressure)) return steady;
+    steady.value = reader.finite_reals(steady_pressure + "/pressure");
+    steady.position.resize(reader.rows(steady_pressure + "/position"));
+    reader.array(steady_pressure + "/position", flat(steady.position), 2);
+    steady.quads.resize(reader.count_attribute(steady_pressure, "elements"));
+    if (steady.quads.empty() || steady.position.size() != steady.value.size()) {
+        reader.fault(steady_pressure, "positions, pressures or quads are missing");
+        return {};
+    }
+    reader.array(steady_pressure + "/quads",
+                 std::span<std::int32_t>(steady.quads.front().data(), 4 * steady.quads.size()), 4);
+    for (const auto& quad : steady.quads)
+        for (const std::int32_t node : quad)
+            if (node < 0 || static_cast<std::size_t>(node) >= steady.value.size()) {
+                reader.fault(steady_pressure + "/quads", "names node " + std::to_string(node) +
+                                                             " of " +
+                                                             std::to_string(steady.value.size()));
+                return {};
+            }
+    return steady;
 }
 
 void write_ledger(Hdf5Image& image, const Ledger& ledger) {
@@ -218,9 +256,9 @@ void ParticleState::resize(std::size_t n) {
 }
 
 double ParticleState::pressure_beside(std::size_t p) const {
-    const bool is_total =
-        !stress_of_regions.empty() && stress_of_regions[region[p]] == StressMeasure::total;
-    return is_total || pore_pressure.empty() ? 0.0 : pore_pressure[p];
+    const bool is_effective =
+        stress_of_regions.empty() || stress_of_regions[region[p]] == StressMeasure::effective;
+    return is_effective && !pore_pressure.empty() ? pore_pressure[p] : 0.0;
 }
 
 void write_particle_state(const std::filesystem::path& path, const ParticleState& state,
@@ -231,6 +269,7 @@ void write_particle_state(const std::filesystem::path& path, const ParticleState
     write_state(image, state);
     write_stress_measures(image, state.stress_of_regions);
     write_base_motion(image, state.base_motion);
+    write_steady_pressure(image, state.steady_pressure);
     if (!ledger.empty()) write_ledger(image, ledger);
     write_provenance(image, provenance);
     std::move(image).save(path);
@@ -245,6 +284,7 @@ ParticleStateFile read_particle_state(const std::filesystem::path& path) {
     s = read_state(reader, Wanted::state);
     s.stress_of_regions = read_stress_measures(reader, s.regions.size());
     s.base_motion = read_base_motion(reader);
+    s.steady_pressure = read_steady_pressure(reader);
     file.ledger = read_ledger(reader);
     file.provenance = read_provenance(reader);
     reader.check_rest();

@@ -12,18 +12,21 @@
 #include "core/exchange/base_motion.hpp"
 #include "core/exchange/ledger.hpp"
 #include "core/exchange/provenance.hpp"
+#include "core/mechanics/nodal_field.hpp"
 #include "core/mechanics/tensor.hpp"
 #include "core/words/words.hpp"
 
 namespace breach::exchange {
 
 /// Stress measure of a region's points. effective: total stress = stress - u I with the points'
-/// pore_pressure u; total: `stress` is the total stress.
-enum class StressMeasure { effective, total };
+/// pore_pressure u; total: `stress` is the total stress; buoyant: total stress = stress - p I with
+/// the pressure p of /mpm/water at the point's place (core/scene/standing_water.hpp).
+enum class StressMeasure { effective, total, buoyant };
 
 constexpr auto words_of(StressMeasure) {
     using enum StressMeasure;
-    return words::in_order<StressMeasure>({{effective, "effective"}, {total, "total"}});
+    return words::in_order<StressMeasure>(
+        {{effective, "effective"}, {total, "total"}, {buoyant, "buoyant"}});
 }
 
 /// Peak and residual strength of points [n_particles]; 0 for soil without a strength profile.
@@ -101,6 +104,9 @@ struct ParticleState : PointFields {
     /// On the FEM's clock; only in files of the transfer. The velocities of those files are still
     /// relative to far rock.
     BaseMotion base_motion{};
+    /// Pore pressure before the shaking at the nodes of the undeformed mesh [Pa]; only in files of
+    /// a transfer to a scene with /mpm/water.
+    mechanics::NodalField steady_pressure{};
 
     std::size_t size() const { return position.size(); }
     /// New points have zeros in the fields that every point has.

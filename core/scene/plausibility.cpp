@@ -148,6 +148,8 @@ void warn_about_tables(Warner& d) {
         tables.push_back({"/lem/water/line", {&d.scene.lem->water->line}});
     if (d.scene.transfer && !d.scene.transfer->phreatic_line.empty())
         tables.push_back({"/transfer/phreatic_line", {&d.scene.transfer->phreatic_line}});
+    if (d.scene.mpm && d.scene.mpm->water)
+        tables.push_back({"/mpm/water/line", {&d.scene.mpm->water->line}});
     for (const Table& table : tables) {
         if (!d.reader.sound(table.pointer)) return;
     }
@@ -364,6 +366,9 @@ void warn_about_together(Reader& reader, Scene& scene) {
         }
         if (scene.fem && scene.fem->water) {
             warn_about_water(d, scene.fem->water->line, "/fem/water/line");
+        }
+        if (scene.mpm && scene.mpm->water) {
+            warn_about_water(d, scene.mpm->water->line, "/mpm/water/line");
         }
         if (scene.transfer) {
             warn_about_water(d, scene.transfer->phreatic_line, "/transfer/phreatic_line");

@@ -1,6 +1,7 @@
 // Reads /mpm.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/polyline.hpp"
 #include "core/scene/checks.hpp"
@@ -90,6 +91,43 @@ void check_places(Reader& reader, const Mpm& mpm, const std::vector<Place>& plac
     }
 }
 
+/// The pool must lie in the grid, over some soil and below the crest.
+void check_pool(Reader& reader, const Scene& scene, const Mpm& mpm) {
+    if (!mpm.water || mpm.water->line.empty()) return;
+    const char* pointer = "/mpm/water/line";
+    const auto level = [&](double x) { return geometry::level_at(mpm.water->line, x); };
+    double highest = std::max(level(mpm.domain_x[0]), level(mpm.domain_x[1]));
+    bool inside = mpm.water->line.size() == 1;
+    for (const Vec2& point : mpm.water->line) {
+        if (point.x() < mpm.domain_x[0] || point.x() > mpm.domain_x[1]) continue;
+        inside = true;
+        highest = std::max(highest, point.y());
+    }
+    if (!inside || highest <= mpm.floor.level || highest > mpm.domain_y[1]) {
+        reader.add(pointer, "lies outside the grid",
+                   "give levels in m, in the section's datum, between /mpm/floor/level and "
+                   "/mpm/domain_y");
+        return;
+    }
+    double crest = -std::numeric_limits<double>::infinity(), deepest = crest;
+    for (const Region& region : scene.section.regions) {
+        if (region.polygon.empty()) continue;
+        crest = std::max(crest, geometry::bounding_box(region.polygon).high.y());
+        const auto [below, place] =
+            geometry::deepest_below(region.polygon, mpm.water->line, geometry::level_at);
+        deepest = std::max(deepest, below);
+    }
+    if (!std::isfinite(crest)) return;
+    if (highest >= crest)
+        reader.add(pointer,
+                   "stands at " + words::text_of(highest) + " m, and the highest ground lies at " +
+                       words::text_of(crest) + " m: water over the crest is out of scope",
+                   "lower the water below the crest; overtopping asks for a program of erosion");
+    else if (deepest <= 0.0)
+        reader.add(pointer, "lies below all soil: no point feels its pressure",
+                   "raise it to the water level, or leave /mpm/water out");
+}
+
 void read_sections(Reader& reader, const json& mpm, Mpm& result) {
     result.arrival_depth = mpm.at("envelope").at("arrival_depth");
     for (const json& section : mpm.at("sections")) {
@@ -146,6 +184,7 @@ std::string slip_of_drawing(const Section& section, const Mpm& mpm) {
 void check_mpm(Reader& reader, const Scene& scene, const Mpm& mpm) {
     check_shaking(reader, mpm);
     check_terrain(reader, mpm);
+    check_pool(reader, scene, mpm);
     check_places(reader, mpm, mpm.gauges, "/mpm/gauges", "gauge");
     check_places(reader, mpm, mpm.sections, "/mpm/sections", "section");
     check_order(
@@ -237,6 +276,9 @@ void read_mpm(Reader& reader, Scene& scene) {
     if (mpm.contains("terrain")) {
         result.terrain = line_from(reader, mpm.at("terrain"), "/mpm/terrain");
     }
+    if (mpm.contains("water"))
+        result.water = {line_from(reader, mpm.at("water").at("line"), "/mpm/water/line"),
+                        mpm.at("water").at("density")};
     result.gimp_half_size = mpm.at("gimp_half_size");
     result.tension_share = mpm.at("tension_share");
     result.damping_ratio = mpm.at("damping_ratio");

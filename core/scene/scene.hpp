@@ -582,6 +582,12 @@ struct Rest {
     double peak_share = 0.05;      ///< largest kinetic energy, over its maximum so far [-]
 };
 
+/// Standing water of a runout; core/scene/standing_water.hpp gives its pressure.
+struct Pool {
+    std::vector<Vec2> line;  ///< ascending in x, level beyond its ends [m]
+    double density;          ///< [kg/m3]
+};
+
 struct Mpm {
     double cell_size;  ///< [m]
     bool allow_coarse_cells = false;
@@ -590,6 +596,7 @@ struct Mpm {
     Wall left;
     Wall right;
     Floor floor;
+    std::optional<Pool> water{};
     /// Ascending in x, linear beyond its ends; empty: the floor [m]
     std::vector<Vec2> terrain{};
     double gimp_half_size;  ///< over the cell size [-]

@@ -45,7 +45,7 @@ int useful_threads(int asked_for, std::size_t points) {
 }  // namespace
 
 Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
-               const Computing& computing) {
+               const Computing& computing, const mechanics::NodalField& steady) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     Body body{.grid = make_grid(mpm),
               .points = std::move(points.points),
@@ -58,6 +58,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
               .averages = {},
               .loops = {},
               .softening = {},
+              .water = scene::StandingWater(scene, steady),
               .strips = {},
               .team = {},
               .sums = {},

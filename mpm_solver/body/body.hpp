@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/numerics/team.hpp"
+#include "core/scene/standing_water.hpp"
 #include "mpm_solver/body/choose.hpp"
 #include "mpm_solver/body/grid.hpp"
 #include "mpm_solver/body/nonlocal.hpp"
@@ -53,16 +54,17 @@ struct Body {
     std::vector<std::vector<CellSum>> averages;
     std::vector<Loops> loops;  ///< per zone
     NonlocalSoftening softening;
+    scene::StandingWater water;  ///< none without /mpm/water
     Strips strips;
     std::shared_ptr<numerics::Team> team;
     std::vector<Totals> sums;  ///< [zones * strips]
     Tally tally;
 };
 
-/// Precomputes everything; the points keep their positions. Throws BadInput with `file` if a point
-/// is outside the grid.
+/// Precomputes everything; the points keep their positions. `steady`: pore pressure of the FEM for
+/// /mpm/water. Throws BadInput with `file` if a point is outside the grid.
 Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
-               const Computing& computing = {});
+               const Computing& computing = {}, const mechanics::NodalField& steady = {});
 
 /// Throws BadInput with `file` if a point is below the terrain.
 void refuse_buried_points(const Body& body, const std::string& file);

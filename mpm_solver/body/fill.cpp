@@ -108,20 +108,20 @@ Patches sample(const Polygon& polygon, const Vec2& origin, double spacing) {
     return patches;
 }
 
-mechanics::Voigt stress_at(const scene::Scene& scene, const Vec2& place,
-                           const mechanics::Elasticity& soil) {
+mechanics::Voigt stress_at(const scene::Scene& scene, const scene::StandingWater& water,
+                           const Vec2& place, const mechanics::Elasticity& soil) {
     if (scene::mpm_of(scene).fill_stress == scene::FillStress::none) {
         return mechanics::Voigt::Zero();
     }
-    return column_stress(overburden(scene, place), soil.nu);
+    return column_stress(overburden(scene, water, place), soil.nu);
 }
 
 /// Mass by the region's material, initial stress by the material that it becomes.
-void add_point(const scene::Scene& scene, std::size_t region, const scene::Material& becomes,
-               const Patch& patch, exchange::ParticleState& state) {
+void add_point(const scene::Scene& scene, const scene::StandingWater& water, std::size_t region,
+               const scene::Material& becomes, const Patch& patch, exchange::ParticleState& state) {
     const scene::Material& material = scene.materials[scene.section.regions[region].material];
     const mechanics::Elasticity soil = materials::elasticity(becomes.law);
-    const mechanics::Voigt sigma = stress_at(scene, patch.centroid, soil);
+    const mechanics::Voigt sigma = stress_at(scene, water, patch.centroid, soil);
     const double sigma_m = (sigma[0] + sigma[1] + sigma[2]) / 3.0;
     const double volume = patch.area * state.thickness;
     state.resize(state.size() + 1);
@@ -169,12 +169,13 @@ FilledSection fill_section(const scene::Scene& scene) {
         return materials::has_strength_of_points(each->law);
     });
     const scene::Ground ground(scene);
+    const scene::StandingWater water(scene);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Region& region = scene.section.regions[r];
         filled.state.regions.push_back(region.name);
         filled.state.materials_of_regions.push_back(scene.materials[region.material].name);
         for (const auto& [place, patch] : sample(region.polygon, origin, square)) {
-            add_point(scene, r, *become[r], patch, filled.state);
+            add_point(scene, water, r, *become[r], patch, filled.state);
             if (strengths) add_strength(ground, *become[r], r, filled.state);
         }
     }

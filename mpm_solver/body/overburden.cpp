@@ -12,23 +12,26 @@ namespace {
 using geometry::Polygon;
 using scene::Vec2;
 
-double thickness_above(const Polygon& polygon, const Vec2& place) {
+/// Also raises `top` to the polygon's highest soil there.
+double thickness_above(const Polygon& polygon, const Vec2& place, double& top) {
     const std::vector<double> heights = geometry::crossings(polygon, place.x());
     double thickness = 0.0;
     for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {
         thickness += std::max(heights[k + 1] - std::max(heights[k], place.y()), 0.0);
+        top = std::max(top, heights[k + 1]);
     }
     return thickness;
 }
 
 }  // namespace
 
-double overburden(const scene::Scene& scene, const Vec2& place) {
-    double weight = 0.0;
+double overburden(const scene::Scene& scene, const scene::StandingWater& water, const Vec2& place) {
+    double weight = 0.0, top = place.y();
     for (const scene::Region& region : scene.section.regions) {
         weight += scene.materials[region.material].density * scene.gravity *
-                  thickness_above(region.polygon, place);
+                  thickness_above(region.polygon, place, top);
     }
+    if (water.is_there()) weight -= water.pressure(place) - water.pressure({place.x(), top});
     return weight;
 }
 

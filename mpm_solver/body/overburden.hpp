@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/mechanics/elasticity.hpp"
-#include "core/scene/scene.hpp"
+#include "core/scene/standing_water.hpp"
 
 namespace breach::mpm {
 
-/// Vertical stress from the weight of the regions above `place`, compression positive [Pa].
-double overburden(const scene::Scene& scene, const scene::Vec2& place);
+/// Vertical stress from the weight of the regions above `place`, with standing water their weight
+/// less its pressure's rise from the ground down to there; compression positive [Pa].
+double overburden(const scene::Scene& scene, const scene::StandingWater& water,
+                  const scene::Vec2& place);
 
 /// sigma_v with the lateral stress of a confined column, K_0 = nu / (1 - nu); tension positive
 /// [Pa].

@@ -115,6 +115,23 @@ void refuse_water(const exchange::ParticleState& state, const std::string& file)
     }
 }
 
+/// Refuses stress of another measure than the run's: with standing water the points of a transfer
+/// carry sigma + p I, without it none may.
+void refuse_other_measure(const scene::Scene& scene, const exchange::ParticleState& state,
+                          const std::string& file) {
+    using exchange::StressMeasure;
+    const bool wet = scene::mpm_of(scene).water.has_value();
+    const bool fits = std::ranges::all_of(state.stress_of_regions, [&](StressMeasure each) {
+        return (each == StressMeasure::buoyant) == wet;
+    });
+    if (fits) return;
+    throw fault::BadInput(
+        file, {{"/breachline/stress_of_regions",
+                wet ? "the points were made without the standing water of /mpm/water"
+                    : "the points were made with standing water, and /mpm/water is missing",
+                "make the points with this scene: run the transfer again"}});
+}
+
 /// [soils] whether its points have individual strengths.
 std::vector<bool> strengths_of_points(const scene::Scene& scene) {
     std::vector<bool> have;
@@ -258,6 +275,7 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
         throw fault::BadInput(file, {{"/", "holds no points", "give at least one"}});
     }
     refuse_water(state, file);
+    refuse_other_measure(scene, state, file);
     refuse_thickness(scene, state, file);
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
     const std::vector<std::int32_t> match = match_soils(scene, soils, state, file);
@@ -277,6 +295,7 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
         points.number[p] = static_cast<std::int32_t>(order[p]);
         points.region[p] = match[state.region[order[p]]];
     }
+    if (scene::mpm_of(scene).water) points.displaced = points.volume;
     refuse_without_strength(scene, points, file);
     points.carried.r_u = state.r_u;
     if (!state.stress_of_regions.empty()) {

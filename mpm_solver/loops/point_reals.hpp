@@ -26,6 +26,8 @@ struct PointReals {
     /// Present viscosity: that of the material plus, for soil that did not yield in the last step,
     /// that of damping; only with either [Pa s].
     Array eta;
+    /// Volume that standing water pushes on, as at the start; only with such water [m3].
+    Array displaced;
     /// Overlap beyond the tolerance, see OverlapMeter; only with the correction [-].
     Array excess;
     /// Peak and residual strengths of soils with a strength profile, 0 of others; only with such
@@ -72,6 +74,7 @@ inline constexpr RealOfPoints<Array> reals_of_points[] = {
     {"epsilon_q_shared", &P::epsilon_q_shared, Life::run, &P::epsilon_q_shared},
     {"gap", &P::gap, Life::output},
     {"eta", &P::eta, Life::run, &P::eta},
+    {"displaced", &P::displaced, Life::run, &P::displaced},
     {"excess", &P::excess, Life::run, &P::excess},
     {"c", &P::c, Life::run, &P::c},
     {"tan_phi", &P::tan_phi, Life::run, &P::c},

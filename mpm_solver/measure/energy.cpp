@@ -17,6 +17,9 @@ Energy energy_of(const Body& body) {
                 points.V[p] * mechanics::elastic_energy_density(zone.elasticity, sigma);
             energy.gravitational -=
                 points.m[p] * (body.gravity.x() * points.x[p] + body.gravity.y() * points.y[p]);
+            if (body.water.is_there())
+                energy.gravitational +=
+                    points.displaced[p] * body.water.pressure({points.x[p], points.y[p]});
         }
     }
     return energy;

@@ -8,7 +8,7 @@ namespace breach::mpm {
 /// Present energies of the points, and dissipation so far [J].
 struct Energy {
     double kinetic = 0.0;
-    double gravitational = 0.0;  ///< relative to y = 0
+    double gravitational = 0.0;  ///< relative to y = 0; with V p of standing water
     double elastic = 0.0;
     double plastic = 0.0;   ///< dissipated by plastic strain
     double friction = 0.0;  ///< dissipated by the floor's friction

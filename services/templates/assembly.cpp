@@ -350,6 +350,7 @@ Json runout_of(const Context& all) {
         mpm["terrain"] = {{left - h, nanometres(terrain.at(left - h))},
                           {0.0, 0.0},
                           {right, nanometres(terrain.at(right))}};
+    if (values.or_none("pond_depth") > 0.0) mpm["water"] = {{"line", points(all.outline.phreatic)}};
     mpm["fill_points"] = 4;
     if (!all.with_fem) mpm["fill_stress"] = "overburden";
     mpm["overlap_correction"] = {{"rate", 5}};

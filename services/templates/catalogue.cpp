@@ -134,6 +134,9 @@ Options pond(double beach, double heights) {
         ratio("beach_slope", 0, 0.1, 0.01, "fall of the beach, metres per metre"),
         sized("pond_length", heights, 1, 5000,
               "tailings below the pond that are modelled, from its edge upstream"),
+        length("pond_depth", 0, 50, 0,
+               "water at the pond's edge when the dam fails, above the tailings and in the runout; "
+               "0: none"),
     };
 }
 
@@ -255,25 +258,17 @@ const char* type_of(Kind kind) {
 
 /// The group of an option in a form: "section" unless it is listed here.
 const char* topic_of(const std::string& name) {
-    static const std::map<std::string, const char*> topics{{"layer_thickness", "soils"},
-                                                           {"residual_ratio", "soils"},
-                                                           {"peak_ratio", "soils"},
-                                                           {"clay_strength", "soils"},
-                                                           {"slimes_ratio", "soils"},
-                                                           {"piezometer_depth", "water"},
-                                                           {"freeboard", "water"},
-                                                           {"beach_length", "water"},
-                                                           {"beach_slope", "water"},
-                                                           {"pond_length", "water"},
-                                                           {"drain", "water"},
-                                                           {"water_depth", "water"},
-                                                           {"water_height", "water"},
-                                                           {"with_fem", "water"},
-                                                           {"pga", "water"},
-                                                           {"shaking", "water"},
-                                                           {"runout_extent", "question"},
-                                                           {"cell_size", "question"},
-                                                           {"element_size", "question"}};
+    static const std::map<std::string, const char*> topics{
+        {"layer_thickness", "soils"}, {"residual_ratio", "soils"},
+        {"peak_ratio", "soils"},      {"clay_strength", "soils"},
+        {"slimes_ratio", "soils"},    {"piezometer_depth", "water"},
+        {"freeboard", "water"},       {"beach_length", "water"},
+        {"beach_slope", "water"},     {"pond_length", "water"},
+        {"pond_depth", "water"},      {"drain", "water"},
+        {"water_depth", "water"},     {"water_height", "water"},
+        {"with_fem", "water"},        {"pga", "water"},
+        {"shaking", "water"},         {"runout_extent", "question"},
+        {"cell_size", "question"},    {"element_size", "question"}};
     const auto found = topics.find(name);
     return found == topics.end() ? "section" : found->second;
 }

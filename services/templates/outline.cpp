@@ -73,6 +73,27 @@ std::optional<Vec2> measured_level(const Values& values, const Vec2& crest, cons
     return level;
 }
 
+/// Raises the line to a pond of that depth at `from`: level to where it meets the ground, then down
+/// to the line below the crest. Refused where it would stand over the crest.
+void raise_to_pond(const Values& values, double level, Outline& outline) {
+    Refusal refusal(values);
+    refusal.unless(level < outline.crest.y(), "pond_depth",
+                   "the water would stand at " + metres(level) + ", and the crest at " +
+                       metres(outline.crest.y()),
+                   "keep some freeboard: overtopping is out of scope");
+    refusal.speak();
+    const auto shore =
+        std::ranges::find_if(outline.ground, [&](const Vec2& each) { return each.y() > level; });
+    const Vec2 &above = *shore, &below = *std::prev(shore);
+    const double x = geometry::on_straight({below.y(), below.x()}, {above.y(), above.x()}, level);
+    const double crest = outline.crest.x();
+    Line line{
+        {outline.left, level}, {x, level}, {crest, geometry::level_at(outline.phreatic, crest)}};
+    for (const Vec2& each : outline.phreatic)
+        if (each.x() > crest) line.push_back(each);
+    outline.phreatic = std::move(line);
+}
+
 }  // namespace
 
 void add_water(const Values& values, const Vec2& from, double exit, Outline& outline) {
@@ -82,6 +103,8 @@ void add_water(const Values& values, const Vec2& from, double exit, Outline& out
     outline.phreatic =
         phreatic_line({from, end, measured_level(values, crest, from, end)}, outline.left,
                       values["foundation_extent"], outline.ground, terrain);
+    if (const double depth = values.or_none("pond_depth"); depth > 0.0)
+        raise_to_pond(values, from.y() + depth, outline);
 }
 
 void check_heel(Refusal& refusal, double heel_level, double starter) {

@@ -45,6 +45,7 @@ void drop_unused(Json& scene, const std::string& material) {
 void reduce_friction_of_wet_fill(Json& scene) {
     const scene::Reading reading = scene::read_text(scene.dump(), "scene", ".", {});
     if (!reading.faults.empty()) return;
+    if (reading.scene.mpm->water) return;  // its pressure acts: friction is on the effective stress
     const scene::Scene& read = reading.scene;
     const scene::Ground ground(read);
     const auto& regions = read.section.regions;

@@ -126,7 +126,9 @@ rows = [
 drawing, judgement, test_of_soil = "the section must be drawn differently", "needs a judgement of the soil", "needs other laboratory tests"
 without = {
     "upstream_wall": drawing, "sliver": drawing, "broken_base": drawing, "hardly_held": drawing, "undrawn_water": drawing,
-    "far_crest": drawing, "load_ends": drawing, "needs_fem": drawing,
+    "far_crest": drawing, "load_ends": drawing, "steep_water": drawing, "scarp_without_pool": drawing,
+    "standing_water": "says that the runout is a bound, whatever is set", "pool_runs_over": "a flood asks for another program",
+    "needs_fem": drawing,
     "total_stress": judgement, "no_residual_strength": judgement, "strengths_differ": judgement, "outside_relation": judgement,
     "unused_density": judgement, "unconsolidated": judgement, "fails_unliquefied": judgement, "limit_point": judgement,
     "carried_slide": "pastes a viscosity of each material; tests/verification/mpm/carried_slide_test.py follows it",

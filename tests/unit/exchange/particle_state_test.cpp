@@ -72,6 +72,24 @@ TEST(ParticleState, CarriesTheLedgerOfItsTransfer) {
     EXPECT_EQ(r[0].difference, 1e-12);
 }
 
+TEST(ParticleState, CarriesTheSteadyPressureOfItsMesh) {
+    const Folder folder;
+    ParticleState s = samples::particles(2);
+    s.stress_of_regions.assign(s.regions.size(), StressMeasure::buoyant);
+    s.steady_pressure = {.position = {{0, 0}, {2, 0}, {2, 1}, {0, 1}},
+                         .quads = {{0, 1, 2, 3}},
+                         .value = {1e4, 2e4, 0.0, 5.0}};
+    write_particle_state(folder / "p.vtkhdf", s, {});
+    const ParticleState r = read_particle_state(folder / "p.vtkhdf").state;
+    EXPECT_EQ(r.stress_of_regions, s.stress_of_regions);
+    EXPECT_EQ(r.steady_pressure.position, s.steady_pressure.position);
+    EXPECT_EQ(r.steady_pressure.quads, s.steady_pressure.quads);
+    EXPECT_EQ(r.steady_pressure.value, s.steady_pressure.value);
+    s.steady_pressure.quads = {{0, 1, 2, 4}};
+    write_particle_state(folder / "p.vtkhdf", s, {});
+    EXPECT_THROW(read_particle_state(folder / "p.vtkhdf"), fault::BadInput);
+}
+
 TEST(ParticleState, AHundredThousandPointsAreSeveralChunks) {
     const Folder folder;
     const ParticleState s = samples::particles(100000);

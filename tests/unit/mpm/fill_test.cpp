@@ -95,10 +95,10 @@ TEST(Fill, OverburdenIsTheWeightOfEveryRegionAbove) {
     scene.section.regions.push_back(
         {.name = "light", .material = 1, .polygon = rectangle(2, 4, 6, 5)});
     scene.gravity = 10.0;
-    EXPECT_DOUBLE_EQ(overburden(scene, {1.0, 1.0}), 2000.0 * 10.0 * 3.0);
-    EXPECT_DOUBLE_EQ(overburden(scene, {3.0, 1.0}), 2000.0 * 10.0 * 3.0 + 1000.0 * 10.0);
-    EXPECT_DOUBLE_EQ(overburden(scene, {5.0, 0.5}), 2000.0 * 10.0 * 2.5 + 1000.0 * 10.0);
-    EXPECT_DOUBLE_EQ(overburden(scene, {3.0, 4.5}), 1000.0 * 10.0 * 0.5);
+    EXPECT_DOUBLE_EQ(overburden(scene, {}, {1.0, 1.0}), 2000.0 * 10.0 * 3.0);
+    EXPECT_DOUBLE_EQ(overburden(scene, {}, {3.0, 1.0}), 2000.0 * 10.0 * 3.0 + 1000.0 * 10.0);
+    EXPECT_DOUBLE_EQ(overburden(scene, {}, {5.0, 0.5}), 2000.0 * 10.0 * 2.5 + 1000.0 * 10.0);
+    EXPECT_DOUBLE_EQ(overburden(scene, {}, {3.0, 4.5}), 1000.0 * 10.0 * 0.5);
 }
 
 TEST(Fill, PointsStartUnderTheirOverburdenAndStayAtRest) {

@@ -125,6 +125,55 @@ TEST(NonlocalRun, HasTheSameBitsForTwoThreadsAndAfterAStop) {
     EXPECT_NE(local.body().points.epsilon_q_plastic, whole.body().points.epsilon_q_plastic);
 }
 
+/// Half under water, whose pressure in the soil is that of a mesh and not of the line.
+Simulation fresh_in_water(int threads, const scene::Scene& scene) {
+    const mechanics::NodalField steady{
+        .position = {{0, 0}, {5, 0}, {5, 3}, {0, 3}}, .quads = {{0, 1, 2, 3}}, .value = {}};
+    exchange::ParticleState state = fill_section(scene).state;
+    state.steady_pressure = steady;
+    state.steady_pressure.value = {25e3, 20e3, 0.0, 0.0};
+    return {scene,
+            make_body(scene, zoned_points(scene, state, "test"), "test", {.threads = threads},
+                      state.steady_pressure),
+            0.0};
+}
+
+TEST(RunInWater, HasTheSameBitsForTwoThreadsAndAfterAStop) {
+    scene::Scene scene = brittle_heap();
+    scene.mpm->water = {{{0.0, 2.0}}, 1000.0};
+    const exchange::Provenance provenance{
+        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+    const breach::test::Folder folder;
+    const auto file = folder / "checkpoint.h5";
+    Simulation whole = fresh_in_water(1, scene);
+    Simulation stopped = fresh_in_water(2, scene);
+    advance_looking(whole, 150);
+    advance_looking(stopped, 150);
+    expect_same_bits(whole, stopped);
+    save_checkpoint(file, stopped, 42, provenance);
+    Resumed resumed = load_checkpoint(file, scene, provenance, {.threads = 2});
+    advance_looking(whole, 150);
+    advance_looking(resumed.simulation, 150);
+    expect_same_bits(whole, resumed.simulation);
+    Simulation by_line{scene, filled_body(scene), 0.0};
+    advance_looking(by_line, 300);
+    EXPECT_NE(whole.body().points.x, by_line.body().points.x) << "the mesh's pressure counts";
+
+    scene.mpm->water.reset();
+    EXPECT_THROW(load_checkpoint(file, scene, provenance), fault::BadInput);
+}
+
+TEST(RunInWater, TakesOnlyPointsThatWereMadeForIt) {
+    scene::Scene scene = heap();
+    exchange::ParticleState state = fill_section(scene).state;
+    state.stress_of_regions = {exchange::StressMeasure::buoyant};
+    EXPECT_THROW(zoned_points(scene, state, "test"), fault::BadInput);
+    scene.mpm->water = {{{0.0, 2.0}}, 1000.0};
+    EXPECT_NO_THROW(zoned_points(scene, state, "test"));
+    state.stress_of_regions = {exchange::StressMeasure::total};
+    EXPECT_THROW(zoned_points(scene, state, "test"), fault::BadInput);
+}
+
 /// 0.3 g at 2 Hz for 1.2 s from the transfer at 0.4 s on.
 GroundMotion shaking_ground() {
     exchange::BaseMotion base{.time_step = 0.01, .velocity = {}};
@@ -342,7 +391,7 @@ TEST_F(ChangedCheckpoint, WithLooksOfWhichThereIsNoRecordIsRefused) {
 }
 
 TEST_F(ChangedCheckpoint, WithAMeasureOfStressThatIsNoneIsRefused) {
-    archive_.integers["stress_of_soils"] = {2};
+    archive_.integers["stress_of_soils"] = {3};
     expect_refused("/stress_of_soils");
 }
 

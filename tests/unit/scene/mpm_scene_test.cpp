@@ -132,6 +132,22 @@ TEST(MpmScene, RefusesTerrainAndGaugesThatCannotBe) {
     EXPECT_EQ(faults_of_mpm("gauges", R"([{"name": "a b", "x": 1}])"), Set{"/mpm/gauges/0/name"});
 }
 
+TEST(MpmScene, StandingWaterLiesInTheGridOverSoilAndBelowTheCrest) {
+    using Set = std::set<std::string>;
+    const auto of = [](const char* line) {
+        return faults_of_mpm("water", (R"({"line": )" + std::string(line) + "}").c_str());
+    };
+    EXPECT_EQ(of("[[0, 15]]"), Set{});
+    EXPECT_EQ(of("[[0, 19], [10, 3], [60, 0]]"), Set{});
+    EXPECT_EQ(of("[[0, 20]]"), Set{"/mpm/water/line"}) << "at the crest";
+    EXPECT_EQ(of("[[0, 30]]"), Set{"/mpm/water/line"}) << "above the grid";
+    EXPECT_EQ(of("[[70, 10], [80, 5]]"), Set{"/mpm/water/line"}) << "beside the grid";
+    EXPECT_EQ(of("[[0, -1], [60, -1]]"), Set{"/mpm/water/line"}) << "below all soil";
+    EXPECT_EQ(faults_of_mpm("water", R"({"line": [[0, 15]], "density": 0})"),
+              Set{"/mpm/water/density"});
+    EXPECT_EQ(faults_of_mpm("water", "{}"), Set{"/mpm/water/line"});
+}
+
 TEST(MpmScene, SectionsEnvelopeAndBreachWidthAreRead) {
     json document = column();
     document["mpm"]["sections"] = json::parse(R"([{"name": "toe", "x": 10}])");

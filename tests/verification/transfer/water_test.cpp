@@ -83,6 +83,28 @@ TEST(Stress, TotalIsEffectiveLessThePorePressure) {
     }
 }
 
+// sigma_b = sigma' + (p - u) I: the effective stress where p is the steady pore pressure, less the
+// excess where there is some. Water level with the ground, whose pressure the mesh says.
+TEST(Stress, InStandingWaterIsEffectiveLessTheExcessPressure) {
+    for (const double r_u : {0.0, 0.3}) {
+        Ground g = ground([&](const Vec2&) { return r_u; });
+        const auto dry = meshes::transferred(g.mesh, g.scene);
+        g.scene.mpm = meshes::cells(1.0, 12.0, 20.0);
+        g.scene.mpm->water = {{{0.0, 3.0}}, 1000.0};  // wrong within the mesh
+        const auto wet = meshes::transferred(g.mesh, g.scene);
+        EXPECT_EQ(wet.state.stress_of_regions.front(), StressMeasure::buoyant);
+        EXPECT_EQ(wet.state.steady_pressure.value, g.mesh.pore_pressure_0);
+        for (std::size_t p = 0; p < wet.state.size(); ++p) {
+            const double steady = 9810.0 * (10.0 - wet.state.position[p].y());
+            const mechanics::Voigt expected =
+                dry.state.stress[p] + steady * mechanics::Voigt(1.0, 1.0, 1.0, 0.0);
+            EXPECT_LT((wet.state.stress[p] - expected).norm(), 1e-3)
+                << wet.state.position[p].transpose();
+        }
+        EXPECT_NO_THROW(refuse_losses(wet.ledger, *g.scene.transfer));
+    }
+}
+
 TEST(Stress, WithoutFrictionItIsAlwaysTotal) {
     Ground g = ground([](const Vec2&) { return 0.0; });
     g.scene.transfer->stress = scene::TransferredStress::effective;
