@@ -1,3 +1,5 @@
+// Model and Motion include the free-field columns, a snapshot has the body alone: arrays are cut to
+// its nodes and elements first, then absent elements are dropped.
 #include "fem_solver/snapshot.hpp"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// The rules of docs/reference/methods/lem.md, *Which factor counts*: candidates_of collects all
+// factors with the reasons against them, least_of decides.
 #include "lem_tool/answer.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Coarse searches find the share of the crack, a whole one its surface.
 #include "lem_tool/crack.hpp"
 
 #include <cmath>

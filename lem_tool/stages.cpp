@@ -1,3 +1,4 @@
+// Each stage is a whole search: the critical surface moves as layers liquefy.
 #include "lem_tool/stages.hpp"
 
 #include <algorithm>

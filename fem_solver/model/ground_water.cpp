@@ -1,3 +1,5 @@
+// From the scene's lines and boundaries to wet elements and prescribed pressures, of which
+// pore_water.cpp makes the operators.
 #include "fem_solver/model/ground_water.hpp"
 
 #include <algorithm>

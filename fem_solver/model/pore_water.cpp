@@ -1,3 +1,5 @@
+// The water of a mesh. Which elements are wet and which pressures are prescribed is decided in
+// ground_water.cpp; the operators of one element are in porous_element.cpp.
 #include "fem_solver/model/pore_water.hpp"
 
 #include <Eigen/LU>

@@ -1,3 +1,5 @@
+// Three passes (strains, laws, forces) and not one per element: a law then takes all points of a
+// zone together, which PM4Sand needs for its lanes.
 #include "fem_solver/solve/internal_force.hpp"
 
 #include <algorithm>
