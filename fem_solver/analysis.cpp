@@ -1,3 +1,5 @@
+// The only place that moves Position::stage on: to the next stage when one is reached, not at all
+// when it is stopped (a resumed run begins there), and out of the loop when the mesh is entangled.
 #include "fem_solver/analysis.hpp"
 
 #include <algorithm>
@@ -14,6 +16,8 @@ StageEnd run_stage(Course& course, Recorder& recorder) {
     const bool begins = !course.position.stage_begun;
     begin_stage(course);
     if (is_static) return run_static(course, recorder);
+    // A row and, if one is due, a snapshot of the stage's beginning. A resumed stage has them
+    // already.
     if (begins) recorder.take_step(0.0, {NewtonOutcome::End::converged, 0, 0.0});
     return run_dynamic(course, recorder);
 }
@@ -22,6 +26,7 @@ void end_stage(Course& course) {
     Position& position = course.position;
     position.stage_begun = false;
     position.load = 0.0;
+    // Dynamic stages keep their time step: the next one begins with it (begin_dynamic).
     if (course.stage().kind == scene::StageKind::static_equilibrium)
         position.dt = 0.0;  // it ends at rest
 }
@@ -39,11 +44,15 @@ process::Outcome analyse(Course& course) {
             print_profile(course);
             return process::Outcome::stopped;
         }
+        // Counts outlive the stage's solver, which the next stage replaces.
         course.counts = course.newton->counts();
+        // The next stage may have other unknowns: supports, base and water differ.
         course.newton.reset();
         if (end == StageEnd::entangled) break;
         end_stage(course);
     }
+    // After the last stage, `stage` would name none; results and snapshot need its laws and
+    // pointer.
     stage = std::min(stage, stages - 1);
     recorder.finish();
     report_facts(course);

@@ -6,10 +6,11 @@
 
 namespace breach::fem {
 
-/// Runs all stages, or until the mesh is entangled. Entanglement is a regular end, with the last
-/// good state in a snapshot, unless the scene asks to continue. Throws Breakdown if the mesh
-/// entangles in the first step or the smallest step does not converge; the last good state is then
-/// in a snapshot and in the checkpoint.
+/// Runs all stages, or until the mesh is entangled: a regular end, with the last good state in a
+/// snapshot, because a failing dam folds its mesh sooner or later. Stopped: a checkpoint is
+/// written, from which --resume continues. Throws Breakdown if the mesh entangles in the first step
+/// or the smallest step does not converge; the last good state is then in a snapshot and in the
+/// checkpoint.
 process::Outcome analyse(Course& course);
 
 }  // namespace breach::fem

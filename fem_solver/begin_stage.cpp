@@ -1,3 +1,6 @@
+// What changes once, when a stage begins. The order is that of dependence: soil, supports and loads
+// (make_newton), water, the laws' memories, then the forces that the new state leaves unbalanced. A
+// static stage applies those over its load, a dynamic one as acceleration or along its ramp.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -31,6 +34,8 @@ void set_steady_pressure(const Model& model, Motion& motion) {
     Eigen::VectorXd p = model.water.any() ? steady_pressure(model) : model.water.prescribed;
     for (std::size_t i = 0; i < model.undrained.size(); ++i)
         if (model.undrained[i])
+            // Undrained soil keeps its pressure; the stage changes it together with the
+            // displacements.
             p[static_cast<Eigen::Index>(i)] = motion.p[static_cast<Eigen::Index>(i)];
     motion.p = std::move(p);
     motion.p_rate = Eigen::VectorXd::Zero(motion.p.size());
@@ -44,6 +49,7 @@ void withhold_along_ramp(Course& course) {
     course.model.withheld_for = course.stage().ramp;
 }
 
+/// A warning and no fault: only a runout with "shaking": "on" needs the motion.
 void flag_no_base_motion(Course& course, const std::string& why) {
     course.session.flag({"no_base_motion", fault::Severity::warning,
                          "no runout can be shaken on after the transfer: " + why,
@@ -73,6 +79,7 @@ void note_free_ground(Course& course) {
     std::ostringstream csv;
     motion::write_csv(csv, {motion::Quantity::velocity, velocity, {}},
                       "velocity of the base beneath the free-field columns alone");
+    // For people; the transfer takes the motion from its snapshot.
     exchange::publish_text(session.output(phases::files::base_motion), csv.str());
     spdlog::info("  the free ground's base moves with at most {:.3g} m/s until {:.4g} s",
                  motion::peak(velocity), velocity.duration());
@@ -82,17 +89,22 @@ void note_free_ground(Course& course) {
 /// failure.
 void begin_motion(Course& course) {
     course.position.moving = true;
+    // Stress and pressure stay. The mesh keeps its drawn shape: the settlement of gravity is
+    // dropped, not added to it.
     course.motion.u.setZero();
     std::ranges::fill(course.motion.strain, Voigt::Zero());
     for (Hourglass& each : course.motion.hourglass) each.energy = 0.0;
     course.beginning = beginning_of(course.model, course.motion);
     set_skeleton_modulus(course.beginning, course.model);
+    // The stabilisation of pressures depends on the modulus that was just set.
     evaluate_pore_water(course.model, course.model.water);
     note_free_ground(course);
 }
 
 /// Brings the stresses inside the surfaces of laws with memory.
 void find_frictional_rest(Course& course) {
+    // A solver of its own: a level may take more iterations than a step, and it gives up without
+    // progress.
     Newton newton(
         course.model, Solved::displacement,
         {.tolerance = course.fem.force_tolerance,
@@ -123,6 +135,7 @@ void begin_laws(Course& course) {
     if (course.position.stage != course.decided.memory.value) return;
     if (course.decided.memory_start.value == MemoryStart::at_rest_with_friction)
         find_frictional_rest(course);
+    // From here on the memories have the stress, and State mirrors it.
     const StressBias bias = begin_memory(course.model, course.motion);
     spdlog::info(
         "  {} begins at {} points; {} keep a stress outside their surfaces, at most {:.3g} kPa",
@@ -146,11 +159,13 @@ void begin_static(Course& course, const Eigen::VectorXd& loads_before) {
     const Model& model = course.model;
     course.position.load_step = 1.0 / course.stage().load_steps;
     course.position.at_limit = false;
+    // The load goes from these forces to the stage's: at share 0 nothing is out of balance.
     course.stage_force = course.motion.force;
     // The former support force of an edge that now moves is its own force from the start.
     if (course.position.stage > 0)
         for (const Model::Driven& each : model.driven)
             course.stage_force[each.dof] = loads_before[each.dof];
+    // With unknown pressures the load without water is shared out, as static_step adds none.
     if (course.stage().undrained.empty()) return;
     Eigen::VectorXd of_water = Eigen::VectorXd::Zero(model.dofs());
     add_pressure_force(model, course.motion.p, of_water);
@@ -170,6 +185,7 @@ void begin_dynamic(Course& course) {
         if (const auto n = static_cast<Eigen::Index>(i); !model.water.is_unknown[i])
             motion.p[n] = model.water.prescribed[n];  // drained again
     settle_stresses(*course.newton, course.laws, motion, course.trial);
+    // Once per run: r_u, displacements and strains of all dynamic stages refer to the first one.
     if (!position.moving) begin_motion(course);
     model.withheld.resize(0);
     if (stage.ramp > 0.0) {
@@ -197,10 +213,13 @@ void begin_stage(Course& course) {
     const bool drains = stage.undrained.empty();
     const bool changes = course.fem.changes_the_body();
     course.laws = laws_for(model, stage.laws);
+    // Before make_newton, which sets the stage's supports and loads.
     const Eigen::VectorXd loads_before = loads_on(model, course.motion);
     set_softening(stage, model, course.laws);
     if (!course.newton) course.make_newton();
     set_permeability(course.session.scene(), stage.permeability, model);
+    // Resumed: motion, memories and forces are the checkpoint's. Only what it does not contain is
+    // set.
     if (course.position.stage_begun) {
         if (!drains) close_to_flow(model);
         if (stage.ramp > 0.0) withhold_along_ramp(course);
@@ -210,6 +229,7 @@ void begin_stage(Course& course) {
     spdlog::info("stage {}", stage.name);
     if (is_static) set_steady_pressure(model, course.motion);
     if (!drains) close_to_flow(model);
+    // Before the laws begin: absent soil must not start with a stress.
     if (changes) forget_absent(model, course.motion);
     if (stage.laws == scene::StageLaws::scene) begin_laws(course);
     // Removed soil supports nothing: the stage releases that force, starting with these forces.

@@ -1,3 +1,5 @@
+// Archives may have been changed by another program (tests/fuzz), and their arrays index one
+// another. Everything is compared with the model of the position's stage before it is used.
 #include "fem_solver/checkpoint.hpp"
 
 #include <algorithm>
@@ -22,6 +24,7 @@ constexpr const char* flags_name = "flags";
 constexpr const char* history_prefix = "history.";
 
 void put(exchange::Archive& archive, const Position& p) {
+    // The order of these numbers is the format; position_from reads them by place.
     archive.reals["position"] = {
         p.load,           p.load_step,     p.time,          p.dt,
         p.next_telemetry, p.external_work, p.internal_work, p.viscous_dissipation};
@@ -76,6 +79,7 @@ void take_memory(const exchange::Archive& archive, const Model& model, Motion& m
             for_each_number(point, [&](double& x) { x = numbers.at(next++); });
         });
     }
+    // Numbers left over belong to other laws or another mesh.
     if (next != numbers.size()) throw std::out_of_range(memory_name);
 }
 
@@ -168,6 +172,7 @@ bool fits(const Position& position, const scene::Fem& fem) {
                                [](std::int64_t count) { return count >= 0 && count <= most; });
 }
 
+/// The sizes of at_rest are those of every motion of this model.
 bool fits(const Motion& motion, const Model& model) {
     const Motion rest = at_rest(model);
     return motion.u.size() == rest.u.size() && motion.v.size() == rest.v.size() &&
@@ -229,6 +234,7 @@ exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newto
     exchange::Archive archive;
     archive.kind = checkpoint_kind;
     archive.version = checkpoint_version;
+    // The completed scene, so that a default that changed counts as another scene.
     archive.texts["scene"] = exchange::sha256_of_text(scene.completed);
     put(archive, kept.position);
     put(archive, kept.motion);

@@ -1,4 +1,7 @@
 // The complete state of an analysis, for an exact restart, and its file.
+// Recorder writes it every 20 s, after a snapshot of /fem/snapshot_times and at a stop;
+// Course::resume loads it. The assembled matrix is part of it: a factorisation is kept over many
+// steps, and another one would change the last digits.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +36,7 @@ struct Position {
 };
 
 /// Data besides the matrix that a resumed analysis needs.
+/// Course is a Kept: a member that must survive a restart belongs here and into checkpoint.cpp.
 struct Kept {
     Position position;
     Motion motion;
@@ -67,6 +71,7 @@ void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive
 std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file);
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
+/// Raise it when arrays are added, removed or reordered: older checkpoints are then refused.
 inline constexpr int checkpoint_version = 8;
 
 }  // namespace breach::fem

@@ -1,3 +1,5 @@
+// Start, stages and restart of a Course. A resumed one takes its position first: supports, absent
+// soil and water are those of its stage, and with them the sizes of the arrays that follow.
 #include "fem_solver/course.hpp"
 
 #include <spdlog/spdlog.h>
@@ -34,6 +36,7 @@ Symmetry symmetry_for(const scene::Stage& stage, const std::vector<materials::La
 void report_crest(Course& course) {
     const Mesh& body = course.watch.body();
     const Vec2& node = body.nodes[course.crest_node];
+    // Triggers and milestones read this node; a crest drawn beside the mesh would go unnoticed.
     const double distance = (node - course.fem.crest).norm();
     const double size = element_size_at(body, course.crest_node);
     std::ostringstream text;
@@ -106,6 +109,8 @@ void Course::place_stage() {
 }
 
 void Course::make_newton() {
+    // A draining static stage knows its pressures (set_steady_pressure); an undrained one solves
+    // for them.
     const Solved solved = stage().kind == scene::StageKind::dynamic ? Solved::motion_and_pressure
                           : stage().undrained.empty()               ? Solved::displacement
                                                       : Solved::displacement_and_pressure;
@@ -122,6 +127,7 @@ void Course::write_checkpoint() {
     const Stopwatch stopwatch(seconds, &Seconds::output);
     counts = newton->counts();
     exchange::Archive archive = checkpoint_archive(*this, newton->memory(), session.scene());
+    // What a resumed run does not find again: facts of static stages, the entanglement, flags.
     const nlohmann::json& facts = session.result();
     if (facts.contains(geostatic)) archive.texts[geostatic] = facts.at(geostatic).dump();
     if (entanglement) archive.texts[entanglement_name] = as_json(*entanglement).dump();
@@ -137,6 +143,7 @@ void Course::resume() {
     position = position_in(archive, session.scene(), file.string());
     place_stage();
     Checkpoint checkpoint = checkpoint_from(archive, session.scene(), model, file.string());
+    // Facts of stages before the checkpoint are taken from it, as these stages do not run again.
     if (const auto kept = archive.texts.find(geostatic); kept != archive.texts.end())
         session.result()[geostatic] = nlohmann::json::parse(kept->second);
     if (const auto noted = archive.texts.find(entanglement_name); noted != archive.texts.end())
@@ -148,6 +155,7 @@ void Course::resume() {
     raise_again(flags_in(archive, file.string()));
     session.truncate_telemetry(position.telemetry_lines);
     session.went_on_after(archive.spent);
+    // --profile counts this process only, from here.
     before = {position.step, counts.iterations};
     make_newton();
     if (!newton->restore(checkpoint.newton))

@@ -1,4 +1,7 @@
 // An analysis in progress: everything that changes from stage to stage and from step to step.
+// Kept is what a checkpoint contains. The rest is made from the scene (model, watch), made anew for
+// each stage (laws, newton) or scratch memory (trial, prediction). Owned by run.cpp; stages and
+// Recorder change it.
 #pragma once
 
 #include "core/process/session.hpp"
@@ -28,6 +31,7 @@ struct Course : Kept {
     Model model;
     Seconds seconds;
     double seconds_for_free_ground = 0.0;
+    // The end of the step that is being tried. Accepting a step swaps it with `motion`.
     Motion trial;
     Prediction prediction;
     std::vector<materials::Law> laws;

@@ -1,3 +1,5 @@
+// A step is accepted after three questions: did it converge, is it fine enough, is the mesh sound?
+// Until then only `trial` changes, so that a rejected step leaves no trace but a smaller step size.
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -15,6 +17,7 @@ using words::text_of;
 
 constexpr double cut_of_step = 0.5;
 constexpr double growth_of_step = 2.0;
+// A new step size costs a new factorisation.
 constexpr int easy_steps_before_growth = 4;
 
 /// The double that a user writes for this time: 1775 steps of 2 ms sum up to 3.5500000000000003 s,
@@ -70,6 +73,7 @@ class StepControl {
     /// Advances the clock by an accepted step.
     void accept(double dt, const NewtonOutcome& outcome) {
         const double stop = next_stop();
+        // The clock takes the stop's own number: sums of steps would miss it in the last digits.
         const bool arrived = dt >= (stop - position_.time) * (1.0 - 1e-9);
         position_.time = arrived ? stop : position_.time + dt;
         ++position_.step;
@@ -99,6 +103,7 @@ class StepControl {
     void halve(double dt) {
         ++position_.cut_steps;
         want(cut_of_step * dt);
+        // It was assembled for the longer step, and perhaps for a state that diverged.
         course_.newton->forget_matrix();
     }
 
@@ -156,6 +161,8 @@ void take_trial(Course& course) {
     const Eigen::VectorXd& d_u = course.prediction.u = trial.u - motion.u;
     // Only of the body: thick columns would dominate.
     const auto own = static_cast<Eigen::Index>(2 * course.model.body.nodes);
+    // This force is constant within a stage; internal forces change, hence their mean over the
+    // step.
     position.external_work += course.model.external_force.head(own).dot(d_u.head(own));
     position.internal_work += 0.5 * (motion.force + trial.force).head(own).dot(d_u.head(own));
     if (const InternalForce& force = course.newton->internal_force(); force.is_viscous()) {
@@ -193,6 +200,8 @@ StageEnd run_dynamic(Course& course, Recorder& recorder) {
     StepControl control(course);
     while (!control.at_end()) {
         if (course.session.stop_requested()) return StageEnd::stopped;
+        // The clock and the step size belong to `control`; a cut or a coarse step changes only its
+        // next size.
         const double dt = control.next_size();
         const double time = course.position.time + dt;
         const NewtonOutcome outcome =

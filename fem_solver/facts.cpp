@@ -1,3 +1,5 @@
+// From states to what a reader needs: numbers in result.json, flags with remedies, sentences in the
+// log. Columns of the history are computed elsewhere (monitors/); here they are only searched.
 #include "fem_solver/facts.hpp"
 
 #include <spdlog/spdlog.h>
@@ -35,6 +37,8 @@ nlohmann::json hourglass_facts(const Model& model, const Motion& motion, double 
     for (std::size_t e = 0; e < model.body.elements; ++e) {
         const Hourglass& each = motion.hourglass[e];
         energy += each.energy;
+        // To compare with the soil's mean stress there: stabilisation that carries as much as the
+        // soil decides whether a liquefied dam fails (docs/reference/methods/up_element.md).
         const double force = model.hourglass[e].gamma.cwiseAbs().maxCoeff() * each.force.norm();
         const double stress = force / std::sqrt(model.volume[e] * model.thickness);
         if (stress <= largest) continue;
@@ -67,6 +71,7 @@ constexpr double most_of_depth = 0.8;
 std::optional<fault::Flag> still_liquefying(const std::vector<Reading>& history) {
     if (history.size() < 2 || history.back().liquefaction_depth <= 0.0) return std::nullopt;
     const double end = history.back().time;
+    // Ended in the middle of liquefaction, the runout would start from soil that is too strong.
     const auto then =
         std::ranges::find_if(history, [&](const Reading& each) { return each.time >= 0.9 * end; });
     const double before = then->excess_pressure_avg, at_end = history.back().excess_pressure_avg;
@@ -118,6 +123,7 @@ nlohmann::json milestones_in(const std::vector<Reading>& history) {
 /// Logs the end in words.
 void tell_end(const Course& course, const Reading& last) {
     const nlohmann::json& facts = course.session.result();
+    // "as planned" also for a dam that failed but did not fold its mesh.
     const bool stopped = facts["ended"] == "entangled";
     spdlog::info("{}", stopped ? "ended before its duration, at " + shown(course.position.time) +
                                      " of " + shown(course.span) +
@@ -166,6 +172,7 @@ void report_base_motion(Course& course) {
     const motion::Series velocity{ground.time_step, ground.velocity};
     const double peak = motion::peak(velocity);
     double farthest = 0.0;
+    // Up to the end of the mesh: after it the columns' motion stands alone.
     for (const Reading& each : course.history) {
         const double apart = each.base_velocity - motion::value_at(velocity, each.time);
         farthest = std::max(farthest, std::abs(apart));

@@ -1,4 +1,6 @@
 // Results of an analysis: entries of result.json, flags, and log messages.
+// analyse() calls them once, after the last stage or the entanglement; a stopped run reports
+// nothing but its profile.
 #pragma once
 
 #include "fem_solver/course.hpp"

@@ -1,3 +1,5 @@
+// fem_solver: the analysis, `mesh` (the mesh alone), and `element-test` and `calibrate`, which
+// belong to element_bench and are reached through this name.
 #include <unistd.h>
 
 #include <cstdio>
@@ -16,6 +18,7 @@ namespace {
 int become_element_bench(char** argv) {
     const auto program =
         std::filesystem::read_symlink("/proc/self/exe").parent_path() / "element_bench";
+    // Replaces this process: signals, output and exit code are those of the other program.
     execv(program.c_str(), argv);
     std::perror(program.c_str());
     return static_cast<int>(breach::fault::ExitCode::io);

@@ -24,6 +24,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, Mesh mesh) {
         snapshot.density.push_back(
             scene.materials[scene.section.regions[static_cast<std::size_t>(region)].material]
                 .density);
+    // The format has no mesh without state: one point per element, all zero.
     snapshot.gauss_per_element = 1;
     snapshot.gauss_positions = {Vec2::Zero()};
     for (auto* each : {&snapshot.stress, &snapshot.strain})

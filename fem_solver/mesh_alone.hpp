@@ -1,4 +1,5 @@
 // `fem_solver mesh`: only meshes, to check the mesh before a run.
+// services/drawing asks for it to show elements before a run (mesh_question.cpp).
 #pragma once
 
 #include "core/process/phase.hpp"

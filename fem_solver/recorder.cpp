@@ -22,6 +22,7 @@ double intervals_until(double time, double interval) { return std::floor(time / 
 }  // namespace
 
 Recorder::Recorder(Course& course) : course_(course), columns_(columns_of(course.session.scene())) {
+    // A resumed run continues with the peak of its history.
     for (const Reading& each : course.history)
         peak_energy_ = std::max(peak_energy_, each.kinetic_energy);
 }
@@ -35,6 +36,7 @@ void Recorder::take_step(double dt, const NewtonOutcome& outcome) {
     }
     const double slack = 1e-9 * std::max(course_.fem.telemetry_interval, course_.span);
     if (position.time >= position.next_telemetry - slack) write_telemetry(dt, outcome, slack);
+    // Telemetry first: a program that waits for the snapshot finds its row.
     if (!snapshot_is_due(dt)) return;
     write_snapshot();
     answer_request(course_.session.settings().output);
@@ -47,6 +49,7 @@ void Recorder::write_telemetry(double dt, const NewtonOutcome& outcome, double s
     course_.session.telemetry(telemetry_line(course_.history.back(), columns_));
     position.telemetry_lines = course_.session.telemetry_lines();
     const double interval = course_.fem.telemetry_interval;
+    // A multiple of the interval and not the last row's time plus it: rows do not drift.
     position.next_telemetry =
         interval > 0.0 ? interval * (std::floor((position.time + slack) / interval) + 1.0)
                        : position.time;
@@ -103,6 +106,7 @@ bool Recorder::snapshot_is_due(double dt) {
     const double interval = course_.decided.snapshot_interval.value;
     const bool regular = interval > 0.0 && intervals_until(position.time, interval) >
                                                intervals_until(position.time - dt, interval);
+    // Also when another snapshot is due: that one answers the request.
     const bool asked = dt > 0.0 && request_is_taken(course_.session.settings().output);
     return wanted || regular || asked;
 }
@@ -135,7 +139,9 @@ void Recorder::checkpoint_when_due() {
 
 void Recorder::finish() {
     process::Session& session = course_.session;
+    // The last state is always there: a transfer may want it, and it shows where a breakdown began.
     if (last_snapshot_ != course_.position.time) write_snapshot();
+    // A request after the last step would wait without end: the last snapshot answers it.
     if (request_is_taken(session.settings().output)) answer_request(session.settings().output);
     const Stopwatch watch(course_.seconds, &Seconds::output);
     exchange::write_archive(session.output(phases::files::history),

@@ -1,4 +1,6 @@
 // Writes the outputs of an analysis when due: telemetry, history, snapshots, checkpoints.
+// Made by analyse() and called by the stages after each accepted step. Telemetry, snapshots and
+// checkpoints are written here alone.
 #pragma once
 
 #include "fem_solver/course.hpp"

@@ -1,3 +1,5 @@
+// From a scene to a Course: mesh, model, then analysis.cpp. Meshing is not in a checkpoint: a
+// resumed run meshes again and gets the same mesh.
 #include "fem_solver/run.hpp"
 
 #include <spdlog/spdlog.h>
@@ -48,6 +50,7 @@ process::Outcome run(process::Session& session) {
         mesh =
             build_mesh(scene, session.settings().output, [&] { return session.stop_requested(); });
     } catch (const MeshingStopped&) {
+        // No checkpoint exists yet: the run starts again from its scene.
         return process::Outcome::stopped;
     }
     const Quality quality = quality_of(mesh);
@@ -58,6 +61,7 @@ process::Outcome run(process::Session& session) {
         quality.smallest_angle * 180.0 / std::numbers::pi, quality.largest_aspect,
         quality.least_jacobian);
     const ModelDecisions decided = decide_model(scene);
+    // Before the analysis: readers find the motion even if the analysis breaks down.
     if (const auto& motion = decided.motion.value) keep_motion(session, *motion);
     Course course(session, build_model(scene, decided, std::move(mesh)));
     return analyse(course);

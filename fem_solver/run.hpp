@@ -1,4 +1,5 @@
 // fem_solver as a phase: its plan and its run.
+// main.cpp hands these functions to core/process.
 #pragma once
 
 #include "core/process/phase.hpp"

@@ -1,3 +1,5 @@
+// Model and Motion include the free-field columns, a snapshot has the body alone: arrays are cut to
+// its nodes and elements first, then absent elements are dropped.
 #include "fem_solver/snapshot.hpp"
 
 #include <algorithm>
@@ -81,12 +83,14 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
     s.velocity = per_node(motion.v, nodes);
     s.acceleration = per_node(motion.a, nodes);
     s.nodal_mass = first(model.nodal_mass, nodes);
+    // Negative pressures above the line only serve the interpolation of elements that it cuts.
     if (motion.p.size() > 0) s.pore_pressure = first(without_suction(model.water, motion.p), nodes);
     if (beginning.p.size() > 0) {
         s.pore_pressure_0 = first(without_suction(model.water, beginning.p), nodes);
         s.sigma_v0 = beginning.sigma_v0;
         s.excess_pressure_max = excess_pressure_max;
     }
+    // Empty before the first dynamic stage and in a scene without columns.
     s.base_motion = beginning.base_motion;
     s.quads = first(mesh.quads, elements);
     s.region_of_element = first(mesh.region_of_element, elements);
@@ -100,6 +104,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         s.gauss_positions.assign(gauss_positions().begin(), gauss_positions().end());
     }
     const std::size_t points = elements * model.points_per_element;
+    // The body's points come first: zones of columns follow after them.
     s.strain = first(motion.strain, points);
     for (std::size_t p = 0; p < points; ++p) {
         s.stress.push_back(motion.points[p].sigma);
@@ -115,6 +120,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
         for (std::size_t p = begin; p < end; ++p) s.epsilon_q_plastic[p] = s.epsilon_q[p];
     }
     add_instability(model, motion, s);
+    // Last, as all arrays above are indexed by the whole body's elements. Nodes stay.
     drop_absent(model, s);
     return s;
 }

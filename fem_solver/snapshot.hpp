@@ -1,4 +1,6 @@
 // Converts a motion to a snapshot file.
+// Recorder writes one at each due time; transfer_tool, report and service read them. A snapshot has
+// all that a transfer needs, so that no other file of the FEM must be kept.
 #pragma once
 
 #include "core/exchange/mesh_snapshot.hpp"

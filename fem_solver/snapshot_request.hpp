@@ -1,6 +1,7 @@
 // Snapshots on demand. A program puts a file `snapshot_request` into the output folder (written
 // elsewhere and renamed; any content). At the end of the step the analysis takes the request,
 // writes a snapshot and removes it. Costs one system call per step.
+// The service's triggers use it: they look at telemetry and want a state that no one could plan.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // A stage: its changes at the beginning, and its steps.
+// analyse() (analysis.cpp) calls begin_stage, then one of the runs.
 #pragma once
 
 #include "fem_solver/recorder.hpp"
@@ -9,6 +10,8 @@ namespace breach::fem {
 /// dynamic one. In a resumed stage only what the checkpoint lacks.
 void begin_stage(Course& course);
 
+/// stopped: the caller writes a checkpoint in the middle of the stage. entangled: dynamic stages
+/// only.
 enum class StageEnd { reached, stopped, entangled };
 
 /// Applies its load in shares.

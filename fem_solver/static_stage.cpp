@@ -1,3 +1,6 @@
+// A static stage goes from the forces it finds to its own load in shares. A share without
+// equilibrium is halved. Below a share of 1e-4 the stage ends: as a breakdown, or at its limit
+// point if the scene says so ("at_limit": "go_on").
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -50,6 +53,7 @@ NewtonOutcome balance(double load, Course& course) {
     }
     course.newton->take(Newton::Tangent::stiffened);
     const NewtonOutcome outcome = step();
+    // The next step decides anew, by at_limit.
     course.newton->take(Newton::Tangent::of_the_laws);
     course.position.at_limit = outcome.end == End::converged;
     return outcome;
@@ -69,6 +73,8 @@ void note_reactions(Course& course) {
             const auto d = static_cast<Eigen::Index>(2 * i);
             force += (course.motion.force - applied).segment<2>(d) / model.thickness;
         }
+        // A component that is not prescribed has no support force: 0, not the round-off of its
+        // balance.
         facts[each.name].push_back({{"load", course.position.load},
                                     {"force_x", each.x ? force.x() : 0.0},
                                     {"force_y", each.y ? force.y() : 0.0}});
@@ -124,6 +130,7 @@ StageEnd run_static(Course& course, Recorder& recorder) {
     while (position.load < 1.0) {
         if (course.session.stop_requested()) return StageEnd::stopped;
         const double load = std::min(1.0, position.load + position.load_step);
+        // Displacements are increments of the step; loads are shares of the whole.
         drive(load - position.load, course);
         const NewtonOutcome outcome = balance(load, course);
         ++position.step;
@@ -137,6 +144,7 @@ StageEnd run_static(Course& course, Recorder& recorder) {
         }
         std::swap(course.motion, course.trial);
         position.load = load;
+        // Only moved edges: a load that needed small steps near its limit needs them to the end.
         if (!course.model.driven.empty())
             position.load_step =
                 std::min(1.0 / stage.load_steps, growth_of_load * position.load_step);

@@ -1,3 +1,6 @@
+// The analysis from top to bottom: strength at failure (limit_scene), the surfaces of the sound
+// slope, the same for each stage of liquefaction, then the probability of failure. Each part adds
+// its entries to one json, from which log, tables and flags are made.
 #include "lem_tool/analysis.hpp"
 
 #include <spdlog/spdlog.h>
@@ -51,6 +54,8 @@ void add_polylines(const json& result, exchange::Archive& archive) {
 /// Writes the pairs of ends and the slices of the critical circle.
 void write_surfaces(process::Session& session, const Searched& circles) {
     const Model& model = circles.model;
+    // Bishop's circle also where another surface has the lower factor: the figure of the search
+    // shows it.
     Slices slices = make_slices(model.strata, model.slices);
     cut(model.strata, model.soils, circles.found.critical->surface, model.slices, slices);
     exchange::Archive archive;
@@ -145,6 +150,7 @@ void say(const json& result) {
 
 }  // namespace
 
+/// The whole model is built for it: a section that cannot be cut into strips is refused here, too.
 process::Plan plan(const scene::Scene& whole) {
     const scene::Scene scene = limit_scene(whole);
     const Model model = make_model(scene);
@@ -219,6 +225,7 @@ Families first_families(const scene::Scene& scene, const Model& model, int threa
         given["given_polyline"] = given_polyline(scene, model);
     Families circle;
     if (lem.circle) circle = given_family(scene, model);
+    // With both entries the search is the answer, and the given circle one more surface beside it.
     if (lem.circle && lem.search) given["given_circle"] = facts_of(circle.circles);
     if (!lem.search) return circle;
     Families found = search_families(scene, model, *lem.search, threads);
@@ -241,6 +248,7 @@ process::Outcome run(process::Session& session) {
     const scene::Scene scene = limit_scene(session.scene());
     const scene::Lem& lem = scene::lem_of(scene);
     const int threads = session.settings().threads;
+    // With the scene as written: in limit_scene, laws give way to their strength.
     for (fault::Flag& each : flags_of_drained(session.scene())) session.flag(std::move(each));
     const Model model = make_model(scene);
     json& result = session.result();
@@ -249,6 +257,8 @@ process::Outcome run(process::Session& session) {
     result["surfaces"] = facts_of(found.circles.found.tally);
     result["surfaces_analysed"] = found.circles.found.tally.analysed;
     write_surfaces(session, found.circles);
+    // All states add to one list, so that a bound is reported once, for the state it shows in
+    // first.
     std::vector<fault::Flag> flags;
     add_flags_of_state(scene, {"", model, found, result}, threads, flags);
     if (!lem.liquefaction.empty()) {

@@ -1,5 +1,7 @@
 // The phase lem_tool: factors of safety of the scene's circle or search, written as result.json and
 // as data for figures.
+// main.cpp hands plan and run to core/process. The service's triggers compare the depth to which
+// the FEM's soil has liquefied with this phase's critical_depth.
 #pragma once
 
 #include "core/process/phase.hpp"

@@ -1,3 +1,5 @@
+// The rules of docs/reference/methods/lem.md, *Which factor counts*: candidates_of collects all
+// factors with the reasons against them, least_of decides.
 #include "lem_tool/answer.hpp"
 
 #include <algorithm>
@@ -58,6 +60,8 @@ void add_candidates(const std::string& surface, const json& facts, std::vector<C
     if (spencer.is_null()) return;
     Candidate rigorous{spencer.at("factor_of_safety"), "spencer", surface,
                        small_m_alpha(spencer.at("least_m_alpha")), false};
+    // Spencer's moments balance about any point; Bishop's do so on the arc only, where normal
+    // forces have no moment.
     if (facts.value("follows_floor", false) && rigorous.invalid.empty())
         all.back().invalid =
             "off the arc Bishop's moments depend on the circle's centre, and Spencer's method has "
@@ -67,6 +71,7 @@ void add_candidates(const std::string& surface, const json& facts, std::vector<C
 
 std::vector<Candidate> candidates_of(const json& parts) {
     std::vector<Candidate> all;
+    // In this order: of equal factors the circle's counts.
     for (const char* surface :
          {"circle", "composite", "given_circle", "non_circular", "given_polyline"})
         add_candidates(surface, parts.value(name_of(surface), json()), all);
@@ -76,6 +81,8 @@ std::vector<Candidate> candidates_of(const json& parts) {
 /// The least valid one; if none is valid, the least.
 const Candidate& least_of(const std::vector<Candidate>& all) {
     return *std::ranges::min_element(all, [](const Candidate& a, const Candidate& b) {
+        // Without a valid one a number is still given, and flags_of_answer says why it does not
+        // count.
         if (a.invalid.empty() != b.invalid.empty()) return a.invalid.empty();
         return a.factor < b.factor;
     });
@@ -159,6 +166,7 @@ Families search_families(const scene::Scene& scene, const Model& model,
         return search(each, ranges, threads, effort);
     };
     Families families{with_worst_crack(model, {}, look), {}};
+    // The floor forces circles to follow the layer: alone, a circle hardly uses it.
     for (const Path& line : weak_lines(model, ranges)) {
         const Path floor = higher(line, scene.lem->floor);
         Searched along = with_worst_crack(over_floor(scene, model, floor), floor, look);
@@ -176,6 +184,8 @@ Families given_family(const scene::Scene& scene, const Model& model) {
             result.critical = analyse_circle(scene, each, slices);
             result.tally.analysed = 1;
         } catch (const fault::BadInput& fault) {
+            // The look is repeated with cracks of other depths: the first refusal is that of the
+            // scene as given.
             if (!refused) refused = fault;
         }
         return result;
@@ -200,6 +210,7 @@ json answer(const scene::Scene& scene, const Families& families, const json& giv
     parts["bishop"] = facts_of(families.circles);
     if (!families.composites.empty()) parts["composite"] = least_composite(families.composites);
     // An arc crosses a thin weak layer at one angle only, a polyline at those of least resistance.
+    // Circles along thin seams had factors up to 9 % above those of wedges drawn by hand.
     if (asks_for_polyline(lem) || !families.composites.empty())
         parts["non_circular"] = polyline_of(scene, families);
     const auto all = candidates_of(parts);

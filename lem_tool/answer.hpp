@@ -1,5 +1,6 @@
 // The result: the least valid factor of safety of all analysed surfaces, with its method and
 // surface.
+// Used for the sound slope (analysis.cpp) and for each stage of liquefaction (stages.cpp).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,8 @@
 namespace breach::lem {
 
 /// The critical circle of the search, and one composite surface for each thin weak layer.
+/// Families are searched by Bishop's method, whose factor needs no search for an inclination;
+/// Spencer's is computed on the best of each.
 struct Families {
     Searched circles;
     std::vector<Searched> composites;  ///< those found

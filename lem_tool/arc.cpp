@@ -1,3 +1,5 @@
+// Intersections of an arc with straight lines, strip by strip, in closed form: between two of them
+// the base lies in one layer, and a slice needs no integration.
 #include "lem_tool/arc.hpp"
 
 #include <algorithm>
@@ -23,6 +25,7 @@ Meeting meet(const scene::Circle& circle, const Line& line, double from, double 
     for (const double sign : {-1.0, 1.0}) {
         const double u = (-b * h + sign * root) / stretch;
         const double x = circle.center.x() + u;
+        // At or below the centre: the upper half of the circle is no slip surface.
         if (x > from && x < to && h + b * u <= 0.0) meeting.x[meeting.count++] = x;
     }
     return meeting;
@@ -47,6 +50,7 @@ class ArcCutter {
           tolerance_(maker_.tolerance()) {}
 
     Cut run() {
+        // Slices never cross a strip's border: within it each boundary is one straight line.
         for (std::size_t i = strip_at(strata_, surface_.left); i < strata_.strips.size(); ++i) {
             const Strip& strip = strata_.strips[i];
             const double from = std::max(strip.from, surface_.left);
@@ -112,6 +116,8 @@ class ArcCutter {
         };
         if (held_at(from) && held_at(to)) return false;
         const Line allowed{bottom.level - tolerance_, bottom.slope};
+        // Above the bottom at both ends, a convex arc is below it in between only if it crosses it
+        // twice.
         return meet(surface_.circle, allowed, from, to).count == 2;
     }
 
@@ -122,10 +128,12 @@ class ArcCutter {
         const double low = lowest(surface_, from, to);
         for (std::size_t k = strip.first + 1; k < strip.last; ++k) {
             const Line& top = strata_.layers[k].top;
+            // Layers are ordered from the ground down: all others are deeper.
             if (std::max(top.at(from), top.at(to)) < low) break;
             add_crossings(top, from, to);
         }
         for (std::size_t n = 0; n < strata_.lines; ++n)
+            // Pore pressure has a kink where water begins.
             add_crossings(strata_.pressures[strip.pressures + n].top, from, to);
         if (has_floor(strip)) add_crossings(strip.floor, from, to);
         std::sort(crossings.begin(), crossings.end());
@@ -139,6 +147,7 @@ class ArcCutter {
 
     Cut cut_piece(const Strip& strip, double from, double to) {
         const double middle = 0.5 * (from + to);
+        // Crossings with the floor are among the cuts, so that a piece is arc or floor as a whole.
         const Base kind =
             strip.floor.at(middle) > surface_.level(middle) ? Base::straight : Base::arc;
         return maker_.add_piece(strip, from, to, kind, [&](double x) { return base(strip, x); });

@@ -1,5 +1,7 @@
 // A circle's lower arc, or an arc cut by a floor (composite surface), as slip surface: the sliding
 // mass above it, cut into vertical slices at every material boundary and ground vertex.
+// The search cuts thousands of circles: hence slices that are allocated once, and no allocation in
+// cut().
 #pragma once
 
 #include <vector>

@@ -63,6 +63,7 @@ Bishop bishop(const Slices& slices, Slide slide, double k_h) {
     Bishop result{Balance::not_converged, 0.0, 1.0, 0};
     double scale = 0.0;
     for (std::size_t i = 0; i < slices.count; ++i) scale += std::abs(slices.driving[i]);
+    // Without a driving moment F is infinite, and round-off would decide on its sign.
     if (!(driving > 1e-9 * scale)) return {Balance::no_driving_moment, 0.0, 1.0, 0};
 
     // F -> S(F)/F - driving decreases from +inf at the pole to -driving: one root, with positive
@@ -78,6 +79,7 @@ Bishop bishop(const Slices& slices, Slide slide, double k_h) {
         const Resistance S = resistance(slices, sense, F);
         // Newton on F - S(F) / driving = 0
         double next = F - (F - S.sum / driving) / (1.0 - S.slope / driving);
+        // Below the pole, another branch of the equation has roots that are no factors of safety.
         if (!(next > least)) next = 0.5 * (F + least);
         const double change = std::abs(next - F);
         F = next;
@@ -88,6 +90,7 @@ Bishop bishop(const Slices& slices, Slide slide, double k_h) {
     }
     result.factor_of_safety = F;
     result.m_alpha = smallest_m_alpha(slices, sense, F);
+    // The factor is kept: a given circle is answered with it, a search refuses it.
     if (result.balance == Balance::found && result.m_alpha < least_m_alpha) {
         result.balance = Balance::small_m_alpha;
     }

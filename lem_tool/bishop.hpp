@@ -1,4 +1,6 @@
 // Simplified Bishop: the factor of safety of a sliding mass in slices.
+// For all arcs; the search calls it for each circle. Surfaces of straight pieces use Spencer's
+// method.
 #pragma once
 
 #include "lem_tool/slices.hpp"
@@ -8,8 +10,8 @@ namespace breach::lem {
 /// Direction of sliding; gives the sign of base inclinations.
 enum class Slide { to_left, to_right };
 
-/// Limit of m_alpha = cos a + sin a tan phi / F of slices with friction; without friction, resistance
-/// does not depend on it (Whitman & Bailey 1967).
+/// Limit of m_alpha = cos a + sin a tan phi / F of slices with friction; without friction,
+/// resistance does not depend on it (Whitman & Bailey 1967).
 constexpr double least_m_alpha = 0.2;
 
 enum class Balance {

@@ -1,3 +1,5 @@
+// Flags about what the search could not see. They compare Bishop's factors, as the search does, and
+// name the entry to change with a value that can be pasted.
 #include "lem_tool/bounds.hpp"
 
 #include <algorithm>
@@ -64,6 +66,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
                           Severity::questionable, [](const Strata&, scene::Lem& each) {
                               each.search->lowest_level.reset();
                           }});
+    // A warning even where it hides F < 1: shallow slips are left out on purpose.
     if (search.minimum_depth > 0.0)
         bounds.push_back({"/lem/search/minimum_depth",
                           text("shallower than minimum_depth, %.3g m", search.minimum_depth),
@@ -84,6 +87,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
 /// The model with other bounds and the same soils.
 Model model_of(const scene::Scene& scene, const State& state) {
     Model model = state.model;
+    // Soils stay those of the state, liquefied or not; only the geometry depends on the bounds.
     model.strata = make_strata(scene);
     return model;
 }
@@ -92,6 +96,7 @@ double coarse_factor(const scene::Scene& scene, const State& state, int threads)
     Model model = model_of(scene, state);
     model.strata.crack.share = state.families.circles.model.strata.crack.share;
     scene::SlipSearch ranges = *scene.lem->search;
+    // A coarse grid finds a factor that is too high, never one too low: what it flags is there.
     for (int* points : {&ranges.entry_points, &ranges.exit_points, &ranges.depths})
         *points = std::max(4, *points * 2 / 3);  // a third of the search's grid
     const SearchResult found = search(model, ranges, threads, Effort::coarse);
@@ -111,6 +116,8 @@ std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::Lem& 
         const double x = state.answer.at(end)[0];
         for (const double edge : range) {
             const bool ground_ends = edge <= strata.left() || edge >= strata.right();
+            // At the end of the section there is no wider range, and a range of one point was
+            // meant.
             if (ground_ends || range[0] == range[1] || std::abs(x - edge) > 1e-3 * width) continue;
             flags.push_back(
                 {"range_edge", fault::Severity::warning,
@@ -152,6 +159,7 @@ std::vector<fault::Flag> flags_of_bounds(const scene::Scene& scene, const State&
     scene::Scene free = scene;
     for (const Bound& each : bounds) each.lift(strata, *free.lem);
     std::vector<fault::Flag> flags;
+    // The usual case: one coarse search instead of one per bound.
     if (coarse_factor(free, state, threads) >= telling_factor) return flags;
     for (const Bound& each : bounds) {
         scene::Scene lifted = scene;
@@ -170,6 +178,8 @@ std::vector<fault::Flag> flags_of_upstream_end(const Strata& strata, const State
     const double entry = state.answer.at("entry")[0];
     const json& exit = state.answer.at("exit");
     const bool falls_right = entry < exit[0];
+    // The slope's height, from the highest ground to the surface's exit, is the measure of
+    // distance.
     double crest = -std::numeric_limits<double>::infinity();
     for (const Strip& strip : strata.strips)
         for (const double x : {strip.from, strip.to})

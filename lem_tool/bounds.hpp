@@ -1,5 +1,6 @@
 // Bounds of the search: ranges, floor, lowest level, least depth and the section's end. They
 // exclude surfaces; a flag reports a lower factor of safety among those.
+// Each state (the sound slope, each stage) calls add_flags_of_state after its answer.
 #pragma once
 
 #include "lem_tool/answer.hpp"

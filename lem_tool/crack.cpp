@@ -1,3 +1,4 @@
+// Coarse searches find the share of the crack, a whole one its surface.
 #include "lem_tool/crack.hpp"
 
 #include <cmath>
@@ -62,7 +63,10 @@ Searched with_worst_crack(const Model& model, const std::vector<scene::Vec2>& fl
     };
     // Unimodal: the factor decreases while the crack removes tension, and increases below it.
     const double whole = coarse(1.0);
+    // A shallower crack is searched only where it lowers the factor: the whole depth is the usual
+    // answer.
     if (whole == infinite || coarse(0.9) < whole) consider(bottom_of(coarse));
+    // Without a crack, too: the golden section ends near 0 and never at it.
     consider(0.0);
     return best;
 }
@@ -74,6 +78,7 @@ double tension_zone(const Model& model, const Surface& surface) {
     const double x = slices.left[i] + 0.5 * slices.width[i];
     const double height = ground_level(model.strata, x, From::left) - slices.base[i];
     const double gamma = slices.soil_weight[i] / (slices.width[i] * height);
+    // Of the slice at the upper end, with its undrained or liquefied strength.
     const double phi = std::atan(slices.tan_phi[i]);
     return 2.0 * slices.c[i] / gamma * std::tan(0.25 * M_PI + 0.5 * phi);
 }

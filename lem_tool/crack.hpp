@@ -1,4 +1,6 @@
 // Depth at which a surface ends in the tension crack: the one with the lowest factor of safety.
+// Called for the circles of each state and for each weak layer (answer.cpp). `look` is a search or
+// the analysis of one given circle.
 #pragma once
 
 #include <functional>
@@ -7,6 +9,7 @@
 
 namespace breach::lem {
 
+/// `model` has the share of the crack that was found, so that facts and flags cut the same surface.
 struct Searched {
     Model model;
     SearchResult found;

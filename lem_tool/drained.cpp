@@ -74,6 +74,7 @@ class WetAndLoose {
         const double ground = strata.ground(strip).at(x);
         const double weight = layer.weight_above.at(x) + layer.gamma * (layer.top.at(x) - y);
         double u = soil.line ? strata.pressures[strip.pressures + *soil.line].at(x, y) : 0.0;
+        // The same order as in SliceMaker: the flag and the analysis must agree on what is wet.
         if (u == 0.0) u = soil.r_u * weight;
         if (u <= dry || liquefies(*scene_.lem, layer.region, y)) return;
         const double free_water = strata.gamma_w * std::max(0.0, strip.water.at(x) - ground);

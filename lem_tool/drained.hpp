@@ -1,5 +1,7 @@
 // Flags soil that can fail undrained but is analysed with drained strength: the dam may fail in
 // spite of this factor of safety.
+// Called once, by analysis.cpp. Friction alone would call loose tailings safe that flow when they
+// are sheared faster than they drain.
 #pragma once
 
 #include <vector>

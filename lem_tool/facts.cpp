@@ -1,3 +1,5 @@
+// Besides the numbers, the reasons in words: why a circle is refused, why a search found nothing,
+// why Spencer's method has no answer on a surface.
 #include "lem_tool/facts.hpp"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Surfaces and searches as facts of result.json, and reasons for refusals.
+// Numbers of one surface for answer.cpp; which of them counts is decided there.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

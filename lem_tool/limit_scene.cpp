@@ -1,3 +1,5 @@
+// Three conversions, once per analysis: strength at failure replaces the laws, liquefying layers
+// become regions of their own, and undrained paths of laws are computed.
 #include "lem_tool/limit_scene.hpp"
 
 #include <algorithm>
@@ -136,6 +138,7 @@ scene::Scene limit_scene(const scene::Scene& scene) {
     scene::Lem& lem = *result.lem;
     lem.undrained = entries_for(lem.undrained, places, regions);
     lem.liquefaction = entries_for(lem.liquefaction, places, regions);
+    // Stages count layers: an entry that names two parts, or none, would shift all stages after it.
     if (lem.liquefaction.size() != scene.lem->liquefaction.size()) {
         throw fault::BadInput(
             scene.name, {{"/lem/liquefaction", "has levels that are not one layer of their region",

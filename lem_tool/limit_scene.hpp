@@ -1,5 +1,7 @@
 // Converts the scene for limit equilibrium: all materials with their strength at failure, each
 // liquefying layer a region of its own.
+// The first step of plan, run and probability. The scene as written is needed beside it where names
+// of entries or states of soil matter (variation.cpp, drained.cpp).
 #pragma once
 
 #include <vector>

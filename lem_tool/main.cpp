@@ -1,3 +1,4 @@
+// lem_tool: a phase without input files; it needs the scene alone.
 #include "core/phases/phases.hpp"
 #include "core/process/phase.hpp"
 #include "lem_tool/analysis.hpp"

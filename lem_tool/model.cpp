@@ -1,3 +1,5 @@
+// From the scene's entries to one Soil per region, sound or liquefied. What a Soil says is applied
+// slice by slice in slice_maker.cpp.
 #include "lem_tool/search.hpp"
 
 namespace breach::lem {
@@ -81,6 +83,7 @@ std::vector<Soil> liquefied(const Model& model, const std::vector<scene::Undrain
         } else {
             make_undrained(layer, soils);
         }
+        // Soil that was undrained before it liquefied has its drained strength above the water.
         soil.above_water = sound->above_water ? sound->above_water : sound;
     }
     return soils;

@@ -28,6 +28,7 @@ double frictionless_mass(const Model& model, const Slices& slices) {
         for (std::size_t k = strip.first; k < strip.last; ++k) {
             const Layer& layer = model.strata.layers[k];
             const double top = layer.top.at(x);
+            // Layers are ordered from the ground down: the rest is below the surface.
             if (top <= slices.base[i]) break;
             const double bottom =
                 k + 1 < strip.last ? std::max(slices.base[i], model.strata.layers[k + 1].top.at(x))
@@ -94,6 +95,8 @@ Polyline placed(const scene::Scene& scene, const Strata& strata) {
         polyline.crack = upper_left ? CrackAt::left : CrackAt::right;
     const auto place = [&](scene::Vec2& p, SurfaceEnd end) {
         const double level = end_level(strata, p.x(), end);
+        // Ends from a drawing or another program are rounded; farther off, another surface was
+        // meant.
         if (std::abs(p.y() - level) > loose_end * height_of(strata)) {
             std::ostringstream words;
             words << "ends at (" << p.x() << ", " << p.y()
@@ -128,6 +131,7 @@ json optimised_polyline(const scene::Scene& scene, const Model& model, const Sur
     if (!found) return nullptr;
     Slices slices = make_slices(model.strata, model.slices);
     json facts = facts_of(model, *analyse(model, found->best.surface, slices), slices);
+    // For comparison: what the descent gained over the circle by the same method.
     facts["start_factor_of_safety"] = found->start;
     facts["surfaces_analysed"] = found->analysed;
     return facts;

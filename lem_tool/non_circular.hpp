@@ -1,4 +1,5 @@
 // Facts of /lem/non_circular for result.json: the given and the optimised polyline.
+// answer.cpp calls them where /lem/non_circular or a thin weak layer asks for a polyline.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

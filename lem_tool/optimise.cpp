@@ -1,3 +1,6 @@
+// Rounds of moves with steps that are halved, until no vertex of any surface lowers Spencer's F.
+// The limits (kinks, rise, convexity, inclination of the interslice forces) keep the descent away
+// from mechanisms whose resistance Spencer's method does not see.
 #include "lem_tool/optimise.hpp"
 
 #include <algorithm>
@@ -155,6 +158,7 @@ class Descent {
         ++analysed_;
         const auto found = analyse(model_, polyline, slices_);
         if (!found || found->depth < least_depth_ * (1.0 - 1e-9)) return no_answer;
+        // Not valid, as in the search for circles.
         if (found->spencer.m_alpha < least_m_alpha) return no_answer;
         if (found->spencer.theta < least_theta_) return no_answer;
         return found->spencer.factor_of_safety;
@@ -182,6 +186,7 @@ class Descent {
         const double mean =
             (points.back().x() - points.front().x()) / static_cast<double>(points.size() - 1);
         for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            // Vertices that meet would make short steep pieces.
             if (points[i + 1].x() - points[i].x() < least_piece * mean) return false;
         }
         make_convex(points);
@@ -191,6 +196,7 @@ class Descent {
 
     /// Moves every vertex by a step in every direction: alone, and with its neighbours.
     void round(double step) {
+        // Wide moves first: single vertices of a convex line can hardly move alone.
         for (const int reach : {3, 1, 0}) {
             for (std::size_t i = 0; i < points_.size(); ++i) {
                 for (int k = 0; k < 8; ++k) {
@@ -289,9 +295,11 @@ std::optional<Optimised> optimise(const Model& model, const Room& room, const Su
     const double depth = descent.least_depth();
     Slices slices = make_slices(model.strata, model.slices);
     descent.hold_theta(analyse(model, descent.surface(), slices)->spencer.theta);
+    // First with half the vertices, which find the shape, then with all.
     descent.start(points_of(model.strata, circle, std::max(4, room.vertices / 2)));
     descent.settle();
     descent.refine_to(static_cast<std::size_t>(room.vertices), depth);
+    // Half the vertices may end worse than the circle: then all of them start from it.
     if (!(descent.value() < start)) descent.start(fine);
     descent.settle();
     auto best = analyse(model, descent.surface(), slices);

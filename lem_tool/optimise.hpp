@@ -1,5 +1,7 @@
 // The critical polyline: starts from the critical circle and moves vertices while Spencer's factor
 // of safety decreases. Deterministic.
+// Called by non_circular.cpp. The descent only goes down from its start, so that the circle's
+// factor by Spencer's method is an upper bound of the result.
 #pragma once
 
 #include <cstdint>

@@ -39,6 +39,7 @@ class PolylineCutter {
                     cut_straight(strip, through(points_[n], points_[n + 1]), from, to);
                 if (verdict != Cut::done) return verdict;
             }
+            // The border that comes first ends the part.
             strip.to < points_[n + 1].x() ? ++i : ++n;
         }
         return Cut::done;
@@ -77,6 +78,7 @@ class PolylineCutter {
         std::vector<double>& crossings = slices_.crossings;
         crossings.clear();
         const auto add = [&](const Line& line) {
+            // Parallel lines give an infinity or NaN, which the comparison leaves out.
             const double x = (line.level - base.level) / (base.slope - line.slope);
             if (x > from && x < to) crossings.push_back(x);
         };
@@ -124,6 +126,7 @@ double end_level(const Strata& strata, double x, SurfaceEnd end) {
     const double left = ground_level(strata, x, From::left);
     const double right = ground_level(strata, x, From::right);
     if (end == SurfaceEnd::lower) return std::min(left, right);
+    // On a vertical face the mass begins at the top: below it the face would stay behind.
     if (strata.crack.reach == Crack::Reach::none) return std::max(left, right);
     std::size_t i = strip_at(strata, x);
     if (right > left && i + 1 < strata.strips.size()) ++i;

@@ -1,4 +1,5 @@
 // Polygonal slip surfaces: the sliding mass above one, cut into slices for Spencer's method.
+// The counterpart of arc.hpp: both give the same Slices, and SliceMaker does not know the surface.
 #pragma once
 
 #include <vector>

@@ -1,3 +1,5 @@
+// Blocks of the grid and descents run on threads; each has its own Probe, and the results are
+// compared in a fixed order, so that the number of threads changes nothing.
 #include "lem_tool/search.hpp"
 
 #include <algorithm>
@@ -41,6 +43,7 @@ std::vector<Line> boundaries_of(const Strata& strata) {
     const double middle = 0.5 * (strata.left() + strata.right());
     const double width = strata.right() - strata.left();
     const auto add = [&](const Line& line) {
+        // The same boundary in many strips is tried once.
         const auto same = [&](const Line& other) {
             return std::abs(other.at(middle) - line.at(middle)) < 1e-9 * width &&
                    std::abs(other.slope - line.slope) < 1e-9;
@@ -86,6 +89,7 @@ class Probe {
         if (!ends) return none;
         const bool to_left = entry_of(place) > exit_of(place);
         const double sagitta =
+            // An infinite sagitta (no such arc) stays infinite.
             std::max(sagitta_at(place, *ends, to_left), flattest * 2.0 * ends->half_chord());
         if (sagitta == none) return none;
         if (!cut_at(*ends, sagitta, to_left)) {
@@ -106,6 +110,7 @@ class Probe {
         last_ = {surface_, result};
         if (!best_ || result.factor_of_safety < best_->bishop.factor_of_safety) {
             best_ = last_;
+            // Polishing may leave the boundary or least depth on which the descent moved.
             best_place_ = {place.entry, place.exit, sagitta / ends->largest_sagitta()};
         }
         return result.factor_of_safety;
@@ -225,6 +230,7 @@ class Search {
         pairs_.resize(entries * exits);
         std::vector<Tally> tallies(entries);
         numerics::run_blocks(entries, threads_, [&](std::size_t i) {
+            // Fewer slices: the grid only has to find the places from which the descents start.
             Probe here = probe(std::min(model_.slices, coarse_slices));
             for (std::size_t j = 0; j < exits; ++j) {
                 pairs_[i * exits + j] =
@@ -243,6 +249,7 @@ class Search {
         Pair pair{{entry, exit, 0.5}, none, std::nullopt};
         const auto consider = [&](const Place& place) {
             const double F = here.try_at(place);
+            // Depths first, then tangents: of equal factors the first one stays.
             if (F >= pair.value) return;
             pair = {place, F, PairBest{here.entry_of(place), here.exit_of(place), here.last()}};
         };
@@ -261,6 +268,7 @@ class Search {
     std::vector<Place> valleys() const {
         std::vector<std::size_t> order(pairs_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
+        // Stable: equal factors keep the order of the grid.
         std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
             return pairs_[a].value < pairs_[b].value;
         });
@@ -283,6 +291,7 @@ class Search {
     }
 
     void follow(const Place& start, Probe& here, std::array<double, 3> step, double gain) const {
+        // The depth then follows from the boundary or the least depth: two variables are left.
         if (start.sag != Sag::share_of_deepest) step[2] = 0.0;
         const auto value = [&](const std::array<double, 3>& at) {
             return here.try_at({at[0], at[1], at[2], start.sag, start.line, start.which});

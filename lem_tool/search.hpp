@@ -1,5 +1,7 @@
 // The critical circle: search over entries and exits, first on a coarse grid, then a descent from
 // every promising minimum. Deterministic for any number of threads.
+// Called by search_families (answer.cpp) for each state, by bounds.cpp with other ranges and by
+// variation.cpp per sample.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +37,7 @@ struct Critical {
 };
 
 /// Numbers of surfaces: analysed, and refused by reason.
+/// For messages: a search that finds nothing says why (refuse_search).
 struct Tally {
     std::int64_t analysed = 0;       ///< with a factor of safety
     std::int64_t not_a_surface = 0;  ///< leaves the soil or the model, or crosses a closed region

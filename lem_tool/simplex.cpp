@@ -45,6 +45,7 @@ Corner descend(const Objective& f, const Corner& start, const Point3& step, doub
         const bool settled = n > 0 && next.value >= best.value * (1.0 - gain);
         if (next.value < best.value) best = next;
         if (settled) break;
+        // Mirrored and smaller: the next simplex looks to the other side of the same place.
         for (double& d : edge) d *= -0.7;
     }
     return best;

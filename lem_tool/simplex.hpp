@@ -1,4 +1,6 @@
 // Minimises a function of two or three variables in the unit box, without derivatives.
+// The search's variables are shares of its ranges, hence the box. F has kinks and steps to infinity
+// (no surface), so that derivatives would be useless.
 #pragma once
 
 #include <array>

@@ -1,3 +1,5 @@
+// Loads and their arms are linear between a slice's sides, so that weights and moments have closed
+// forms.
 #include "lem_tool/slice_maker.hpp"
 
 namespace breach::lem {
@@ -76,6 +78,7 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     double u = soil.line
                    ? strata_.pressures[strip.pressures + *soil.line].at(middle, slices_.base[i])
                    : 0.0;
+    // r_u counts where the region's line gives no pressure.
     if (u == 0.0) u = soil.r_u * soil_weight / dx;
     slices_.u[i] = u;
     double turned_sideways = 0.0;
@@ -84,10 +87,13 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     if (kind == Base::straight) {
         const double h = pivot_.center.y() - slices_.base[i];
         slices_.lever[i] = h * chord / (R * dx);
+        // On a straight base Bishop's equation takes W h tan a (arc.hpp); the moment about the
+        // centre is no part of it.
         slices_.driving[i] = slices_.weight[i] * h * dy / (dx * R);
     }
     slices_.driving[i] += turned_sideways;
     slices_.c[i] = soil.c;
+    // After free water was added to the weight, which sigma'_v0 contains.
     if (soil.coefficient > 0.0) slices_.c[i] += undrained(strip, layer, soil, middle, i);
     if (soil.profile || soil.by_state) slices_.c[i] = by_place(strip, layer, soil, middle, i);
     slices_.tan_phi[i] = soil.tan_phi;
@@ -101,6 +107,7 @@ double SliceMaker::undrained(const Strip& strip, const Layer& layer, const Soil&
                              std::size_t i) const {
     const double dx = slices_.width[i];
     const double sigma_v0 =
+        // Without loads that came too late to consolidate the soil.
         slices_.weight[i] / dx - strip.surcharge - slices_.u[i] - layer.unconsolidated.at(x);
     return soil.coefficient * std::pow(std::max(0.0, sigma_v0) / p_a, soil.exponent);
 }
@@ -134,6 +141,7 @@ double SliceMaker::add_free_water(const Strip& strip, std::size_t i, const Chord
     const double R = pivot_.radius;
     slices_.weight[i] += 0.5 * dx * (p0 + p1);
     slices_.driving[i] += moment(dx, p0, p1, x0 - center.x(), x1 - center.x()) / R;
+    // Pressure acts at right angles to the slope: its horizontal part is that of the inclination.
     slices_.push[i] = -ground.slope * 0.5 * dx * (p0 + p1);
     return ground.slope *
            moment(dx, p0, p1, ground.at(x0) - center.y(), ground.at(x1) - center.y()) / R;

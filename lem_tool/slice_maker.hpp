@@ -1,5 +1,7 @@
 // Makes slices one by one: weight, water, strength and moments above a piece of the base. The
 // surface defines the pieces (arc.cpp, polyline.cpp).
+// Also used by weak_layers.cpp to ask for the strength at a place, so that a layer is weak there by
+// the same rules as in a slice.
 #pragma once
 
 #include <algorithm>

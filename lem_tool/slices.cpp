@@ -21,6 +21,7 @@ Slices make_slices(const Strata& strata, int wanted) {
     // Each boundary, water line and floor cuts a strip at most twice; each piece may round up by
     // one slice.
     Slices slices;
+    // An upper bound for any arc, because cut() writes by index and never grows the arrays.
     slices.reserve(static_cast<std::size_t>(wanted) + 2 * strata.layers.size() +
                        (3 + 2 * strata.lines) * strata.strips.size() + 1,
                    2 * (most_layers + strata.lines) + 4);

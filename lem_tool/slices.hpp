@@ -1,5 +1,6 @@
 // A sliding mass as vertical slices: geometry, weight and strength. arc.hpp and polyline.hpp cut
 // surfaces into slices.
+// One Slices per thread is filled again and again; all methods read the same arrays.
 #pragma once
 
 #include <cstddef>
@@ -42,6 +43,9 @@ inline constexpr double p_a = mechanics::standard_atmosphere;  // [Pa]
 enum class Base { arc, straight };
 
 /// Slices from left to right, one array per quantity; allocated once, `count` are valid.
+/// Signs are those of a slide to the left: driving and push are positive to the left, sin_a for a
+/// base that rises to the right. Methods multiply by -1 for a slide to the right. `shaking` has no
+/// sign: it acts towards the slide.
 struct Slices {
     std::size_t count = 0;
     double depth = 0.0;               ///< greatest vertical depth of the mass [m]

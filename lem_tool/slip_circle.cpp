@@ -32,6 +32,7 @@ std::vector<Surface> masses_of(const Strata& strata, const scene::Circle& circle
     bool inside = false;
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) {
         if (borders[i + 1] <= borders[i]) continue;
+        // One look in the middle decides: between borders the sign does not change.
         const double middle = 0.5 * (borders[i] + borders[i + 1]);
         const bool below = base_level(strata, {circle, 0.0, 0.0}, middle) <
                            ground_level(strata, middle, From::left);
@@ -64,6 +65,7 @@ std::optional<Surface> with_crack(const Strata& strata, const Surface& surface, 
         const double high = std::min(strip.to, surface.right);
         const Line feet = strata.crack_foot(strip);
         const double start = from_left ? low : high;
+        // A crack that does not reach below the ground at the upper end cuts nothing off.
         const bool at_end = start == (from_left ? surface.left : surface.right);
         if (at_end && high > low && feet.at(start) >= strata.ground(strip).at(start))
             return surface;
@@ -94,6 +96,7 @@ Surface surface_through(const Ends& ends, double sagitta) {
     const scene::Vec2 chord = ends.right - ends.left;
     const double L = ends.half_chord();
     const scene::Vec2 up = scene::Vec2(-chord.y(), chord.x()) / (2.0 * L);
+    // Height of the centre over the chord's middle; negative for more than half a circle.
     const double above = (L * L - sagitta * sagitta) / (2.0 * sagitta);
     const double R = (L * L + sagitta * sagitta) / (2.0 * sagitta);
     return {{0.5 * (ends.left + ends.right) + above * up, R}, ends.left.x(), ends.right.x()};

@@ -1,5 +1,6 @@
 // Circles and the ground: the sliding masses of a given circle, and the circles through two points
 // of the ground.
+// masses_of serves given circles (facts.cpp), the rest the search.
 #pragma once
 
 #include <optional>

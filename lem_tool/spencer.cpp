@@ -1,3 +1,6 @@
+// Two unknowns in two loops: for an inclination theta, F balances the forces (force_balance); theta
+// is moved until the moment that is left over vanishes (outwards, balanced). The moment has no sign
+// that is known beforehand, so the search starts at theta = 0 and goes to both sides.
 #include "lem_tool/spencer.hpp"
 
 #include <algorithm>
@@ -104,6 +107,7 @@ std::optional<double> force_balance(const Mass& mass, const Direction& theta) {
         low = std::max(low, -theta.sin_turn(b) / cos_turn * b.tan_phi * (1.0 + 1e-9));
     }
     double high = 2.0 * low + 1.0;
+    // Beyond 1e6 the mass is not driven at this inclination.
     while (sum_of_resultants(mass, high, theta).value <= 0.0) {
         high *= 2.0;
         if (high > 1e6) return std::nullopt;
@@ -112,6 +116,7 @@ std::optional<double> force_balance(const Mass& mass, const Direction& theta) {
     double F = high;
     for (int n = 0; n < 200 && high - low > 1e-13 * high; ++n) {
         const Sum sum = sum_of_resultants(mass, F, theta);
+        // Newton within a bracket: near the pole its steps leave the branch.
         (sum.value > 0.0 ? high : low) = F;
         const double newton = F - sum.value / sum.slope;
         const double next = newton > low && newton < high ? newton : 0.5 * (low + high);
@@ -153,6 +158,8 @@ double balanced(const Mass& mass, double a, double at_a, double b, double at_b) 
             a = b;
             at_a = at_b;
         } else {
+            // The end that stays twice counts half (Illinois), or false position would creep from
+            // one side.
             at_a *= 0.5;
         }
         if (std::abs(theta - b) <= 1e-12) return theta;
@@ -178,6 +185,8 @@ std::optional<Leftover> outwards(const Mass& mass, const Leftover& level, double
                                  Leftover& nearest) {
     constexpr double longest = 0.05;
     constexpr double shortest = 1e-4;
+    // Forces that lift the mass (negative) are looked for less far than those that lean with the
+    // slide.
     const double reach = sense > 0.0 ? 1.2 : 0.6;
     Leftover here = level;
     double step = longest;

@@ -1,5 +1,7 @@
 // More methods on the same slices, for reports: Spencer's as a rigorous check, Ordinary
 // (Fellenius). The search uses Bishop's.
+// Facts of every reported surface; for polylines Spencer's factor is also what the descent
+// minimises.
 #pragma once
 
 #include <optional>

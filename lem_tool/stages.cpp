@@ -1,3 +1,4 @@
+// Each stage is a whole search: the critical surface moves as layers liquefy.
 #include "lem_tool/stages.hpp"
 
 #include <algorithm>
@@ -51,6 +52,7 @@ double depth_of_surface(const json& stages) {
 /// the slope fails without liquefaction.
 double critical_depth(const json& stages) {
     if (stages[0].at("factor_of_safety") < 1.0) return 0.0;
+    // A trigger on a depth that no liquefaction can reach would never fire.
     return std::min(depth_of_surface(stages), depth_of_layers(stages));
 }
 
@@ -71,14 +73,18 @@ void add_stages(const scene::Scene& scene, const Model& sound, const Families& u
     json stages = json::array();
     for (std::size_t count = 0; count <= layers.size(); ++count) {
         Model model = sound;
+        // From the sound soils each time: layers above keep their liquefied strength, as `count`
+        // includes them.
         model.soils = liquefied(sound, layers, count);
         const Families found =
+            // The first stage is the sound slope, which analysis.cpp has searched.
             count == 0 ? unliquefied : search_families(scene, model, *scene.lem->search, threads);
         if (!found.circles.found.critical)
             refuse_search(scene, found.circles.model, found.circles.found.tally);
         json stage = answer(scene, found);
         stage["layers_liquefied"] = count;
         if (count > 0)
+            // A layer may lie beside the one before instead of below it: depth never falls.
             deepest = std::max(deepest, top - bottom_of(regions[layers[count - 1].region]));
         stage["liquefied_depth"] = deepest;
         stage["lowest_point_depth"] = top - stage.at("lowest_point")[1].get<double>();

@@ -1,4 +1,6 @@
 // Layers that liquefy from the top down: one search per stage.
+// The trigger's depth comes from here: critical_depth is what the FEM's liquefaction has to reach
+// (docs/reference/methods/lem.md, *Liquefied stages*).
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

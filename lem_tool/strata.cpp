@@ -1,3 +1,5 @@
+// Every place where a line has a kink or meets another one becomes a border of strips. That makes
+// many strips, once; each question of the search is then one about straight lines.
 #include "lem_tool/strata.hpp"
 
 #include <algorithm>
@@ -26,6 +28,8 @@ using Path = std::vector<scene::Vec2>;
 void add_crossings(const Path& one, const Path& other, std::vector<double>& xs) {
     for (std::size_t i = 0; i + 1 < one.size(); ++i) {
         for (std::size_t j = 0; j + 1 < other.size(); ++j) {
+            // Where two lines cross, one passes from above to below the other: both strips beside
+            // it are simple.
             const auto cross = geometry::crossing(one[i], one[i + 1], other[j], other[j + 1]);
             if (!cross) continue;
             const double s = cross->on_first, t = cross->on_second;
@@ -124,6 +128,7 @@ void add_pieces(const geometry::Polygon& polygon, std::size_t region, double fro
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const scene::Vec2& a = polygon[i];
         const scene::Vec2& b = polygon[(i + 1) % polygon.size()];
+        // Edges that span the strip; by its making none ends inside it.
         if (std::min(a.x(), b.x()) <= from + tolerance &&
             std::max(a.x(), b.x()) >= to - tolerance) {
             lines.push_back(line_through(a, b));
@@ -131,6 +136,7 @@ void add_pieces(const geometry::Polygon& polygon, std::size_t region, double fro
     }
     std::sort(lines.begin(), lines.end(),
               [&](const Line& p, const Line& q) { return p.at(middle) > q.at(middle); });
+    // Upper and lower border in turn: a region may have several pieces in a strip.
     for (std::size_t i = 0; i + 1 < lines.size(); i += 2) {
         pieces.push_back({lines[i], lines[i + 1], region});
     }
@@ -240,11 +246,13 @@ void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::s
         const Piece& piece = pieces[i];
         if (i > 0) {
             const double gap = pieces[i - 1].bottom.at(middle) - piece.top.at(middle);
+            // Overlaps (a negative gap) are not refused: there the lower region's top counts.
             if (gap > gap_share * extent.height) refuse_gap(scene, middle, "air below ground");
         }
         const scene::Material& soil = scene.materials[scene.section.regions[piece.region].material];
         const double gamma = soil.density * scene.gravity;
         strata.layers.push_back({piece.top, piece.region, gamma, weight, fast});
+        // The next layer's top, not this one's bottom: thin gaps of the drawing are filled.
         const Line& lower = i + 1 < pieces.size() ? pieces[i + 1].top : piece.bottom;
         weight.level += gamma * (piece.top.level - lower.level);
         weight.slope += gamma * (piece.top.slope - lower.slope);
@@ -265,6 +273,7 @@ void add_pushes(const Extent& extent, Strata& strata) {
         const double left = strata.ground(strata.strips[i]).at(x);
         const double right = strata.ground(strata.strips[i + 1]).at(x);
         if (std::abs(right - left) <= same_level) continue;
+        // Water stands on the lower side of the face.
         const bool faces_left = right > left;
         const double water = strata.strips[faces_left ? i : i + 1].water.at(x);
         const Thrust push =
@@ -317,6 +326,7 @@ std::vector<std::optional<std::size_t>> lines_of_regions(const scene::Scene& sce
         for (const std::size_t region : water.regions) lines[region] = line;
         ++line;
     };
+    // /lem/water is the line of all regions unless it names some; piezometric lines overwrite it.
     if (lem.water && lem.water->regions.empty()) std::ranges::fill(lines, line);
     if (lem.water) give(*lem.water);
     for (const scene::Water& each : lem.piezometric_lines) give(each);

@@ -1,5 +1,7 @@
 // The cross-section as vertical strips, within which every boundary is one straight line: the
 // weight above a point is a linear function.
+// Made once per scene (make_model) and again for other floors or bounds; arcs and polylines only
+// look things up in it.
 #pragma once
 
 #include <cstddef>

@@ -1,3 +1,6 @@
+// Samples vary a copy of limit_scene's scene: its strengths are numbers by now, and no undrained
+// path is computed again. Only Bishop's factor is varied; flags_of_variations says where another
+// method's is lower.
 #include "lem_tool/variation.hpp"
 
 #include <algorithm>
@@ -125,6 +128,7 @@ class Variations {
         Slices slices = make_slices(model.strata, model.slices);
         cut(model.strata, model.soils, base_.surface, model.slices, slices);
         const Bishop result = bishop(slices, slide_, model.k_h);
+        // A small m_alpha counts: else the sample would be taken as stable.
         const bool answered =
             result.balance == Balance::found || result.balance == Balance::small_m_alpha;
         return answered ? result.factor_of_safety : stable;
@@ -141,6 +145,7 @@ class Variations {
     Model model_of(const scene::Scene& varied) const {
         Model model = make_model(varied);
         model.soils = liquefied(model, varied.lem->liquefaction, layers_);
+        // The crack of the unvaried slope: searching its depth per sample would multiply the cost.
         model.strata.crack.share = crack_share_;
         return model;
     }
@@ -164,6 +169,8 @@ statistics::Distribution distribution_of(const scene::RandomVariable& variable) 
 json statistics_of(const std::vector<double>& factors) {
     std::vector<double> driven;
     std::ranges::copy_if(factors, std::back_inserter(driven),
+                         // Masses without a driving moment have no factor; they count as stable in
+                         // the probability.
                          [](double F) { return std::isfinite(F); });
     const auto failed = std::ranges::count_if(driven, [](double F) { return F < 1.0; });
     const auto repeats = driven.empty() ? statistics::Repeats{} : statistics::repeats_of(driven);

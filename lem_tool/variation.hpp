@@ -1,4 +1,6 @@
 // The probability of failure: parameters of the scene varied at random.
+// The last part of an analysis. Samples are dealt out by blocks; their values follow from the seed
+// alone, in any order.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -16,7 +18,7 @@ struct Samples {
     std::vector<double> factor_of_safety;      ///< infinite: no driving moment [-]
 };
 
-/// Adds "probability": mean, standard deviation, probability_of_failure, reliability indices. Needs
+/// Adds "probability": mean, standard deviation, probability_of_failure, reliability_index. Needs
 /// the original scene, not limit_scene's.
 Samples add_probability(const scene::Scene& scene, int threads, nlohmann::json& result);
 

@@ -1,3 +1,5 @@
+// Layers of a strip become bands of similar strength, weak bands chains from strip to strip, and
+// thin chains lines that a surface may follow.
 #include "lem_tool/weak_layers.hpp"
 
 #include <algorithm>
@@ -48,6 +50,7 @@ class WeakBands {
             const Line& lower = has_lower ? model_.strata.layers[k + 1].top : strip.bottom;
             const double at_top = strength(strip, upper, lower, 0.0);
             const double at_bottom = strength(strip, upper, lower, 1.0);
+            // Layers of similar strength are one band: a sand drawn in three parts is no seam.
             const bool like = !bands.empty() && at_top >= weaker * bottom.back() &&
                               bottom.back() >= weaker * at_top;
             if (like) {
@@ -146,6 +149,7 @@ static std::vector<Chain> chains_in(const Model& model, const scene::SlipSearch&
             const scene::Vec2 begin(strip.from, band.bottom.at(strip.from));
             const auto found = std::ranges::find_if(chains, [&](const Chain& each) {
                 return each.last_strip + 1 == i &&
+                       // A seam is one chain as long as its bottom goes on without a step.
                        std::abs(each.bottom.back().y() - begin.y()) <= near;
             });
             const bool continues = found != chains.end();
@@ -154,6 +158,8 @@ static std::vector<Chain> chains_in(const Model& model, const scene::SlipSearch&
             chain.last_strip = i;
             chain.bottom.emplace_back(strip.to, band.bottom.at(strip.to));
             for (const double x : {std::max(from, strip.from), std::min(to, strip.to)}) {
+                // Thickness and depth count where surfaces can be: outside the ranges a seam may be
+                // thick.
                 if (x < strip.from || x > strip.to) continue;
                 chain.thickness = std::max(chain.thickness, band.top.at(x) - band.bottom.at(x));
                 chain.depth = std::max(chain.depth, strata.ground(strip).at(x) - band.bottom.at(x));

@@ -1,4 +1,6 @@
 // Thin weak layers, which a circle can only cross: floors of composite surfaces.
+// Called by search_families. No entry of the scene asks for it: a user who does not know of a
+// seam's effect would not ask.
 #pragma once
 
 #include <vector>

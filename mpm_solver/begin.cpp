@@ -1,3 +1,5 @@
+// Called at the start of a run and by --plan --measure. A resumed run does not come here: its
+// points have the ground's reference already, and checkpoint.cpp makes their body.
 #include "mpm_solver/begin.hpp"
 
 #include <spdlog/spdlog.h>
@@ -30,6 +32,8 @@ Body fresh_body(const scene::Scene& scene, const exchange::ParticleState& state,
 }
 
 GroundMotion ground_beneath(const exchange::ParticleState& state, const std::string& source) {
+    // Resting ground would be no fallback: FEM velocities are absolute, so the soil would start to
+    // slide with the velocity that the ground had at the transfer.
     if (!state.base_motion.any()) {
         throw fault::BadInput(
             source, {{"/breachline/base_motion",
@@ -43,6 +47,8 @@ GroundMotion ground_beneath(const exchange::ParticleState& state, const std::str
 }
 
 void say(const GroundMotion& ground, const scene::Mpm& mpm) {
+    // No fault: a transfer after the motion's end is a valid scene, to which /mpm/shaking adds no
+    // force.
     if (ground.end() <= 0.0) {
         spdlog::warn(
             "the earthquake is over {:.2f} s before the transfer: nothing shakes the runout",
@@ -64,6 +70,8 @@ void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state)
     for (Vec2& v : state.velocity) v.x() -= v_ground;
     for (Vec2& x : state.position) x.x() -= u_ground;
     for (Vec2& x : state.steady_pressure.position) x.x() -= u_ground;
+    // Both momenta are logged, so that the change of reference can be checked against the
+    // transfer's ledger, which is relative to far rock.
     const double mass = std::accumulate(state.mass.begin(), state.mass.end(), 0.0);
     double momentum = 0.0;
     for (std::size_t p = 0; p < state.size(); ++p)
@@ -91,15 +99,20 @@ Begun begin(const process::Session& session) {
         const FilledSection filled = fill_section(scene);
         log_sampling(filled.regions);
         const std::string source = scene.name + " (section filled with points)";
+        // Without a FEM there is no clock that the runout continues: its own time starts at the
+        // transfer.
         return {fresh_body(scene, filled.state, source, computing_of(session)), 0.0};
     }
     exchange::ParticleState state = exchange::read_particle_state(session.input()).state;
     const std::string source = session.input().string();
+    // Before the ground's frame: only areas and heights are compared, which it does not change.
     log_sampling(sampling_of(scene, state));
     std::optional<GroundMotion> ground;
     if (scene::mpm_of(scene).shaking == scene::Shaking::goes_on) {
         ground = ground_beneath(state, source);
         say(*ground, scene::mpm_of(scene));
+        // Before the body is made: the grid, whose ends and terrain the body's points are checked
+        // against, rests on the ground.
         stand_on_ground(*ground, state);
     }
     return {fresh_body(scene, state, source, computing_of(session)), state.transfer_time,

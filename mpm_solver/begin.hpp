@@ -22,6 +22,8 @@ Begun begin(const process::Session& session);
 /// reference of floor, terrain, walls, toe and gauges.
 void stand_on_ground(const GroundMotion& ground, exchange::ParticleState& state);
 
+/// The threads of the command line with the widest instruction set of this CPU. The number of
+/// threads does not change a bit of the result; the instruction set changes it by round-off.
 Computing computing_of(const process::Session& session);
 
 }  // namespace breach::mpm

@@ -1,3 +1,6 @@
+// What make_body or the next step rebuilds is not stored: grid, strips, cell averages. A checkpoint
+// may have been changed by another program (tests/fuzz): the loops index arrays unchecked, so every
+// length and index is checked here before a body is made.
 #include "mpm_solver/checkpoint.hpp"
 
 #include <cstdlib>
@@ -37,6 +40,7 @@ void for_each_number(AnyClock& clock, AnyStart& start, AnyTally& tally, Visit&& 
     visit("strayed", tally.strayed);
 }
 
+/// By content and not by name: an input that was moved is still the same.
 std::string digests(const exchange::Provenance& provenance) {
     std::string text;
     for (const exchange::InputDigest& input : provenance.inputs) text += input.sha256 + "\n";
@@ -110,6 +114,7 @@ void refuse_if_ragged(const Points& points, std::size_t soils, const std::string
 void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
                         const std::string& file) {
     if (strayed < 0.0) refuse(file, "/run.strayed", "is less than nothing");
+    // A point reaches only nodes around its home, or threads would write to the same node at once.
     const bool sorted_before_use = strayed > Strips::largest_stray;
     for (std::size_t p = 0; p < points.size(); ++p) {
         if (!grid.holds(points.x[p], points.y[p]))
@@ -127,6 +132,7 @@ void refuse_if_homeless(const Points& points, double strayed, const Grid& grid,
 
 /// A count: not negative, and far from overflow by adding one.
 std::int64_t count_at(const Archive& archive, const std::string& name, const std::string& file) {
+    // Row stores the step as a real number, which is exact up to here.
     constexpr std::int64_t most = std::int64_t{1} << 53;
     const std::int64_t count = archive.integers.at(name).at(0);
     if (count < 0 || count > most) refuse(file, "/" + name, "is no count of what has happened");
@@ -144,6 +150,8 @@ NonlocalSoftening::Pace load_pace(const Archive& archive, const std::string& fil
 Points load_points(const Archive& archive, const std::string& file) {
     Points points;
     for (const auto& real : reals_of_points<Reals>)
+        // A stored key array makes its group present; for_each_real below then asks for all of the
+        // group.
         if (real.only_with == real.array && archive.reals.contains(real.name))
             (points.*real.array).resize(1);
     for_each_real(points, [&](const char* name, std::vector<double>& values) {

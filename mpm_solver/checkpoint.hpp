@@ -1,4 +1,6 @@
 // checkpoint.h5: the complete state of a run; a resumed run continues with the same bits.
+// run.cpp writes it at intervals and when a stop is requested, --resume loads it, and a finished
+// run removes it.
 #pragma once
 
 #include <filesystem>
@@ -7,6 +9,8 @@
 
 namespace breach::mpm {
 
+/// Raise it when arrays are added, removed or change their meaning: older checkpoints are then
+/// refused.
 inline constexpr int checkpoint_version = 9;
 
 void save_checkpoint(const std::filesystem::path& file, const Simulation& simulation,

@@ -24,6 +24,7 @@ void LastGood::keep(const Points& points, double time, std::int64_t step) {
     auto to = values_.begin();
     for_each_changing(points, [&](const std::vector<double>& values) {
         for (std::size_t p = 0; p < values.size(); ++p)
+            // In the input's order: the points may be sorted before the state is restored.
             to[points.number[p]] = static_cast<float>(values[p]);
         to += static_cast<std::ptrdiff_t>(values.size());
     });

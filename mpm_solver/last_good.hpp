@@ -1,5 +1,6 @@
 // State at the last check without a fault, to diagnose a breakdown. In single precision and without
 // constants: for display only.
+// Simulation::look keeps it after its checks; run.cpp writes it when a run breaks down.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,5 @@
+// --plan: which features the scene uses and why, one line each. Lines of decisions that select
+// loops come from choose.hpp, whose result the run uses; the others state entries of the scene.
 #include <algorithm>
 
 #include "core/scene/beds.hpp"

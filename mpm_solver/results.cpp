@@ -1,3 +1,5 @@
+// The end of a run: run.cpp calls write_results once, after the last measurement. It only reads the
+// simulation. Flags come from measure/, where their limits are.
 #include "mpm_solver/results.hpp"
 
 #include <spdlog/spdlog.h>
@@ -103,6 +105,8 @@ json sections_json(const Simulation& simulation, const scene::Mpm& mpm) {
                  {"volume", record.volume.back()},
                  {"mass", record.mass.back()},
                  {"closure", closure ? json(*closure) : json(nullptr)}};
+        // Plane strain: all else is per metre of width, and only the scene can say how wide the
+        // breach is.
         if (!width) continue;
         const auto of_breach = [&](double per_metre) {
             return json{per_metre * width->low, per_metre * width->best, per_metre * width->high};
@@ -147,6 +151,7 @@ double largest_compression(const Body& body) {
 }
 
 /// Energy scale above the energy released: a fall of centimetres (energy_scale).
+/// A large numerical share is then a warning only: it is a share of almost nothing.
 bool stood(const scene::Mpm& mpm, const Simulation& simulation) {
     const Row& first = simulation.records().history.front();
     const Row& last = simulation.last_row();
@@ -175,6 +180,7 @@ Ending ending_of(const Session& session, const Simulation& simulation) {
             .correction_share = share(row.overlap_energy),
             .volume_ratio = row.volume_ratio,
             .overlap = row.overlap,
+            // Area over length: the mean depth of the deposit beyond the toe.
             .deposit_depth =
                 row.runout_beyond_toe > 0.0 ? row.area_beyond_toe / row.runout_beyond_toe : 0.0,
             .cell_size = mpm.cell_size,
@@ -250,6 +256,7 @@ void write_history(const Session& session, const Simulation& simulation) {
         .kind = "mpm_history", .version = 1, .reals = {}, .integers = {}, .texts = {}, .units = {}};
     const Records& records = simulation.records();
     store(records.history, "", archive);
+    // `nowhere` is finite because checkpoints refuse NaN; readers of history.h5 get NaN.
     std::ranges::replace(archive.reals.at("runout_front"), nowhere,
                          std::numeric_limits<double>::quiet_NaN());
     store(simulation.gauges(), records.gauges, "", archive);
@@ -300,6 +307,7 @@ void write_envelope(Session& session, const Simulation& simulation) {
     session.announce(file, {{"kind", "envelope"}, {"time", simulation.clock().time}});
 }
 
+/// The first frame is at time 0 (run.cpp), so the first profile is that of the start.
 Depths depths_of(const Simulation& simulation) {
     const Records& records = simulation.records();
     const auto columns = static_cast<std::ptrdiff_t>(records.envelope.depth.size());

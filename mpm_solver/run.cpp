@@ -1,3 +1,5 @@
+// The course of a run: begin or resume, then step, measure and write until Simulation::course()
+// ends it or a stop is requested. Only this file and results.cpp write outputs.
 #include "mpm_solver/run.hpp"
 
 #include <spdlog/spdlog.h>
@@ -25,6 +27,7 @@ Simulation begin_or_resume(Session& session) {
     if (session.settings().start == process::Start::resume && std::filesystem::exists(checkpoint)) {
         Resumed resumed = load_checkpoint(checkpoint, session.scene(), session.provenance(),
                                           computing_of(session));
+        // Lines after the checkpoint would appear twice.
         session.truncate_telemetry(resumed.telemetry_lines);
         session.went_on_after(resumed.spent);
         spdlog::info("goes on at t = {:.6f} s, step {}", resumed.simulation.clock().time,
@@ -99,6 +102,7 @@ void look_and_write(Session& session, Simulation& simulation) {
 Outcome advance_to_the_end(Session& session, Simulation& simulation) {
     double saved = session.wall_seconds();
     while (simulation.course() == Course::goes_on) {
+        // Between steps only: a checkpoint is always the state after a whole step.
         if (session.stop_requested()) {
             save(session, simulation);
             return Outcome::stopped;
@@ -114,6 +118,7 @@ Outcome advance_to_the_end(Session& session, Simulation& simulation) {
 }
 
 void finish(Session& session, Simulation& simulation, double speed) {
+    // Results are those of the last step, which need not have a measurement.
     if (simulation.last_row().step < static_cast<double>(simulation.clock().step)) {
         simulation.look();
         report(session, simulation);
@@ -122,6 +127,7 @@ void finish(Session& session, Simulation& simulation, double speed) {
     exchange::write_particle_state(file, simulation.state(), session.provenance());
     session.announce(file, {{"kind", "particles"}, {"time", simulation.clock().time}});
     write_results(session, simulation, speed);
+    // Last: a run that is interrupted while it writes results can resume and write them again.
     std::filesystem::remove(session.output(phases::files::checkpoint));
     session.progress(1.0, "done");
 }

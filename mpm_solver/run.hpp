@@ -1,4 +1,6 @@
 // The phase: from a session's scene and input to its outputs.
+// main.cpp hands these functions to core/process, which parses arguments, loads the scene and turns
+// exceptions into exit codes.
 #pragma once
 
 #include "core/process/phase.hpp"

@@ -82,6 +82,8 @@ Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
             for (std::size_t z = 0; z < zones; ++z) {
                 const Span span = strips.span(strip, z);
                 const Loop chosen = body.loops[z].*loop;
+                // One entry per task, so that no thread waits for another; find_lightest (step.cpp)
+                // reads them too.
                 Totals& sums = body.sums[strip * zones + z] = {};
                 if (chosen && span.begin < span.end)
                     chosen(work_of(body, points, z, dt), span, sums);
@@ -89,6 +91,7 @@ Totals for_all_points(Body& body, Loop Loops::*loop, Writes writes, double dt) {
         });
     };
     if (writes == Writes::nodes) {
+        // All even strips end before the odd ones begin: they share nodes.
         for (const std::vector<std::size_t>& together : strips.apart()) over(together);
     } else {
         over(strips.all());

@@ -1,4 +1,6 @@
 // Loops over all points, distributed among the threads by strips.
+// Called by each operation of step.cpp. Threads do not change results: which strips run together
+// and the order of all sums are fixed.
 #pragma once
 
 #include "mpm_solver/body/body.hpp"

@@ -25,6 +25,7 @@ Simulation::Simulation(const scene::Scene& scene, Body body, double transfer_tim
                        std::optional<GroundMotion> ground)
     : Simulation(scene, std::move(body), Clock{.transfer_time = transfer_time}, Start{}, {},
                  std::move(ground)) {
+    // The other constructor made the limits from an empty start, as if from a checkpoint.
     start_ = {energy_of(body_), volume_of(body_.points, view_.mobile),
               mean_x_of(body_.points, view_.mobile)};
     limits_ = limits_of(body_, mpm_, start_.energy, swing_of(ground_));
@@ -71,6 +72,7 @@ void Simulation::advance() {
     // Summed time steps differ from round times by round-off; a frame's time is exact.
     const double next_frame = static_cast<double>(clock_.frames) * mpm_.snapshot_interval;
     if (std::abs(clock_.time - next_frame) < 1e-9 * dt) clock_.time = next_frame;
+    // Before the samples, which take every point to be in the grid.
     if (const auto complaint = step_complaint(body_, limits_)) break_down(*complaint);
     if (clock_.step % steps_between_samples == 0) sample_envelope();
     if (clock_.step % steps_between_fluxes == 0) sample_momentum();
@@ -144,13 +146,16 @@ const Row& Simulation::look() {
     moving_ = why_moving(records_.history, start_.energy, body_, view_.mobile, rest_);
     const double interval = mpm_.telemetry_interval;
     constexpr double most = 0x1p53;  // an interval of 1e-30 s would overflow the counter
+    // From the time and not by adding one: a step longer than the interval skips measurements.
     const double looks = std::clamp(std::floor(clock_.time / interval) + 1.0, 0.0, most);
     clock_.looks = interval > 0.0 ? static_cast<std::int64_t>(looks) : 0;
+    // Only now: a state that failed a check above is not good.
     last_good_.keep(body_.points, clock_.time, clock_.step);
     return row;
 }
 
 Course Simulation::course() const {
+    // Rest first: a run that comes to rest in its last step has not run out of time.
     if (!moving_) return Course::rests;
     return clock_.time >= mpm_.duration ? Course::time_is_up : Course::goes_on;
 }

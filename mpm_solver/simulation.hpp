@@ -1,5 +1,7 @@
 // A run as a sequence of time steps: when to measure, write and stop. A checkpoint stores one
 // Simulation.
+// run.cpp drives it: advance() until a measurement or a frame is due, look() or take_frame(), and
+// course() for the end. Nothing here writes files.
 #pragma once
 
 #include "core/process/session.hpp"
@@ -45,6 +47,8 @@ struct Records {
     SectionRecords sections;
 };
 
+/// look() alone decides on rests, so a run ends at a measurement; time_is_up follows from the clock
+/// if the last measurement found soil in motion.
 enum class Course { goes_on, rests, time_is_up };
 
 class Simulation {

@@ -1,3 +1,5 @@
+// The step reads like docs/reference/methods/mpm.md, *One step*; the work per point is in loops/.
+// Nodes are updated on one thread, which takes a few per cent of a step.
 #include "mpm_solver/step.hpp"
 
 #include <algorithm>
@@ -63,11 +65,13 @@ double work_of_frame(const Body& body, double dt) {
     const Grid& grid = body.grid;
     double momentum = 0.0;
     for (const std::int32_t node : grid.active) {
+        // Velocity after the step minus half its change: the mean of before and after.
         momentum += grid.mass[node] * (grid.motion[node][0] - 0.5 * grid.motion[node][2]);
     }
     return -body.frame_acceleration * dt * momentum;
 }
 
+/// body.sums are still those of settle, the last loop of the step.
 void find_lightest(Body& body) {
     for (std::size_t z = 0; z < body.zones.size(); ++z) {
         double largest = 0.0;
@@ -113,6 +117,7 @@ void push_by_water(Body& body, double dt) {
 }
 
 void particle_to_grid(Body& body, double dt) {
+    // The stress is that of the end of the last step, and with it the volume V.
     for_all_points(body, &Loops::scatter, Writes::nodes, dt);
 }
 
@@ -122,6 +127,7 @@ void update_momentum(Body& body, double dt) {
     double friction_work = 0.0;
     for (const std::int32_t node : grid.active) {
         const double m = grid.mass[node];
+        // Active, as a point could have come here, but none did.
         if (m <= 0.0) {
             grid.motion[node].setZero();
             continue;
@@ -136,6 +142,8 @@ void update_momentum(Body& body, double dt) {
 }
 
 void grid_to_particle(Body& body, double dt) {
+    // The cells are filled anew: volume and rate by gather, mean stress by stress(). Both weigh
+    // with the same V, which only settle changes.
     forget_averages(body);
     const Totals sums = for_all_points(body, &Loops::gather, Writes::nodes, dt);
     body.tally.kinetic = sums.kinetic;
@@ -151,6 +159,7 @@ void update_stress(Body& body, double dt) {
     body.tally.plastic += sums.plastic;
     body.tally.pushed_in += sums.pushed_in;
     average(body, &CellSum::sigma_m);
+    // Reads cells, therefore after all strips have added to them.
     for_all_points(body, &Loops::settle, Writes::own_points, dt);
     find_lightest(body);
 }

@@ -1,4 +1,6 @@
 // Cost of a step: that of ten, operation by operation.
+// Called for --plan --measure. It repeats the order of step() to time each operation: a change
+// there belongs here, too.
 #include <ctime>
 
 #include "mpm_solver/begin.hpp"
@@ -51,6 +53,7 @@ void timed_step(Body& body, const scene::Mpm& mpm, OverlapMeter& overlap, std::i
             laps.time("gaps held to their room", [&] { overlap.hold_gaps_to_room(body); });
     }
     const double dt = mpm.time_step ? *mpm.time_step : courant_step(body, mpm.cfl);
+    // dt is that of Simulation::next_step, but without its ends at snapshots.
     laps.time("sorting and clearing", [&] { keep_sorted(body), clear(body.grid); });
     laps.time("particle to grid", [&] { particle_to_grid(body, dt); });
     laps.time("momentum, floor and terrain", [&] { update_momentum(body, dt); });

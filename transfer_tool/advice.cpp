@@ -27,6 +27,8 @@ constexpr std::array known_signs{
     KnownSign{"strained elements: mean area |J_t|/|J_0| below 0.97", "jacobian_centre_avg < 0.97"},
 };
 
+/// A condition on a field that no line has is never true. Without this list a misspelt field would
+/// read as a failure that never developed.
 std::vector<std::string> missing_fields(const criteria::Expression& expression,
                                         std::span<const telemetry::Line> telemetry) {
     std::vector<std::string> missing;
@@ -107,6 +109,8 @@ Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& tel
     Advice advice;
     advice.begin = telemetry.front().time;
     advice.end = telemetry.back().time;
+    // The whole telemetry before any answer: only later lines tell whether a condition holds for
+    // its hold.
     for (const telemetry::Line& line : telemetry) window.take(line);
     const criteria::Expression& lower = window.lower().expression();
     for (const criteria::Expression* each : {&lower, &window.upper()})
@@ -116,6 +120,8 @@ Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& tel
         advice.signs.push_back(sign_of(each.name, each.condition, telemetry));
     if (window.lower().state() != criteria::Criterion::State::met) return advice;
     advice.lower = edge_of(lower, *window.lower().crossing());
+    // Not an open window that ends early: the mesh was too distorted before the failure had
+    // developed.
     if (window.shut_since()) {
         advice.shut_since = window.shut_since()->time;
         return advice;
@@ -141,6 +147,7 @@ std::vector<double> snapshot_times(const std::filesystem::path& folder) {
         const char* begin = name.data() + head.size();
         const char* end = name.data() + name.size() - tail.size();
         double time = 0.0;
+        // Another program's file with a similar name is no fault.
         if (std::from_chars(begin, end, time).ptr == end && begin != end) times.push_back(time);
     }
     std::ranges::sort(times);

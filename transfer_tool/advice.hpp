@@ -1,6 +1,8 @@
 // Advice on transfer times: evaluates /transfer/window on a FEM's telemetry, like a study's window
 // trigger, and the signs that confirm it. Sordo et al. 2024: after the failure has developed and
 // before the mesh is too distorted, at the midpoint.
+// For a person who chooses t_T by hand (`transfer_tool advise`). The service's window trigger uses
+// the same core/criteria, so that both find the same window.
 #pragma once
 
 #include <filesystem>
@@ -14,6 +16,7 @@
 namespace breach::transfer {
 
 /// A condition on the telemetry that confirms an edge of the window.
+/// Signs inform only: `lower` and `upper` of the window decide.
 struct Sign {
     std::string name;            ///< "energy growth"
     std::string condition;       ///< as evaluated
@@ -55,6 +58,7 @@ Advice advise(const scene::Scene& scene, const std::vector<telemetry::Line>& tel
               const std::vector<double>& snapshots);
 
 /// Times in the names of the folder's snapshots, ascending [s].
+/// No snapshot is opened.
 std::vector<double> snapshot_times(const std::filesystem::path& folder);
 
 /// Text of a few lines.

@@ -56,6 +56,8 @@ Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
         // The stress may have been reduced for the undrained path; the real one is a lower bound of
         // the peak.
         strength.peak = std::max(strength.peak, std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[3]));
+        // Stress alone is no collapse: 9 % of the saturated points were past the line when the
+        // crest had moved 4 cm (docs/verification/static_liquefaction.md, `static_lift` at 3 s).
         const bool past_line = mesh.instability_ratio[i] >= instability;
         soils_[i] = {strength, past_line, past_line && mesh.epsilon_q[i] > strain_};
     }
@@ -63,6 +65,7 @@ Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
 
 std::optional<Collapse::Soil> Collapse::at(std::size_t element, const Vec2& xi) const {
     if (soils_.empty()) return std::nullopt;
+    // Also soil that was below the water when the motion began: its pressure may have fallen since.
     const bool wet = pressure_at(mesh_->pore_pressure, *mesh_, element, xi) > 0.0 ||
                      pressure_at(mesh_->pore_pressure_0, *mesh_, element, xi) > 0.0;
     if (!wet) return std::nullopt;

@@ -1,5 +1,7 @@
 // Soil with a state parameter at the transfer: collapsed or not, and its undrained strength. The
 // criterion is not a pore pressure ratio.
+// Used by SoilMap (soils.hpp) for NorSand in /transfer/liquefied; the reasons for criterion and
+// strengths are in docs/verification/static_liquefaction.md, *To the runout*.
 #pragma once
 
 #include <optional>
@@ -53,6 +55,7 @@ class Collapse {
     };
     /// At the Gauss point nearest to xi. None if the soil has no strength by state, or is dry:
     /// above the water at the beginning of the motion and at the transfer.
+    /// The nearest Gauss point and no mean: collapsed and sound soil have no state between them.
     std::optional<Soil> at(std::size_t element, const Vec2& xi) const;
     double strain() const { return strain_; }
 

@@ -39,6 +39,7 @@ void update_columns(MatrixXd& A, Index k, Index b, Index from, Index to) {
 Solved solve_in_place(MatrixXd& A, MatrixXd& B, int threads, const Watch& watch) {
     const Index N = A.rows();
     for (Index k = 0; k < N; k += block) {
+        // The work that is left grows with the cube of the rows that are left.
         const double left = 1.0 - static_cast<double>(k) / static_cast<double>(N);
         if (!watch.go_on(1.0 - left * left * left)) return Solved::stopped;
         const Index b = std::min(block, N - k);

@@ -34,6 +34,8 @@ Targets points_as_targets(const MeshSnapshot& mesh, const Points& points) {
     const auto per_element = static_cast<std::int64_t>(mesh.gauss_positions.size());
     for (std::size_t e = 0; e < mesh.quads.size(); ++e)
         for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
+            // Where the FEM has 2 x 2 Gauss points, the default points lie on them: nothing is
+            // interpolated then.
             const int gauss = gauss_at(mesh, points.xi[p]);
             to.same.push_back(gauss < 0 ? -1 : static_cast<std::int64_t>(e) * per_element + gauss);
         }
@@ -57,6 +59,7 @@ Sources gauss_points(const MeshSnapshot& mesh, const Points& points) {
     from.regions = mesh.regions.size();
     from.place.reserve(mesh.stress.size());
     for (std::size_t e = 0; e < mesh.quads.size(); ++e)
+        // In the shapes of the points, which differ from the mesh where an element was rebuilt.
         for (const Vec2& xi : mesh.gauss_positions) {
             from.place.emplace_back(points.shape[e] * shape_functions(xi));
             from.region.push_back(mesh.region_of_element[e]);
@@ -82,6 +85,8 @@ std::optional<GaussFieldReport> carry_gauss_fields(const MeshSnapshot& mesh,
     exchange::ParticleState& s = points.state;
     points.effective_stress.resize(s.size());
     for (Eigen::Index p = 0; p < carried->value.rows(); ++p)
+        // Effective stress is interpolated, total stress formed later (settle_stress): pore
+        // pressure has values at the nodes and needs no interpolation between Gauss points.
         points.effective_stress[p] = carried->value.row(p).head<4>();
     s.epsilon_q = not_negative(carried->value, 4, carried->report.raised_strains);
     s.epsilon_q_plastic = not_negative(carried->value, 5, carried->report.raised_strains);

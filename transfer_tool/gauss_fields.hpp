@@ -1,4 +1,6 @@
 // Stress and strain from Gauss points to material points, by radial basis functions.
+// Unlike velocity and pore pressure, stress and strain exist at Gauss points only: no shape
+// functions can give them, and they may jump between elements.
 #pragma once
 
 #include "transfer_tool/points.hpp"
@@ -7,6 +9,7 @@
 namespace breach::transfer {
 
 /// The mesh's Gauss points, in the elements' shapes used for the points.
+/// In the order of the mesh's Gauss fields: element by element.
 Sources gauss_points(const exchange::MeshSnapshot& mesh, const Points& points);
 
 /// Interpolates fields: one row per Gauss point in, one row per material point out. A point at a

@@ -18,6 +18,7 @@ struct Node {
     std::vector<double> mass_of_soil;
 };
 
+/// A map of nodes instead of the MPM's grid: one pass, and the transfer includes no other phase.
 class GridOnce {
   public:
     explicit GridOnce(const scene::Scene& scene)
@@ -46,6 +47,8 @@ class GridOnce {
             if (node.mass <= 0.0) continue;
             const Vec2 free = freedom(key);
             for (std::size_t s = 0; s < soils_; ++s) {
+                // The norm of the whole node's force is shared: forces of soils that balance one
+                // another at a border are no imbalance.
                 const double part = node.mass_of_soil[s] / node.mass;
                 sums[s].force += part * node.force.cwiseProduct(free).norm();
                 sums[s].inertia += part * node.inertia.cwiseProduct(free).norm();
@@ -56,6 +59,7 @@ class GridOnce {
     }
 
   private:
+    // One key per node, ordered by column, which fixes the order of the sums over nodes.
     static constexpr long stride = 1L << 31;
 
     void add(const Points& points, std::size_t p, const grid::GimpKernel& kernel,
@@ -67,6 +71,7 @@ class GridOnce {
         const auto y =
             kernel((s.position[p].y() - mpm_.floor.level) / h, walls_of_soil_[s.region[p]]);
         const mechanics::Voigt& sigma = s.stress[p];
+        // 0 for total stress, which contains u already.
         const double u = s.pressure_beside(p);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) {
@@ -87,6 +92,7 @@ class GridOnce {
     /// 1 in the free directions of a node, else 0. Floor and terrain hold both: friction is left to
     /// the MPM.
     Vec2 freedom(long key) const {
+        // Rounded, not truncated: rows below the floor are negative.
         const long column = std::lround(static_cast<double>(key) / static_cast<double>(stride));
         const long row = key - column * stride;
         if (row <= 0) return Vec2::Zero();

@@ -1,5 +1,7 @@
 // Unbalanced force of the new points on the MPM's grid, with the MPM's kernel: the force in its
 // first step.
+// Reported in the ledger, never refused: after liquefaction and a return to the yield surface the
+// soil need not be in balance.
 #pragma once
 
 #include <vector>

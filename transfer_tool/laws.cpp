@@ -73,6 +73,7 @@ YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
         const materials::State old{state.stress[p], state.epsilon_q_plastic[p]};
         const double excess = materials::yield_excess(law, old);
         if (excess <= 0.0) continue;
+        // Stress on the surface leaves it by round-off at every point: returned, but not counted.
         if (excess > stress_round_off * old.sigma.norm()) {
             YieldShare& share = report[state.region[p]];
             ++share.returned;
@@ -87,6 +88,8 @@ YieldReport return_to_yield_surface(std::span<const materials::Law> laws,
 
 void find_reference_volumes(std::span<const materials::Law> laws, exchange::ParticleState& state) {
     for (std::size_t p = 0; p < state.size(); ++p) {
+        // The scene's K. The MPM converts V_0 where it computes with a lower one
+        // (/mpm/stiffness_scale).
         const double K = materials::elasticity(laws[state.region[p]]).bulk_modulus();
         const double ratio = 1.0 + mechanics::mean_stress(state.stress[p]) / K;
         if (ratio <= 0.0)

@@ -1,5 +1,7 @@
 // What the MPM's laws require of transferred points: stress inside the yield surface, and a
 // reference volume.
+// transfer.cpp calls them in the order start_softening, return_to_yield_surface,
+// find_reference_volumes: each needs the one before.
 #pragma once
 
 #include <span>

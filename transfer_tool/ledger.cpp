@@ -63,6 +63,7 @@ struct Amounts {
 };
 
 /// Input of both sides of the ledger.
+/// Both use the same datum, thickness and soils, or their difference would mean nothing.
 struct Books {
     const MeshSnapshot& mesh;
     const Points& points;
@@ -71,6 +72,7 @@ struct Books {
     double datum;  ///< level of the lowest node [m]
 };
 
+/// Heights above sea level would hide a loss: potential energy is compared relative to itself.
 double lowest_node(const MeshSnapshot& mesh) {
     double y = mesh.position_0.front().y() + mesh.displacement.front().y();
     for (std::size_t i = 0; i < mesh.position_0.size(); ++i)
@@ -103,6 +105,7 @@ std::vector<double> gauss_weights(const MeshSnapshot& mesh, const std::string& f
 Amounts on_element(const Books& books, std::size_t e) {
     const MeshSnapshot& mesh = books.mesh;
     const Eigen::Vector4d J_0 = corner_jacobians(undeformed_corners(mesh, e));
+    // Rebuilt where the points' element is: the ledger audits the mapping, not the mesh.
     const Corners& x = books.points.shape[e];
     const Corners v = corner_values(mesh.velocity, mesh.quads[e]);
     const double rho_t = mesh.density[e] * mesh.thickness;
@@ -133,6 +136,8 @@ double elastic_energy_on_element(const Books& books, std::size_t e,
         const Vec2& xi = mesh.gauss_positions[g];
         const double V = jacobian(books.points.shape[e], xi).determinant() * weights[g];
         const SoilOfPoints& soil = books.map.soils()[books.map.at(e, xi)];
+        // The soil's measure of stress, as on the points: total and effective energies differ
+        // without any loss.
         const Voigt sigma =
             stress_of(soil, mesh.stress[e * weights.size() + g], u.dot(shape_functions(xi)),
                       books.map.still_pressure(books.points.shape[e] * shape_functions(xi)));
@@ -179,6 +184,7 @@ std::vector<Amounts> on_points(const Books& books) {
         a.volume += s.volume[p];
         a.momentum_x += m * v.x();
         a.momentum_y += m * v.y();
+        // Momentum itself may be near zero in soil that moves to both sides.
         a.momentum_scale += m * v.norm();
         a.kinetic += 0.5 * m * v.squaredNorm();
         a.potential += m * books.gravity * (s.position[p].y() - books.datum);
@@ -204,6 +210,8 @@ std::vector<GridForce> on_grid(const Books& books, const scene::Scene& scene) {
 
 double relative(double before, double after, double scale) {
     if (after == before) return 0.0;
+    // Soil at rest has a scale of 0: equal sums were answered above, a difference becomes very
+    // large.
     return (after - before) / std::max(std::abs(scale), 1e-300);
 }
 
@@ -229,6 +237,7 @@ void add_rows(Ledger& ledger, const std::string& region, const Amounts& b, const
 
 /// Compares the FEM's lumped sums with the points.
 void add_nodal_rows(Ledger& ledger, const MeshSnapshot& mesh, const Amounts& a) {
+    // Lumped sums, for comparison only: refuse_losses does not know these rows.
     Amounts b;
     for (std::size_t i = 0; i < mesh.nodal_mass.size(); ++i) {
         const double m = mesh.nodal_mass[i];
@@ -314,6 +323,7 @@ void refuse_losses(const Ledger& ledger, const scene::Transfer& settings) {
             allowed = settings.largest_kinetic_energy_loss;
         else
             continue;
+        // A NaN does not pass.
         if (std::abs(row.difference) <= allowed) continue;
         char line[256];
         std::snprintf(line, sizeof line, "\n  %s of region \"%s\": %.3g, allowed %.3g",

@@ -17,6 +17,9 @@
 // rebuilt shape on both sides. Row "out-of-balance force" (scenes with /mpm, on the MPM's grid):
 // 'before' is what the FEM's accelerations need, 'after' the force of the points' stress and
 // gravity; the difference is relative to the weight.
+// transfer.cpp makes it from the finished points. run.cpp logs it and writes it to result.json
+// before it refuses losses, so that a refused transfer shows where it lost; then the particle file
+// gets it.
 #pragma once
 
 #include <string>

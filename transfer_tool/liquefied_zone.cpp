@@ -72,12 +72,16 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
         ++nodes_;
     }
     std::ranges::sort(edges, {}, &ZoneEdge::x);
+    // A sweep from left to right: between two edges the deepest node among the open columns
+    // decides.
     std::multiset<double> open;  // levels of the nodes whose columns contain the present x
     for (std::size_t i = 0; i < edges.size(); ++i) {
         if (edges[i].begins)
             open.insert(edges[i].level);
         else
+            // One of equal levels, not all: erase(value) would close the others' columns, too.
             open.erase(open.find(edges[i].level));
+        // Only the last edge at an x knows which columns are open to its right.
         if (i + 1 < edges.size() && edges[i + 1].x == edges[i].x) continue;
         level_from_[edges[i].x] = open.empty() ? nowhere : *open.begin();
     }
@@ -87,6 +91,7 @@ LiquefiedZone::LiquefiedZone(const MeshSnapshot& mesh, const std::vector<char>& 
 /// Liquefies what lies between each column and those that begin less than `narrowest` after its
 /// end.
 void LiquefiedZone::close_walls(double narrowest) {
+    // Levels before any wall was closed: a closed one must not close its neighbours.
     const std::map<double, double> own = level_from_;
     for (auto left = own.begin(); left != own.end(); ++left) {
         const auto first = std::next(left);
@@ -127,6 +132,7 @@ std::vector<LiquefiedGap> LiquefiedZone::gaps() const {
 }
 
 bool LiquefiedZone::holds(const Vec2& place) const {
+    // First: dry soil does not liquefy, also above a line that was drawn by hand.
     if (!water_table_.empty() && place.y() >= geometry::level_at(water_table_, place.x()))
         return false;
     const bool below_line = line_.empty() || place.x() > line_.back().x() ||

@@ -1,4 +1,6 @@
 // Depth of liquefaction, column by column.
+// SoilMap asks holds() per point. Columns and not elements: soil above liquefied soil loses its
+// support, also where r_u of its own nodes stayed below the threshold.
 #pragma once
 
 #include <map>
@@ -42,9 +44,11 @@ class LiquefiedZone {
                   double threshold, scene::LiquefiedWhen when, double narrowest_wall = 0.0);
 
     /// Takes out the soil above the water table [m]; an empty one is not known.
+    /// SoilMap calls it once, before any point is assigned.
     void keep_below(std::vector<Vec2> water_table) { water_table_ = std::move(water_table); }
 
     /// Adds the soil above the line.
+    /// For one transfer time; SoilMap adds the line whose time is the snapshot's.
     void add(const scene::LiquefiedLine& line) {
         line_.assign(line.points.begin(), line.points.end());
     }

@@ -1,3 +1,5 @@
+// transfer_tool: from a FEM snapshot to material points; `transfer_tool advise` is a phase of its
+// own, with other inputs and another plan.
 #include <string_view>
 
 #include "core/phases/phases.hpp"

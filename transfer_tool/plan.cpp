@@ -1,3 +1,5 @@
+// --plan: which steps of the transfer this scene uses, and why. It knows the scene only: what a
+// snapshot adds (water, other Gauss points) is said as such.
 #include <algorithm>
 
 #include "core/words/number.hpp"
@@ -120,6 +122,8 @@ PlanLine interpolation_line(const scene::Transfer& settings) {
 
 PlanLine gauss_line(const scene::Transfer& settings) {
     const bool moved = settings.point_shift != std::array<double, 2>{};
+    // Points on Gauss points take their values (gauss_fields.cpp); "paper" interpolates all the
+    // same.
     const bool same = settings.interpolation == scene::Interpolation::local &&
                       settings.points_per_direction == 2 && !settings.points_per_cell && !moved;
     if (same)

@@ -20,6 +20,8 @@ void place_in_element(const MeshSnapshot& mesh, std::size_t e, const GaussRule& 
             const std::size_t p = points.xi.size();
             points.xi.push_back(xi);
             s.position[p] = x * shape_functions(xi);
+            // Mass from the undeformed element, where the density holds; volume from the deformed
+            // one.
             s.mass[p] = mesh.density[e] * jacobian(x_0, xi).determinant() * w_t;
             s.volume[p] = jacobian(x, xi).determinant() * w_t;
             s.region[p] = mesh.region_of_element[e];
@@ -52,6 +54,8 @@ void carry_ratio(const MeshSnapshot& mesh, std::size_t e, Points& points) {
     const auto at_corners = [&](const std::vector<double>& pressure) {
         return corner_pressure(pressure, mesh.quads[e], points.shape[e]);
     };
+    // Numerator and stress are interpolated apart: near the surface, where sigma'_v0 vanishes,
+    // ratios at the corners have no limit.
     const Eigen::Vector4d d_u = at_corners(mesh.pore_pressure) - at_corners(mesh.pore_pressure_0);
     const Eigen::Vector4d sigma_v0 = corner_values(mesh.sigma_v0, mesh.quads[e]);
     for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {

@@ -1,4 +1,6 @@
 // Positions and masses of the material points, and their fields from the mesh's nodes.
+// Made by place_points, then completed step by step in transfer.cpp; each step names the fields
+// that it sets.
 #pragma once
 
 #include <vector>

@@ -63,6 +63,8 @@ double average_distance(std::span<const Vec2> position) {
     const auto [low, high] = bounds(position);
     const Vec2 edge = high - low;
     const auto N = static_cast<double>(position.size());
+    // The shape parameter epsilon follows the density of the centres, so that no user has to give
+    // it.
     if (edge.minCoeff() > 0.0) return std::sqrt(edge.x() * edge.y() / N);
     if (edge.maxCoeff() > 0.0) return edge.maxCoeff() / N;
     return 1.0;  // a single centre: any length
@@ -102,6 +104,7 @@ void LocalInterpolant::normalise(const std::vector<Vec2>& position, std::span<co
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(scatter);
     const double along = std::sqrt(std::max(0.0, spread.eigenvalues()[1]));
     const double across = std::sqrt(std::max(0.0, spread.eigenvalues()[0]));
+    // All centres at one place: no direction, and the field is constant.
     if (along == 0.0) return;
     axes_.col(0) = spread.eigenvectors().col(1) / along;
     directions_ = 1;

@@ -1,5 +1,6 @@
 // Radial basis functions: interpolates scattered values with the multiquadric phi(r) = sqrt(r^2 +
 // epsilon^2).
+// One system serves all fields, as columns of its right side; scattered.hpp chooses the centres.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +24,7 @@ struct Centres {
     std::size_t merged = 0;  ///< number of coincident centres removed
 };
 /// Merges places closer than 1e-9 of the extent, with the mean of their values. Compares all pairs.
+/// Two centres at one place would make the system singular.
 Centres merge_coincident(const std::vector<Vec2>& position, const Values& value);
 
 /// sqrt(bounding-box area / N) [m]; on a line, its length / N (Sordo et al. 2024, in their

@@ -1,3 +1,5 @@
+// Files and messages of a transfer; the method is in transfer.cpp. There is no checkpoint: a
+// transfer that was stopped starts again.
 #include "transfer_tool/run.hpp"
 
 #include <spdlog/spdlog.h>
@@ -185,6 +187,8 @@ process::Outcome run(process::Session& session) {
     const auto transferred = transfer(mesh, session.scene(), work, file);
     if (!transferred) return process::Outcome::stopped;
     report(session, *transferred);
+    // After the report: result.json and log show the rows that are refused. No particle file is
+    // written.
     refuse_losses(transferred->ledger, scene::transfer_of(session.scene()));
 
     exchange::write_particle_state(output, transferred->state, session.provenance(),

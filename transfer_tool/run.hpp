@@ -1,5 +1,6 @@
 // The transfer as a phase: its plan, and the conversion of one snapshot to one particle file; and
 // the advice as another phase.
+// main.cpp hands both phases to core/process.
 #pragma once
 
 #include "core/process/phase.hpp"
@@ -12,6 +13,7 @@ inline constexpr int numerics = 12;
 process::Plan plan(const scene::Scene& scene);
 process::Outcome run(process::Session& session);
 /// Reads the scene and checks its window.
+/// A condition that cannot be parsed is a fault before the run, not when advice is asked for.
 scene::Scene read(const std::filesystem::path& file, const std::vector<std::string>& overrides);
 
 /// `transfer_tool advise`: telemetry in, result.json out.

@@ -1,3 +1,5 @@
+// `transfer_tool advise` as a phase: one answer for each telemetry of the same scene. The snapshots
+// are looked for beside each telemetry, where fem_solver writes them.
 #include <spdlog/spdlog.h>
 
 #include "core/fault/fault.hpp"
@@ -21,6 +23,7 @@ nlohmann::json as_json(const Advice& advice) {
     if (advice.lower) entry["lower"] = as_json(*advice.lower);
     if (advice.shut_since) entry["shut_since"] = *advice.shut_since;
     if (advice.half_way) {
+        // A FEM that never distorted closes the window with its end.
         entry["upper"] = advice.upper ? as_json(*advice.upper)
                                       : nlohmann::json{{"time", advice.end},
                                                        {"condition", "the telemetry's end"}};

@@ -71,6 +71,7 @@ class CellCover {
 
     /// Area of a convex quad within the cell, clipped side by side (Sutherland & Hodgman 1974).
     double area_within(const Corners& x, const Vec2& low) const {
+        // Enough: a convex quad gains at most one vertex from each of four lines.
         std::array<Vec2, 8> ring;
         std::size_t n = 4;
         for (int k = 0; k < 4; ++k) ring[k] = x.col(k);
@@ -143,6 +144,7 @@ std::vector<std::size_t> counts(const std::vector<Corners>& elements,
 }
 
 std::size_t owed(double share, int asked) {
+    // Rounded down: a cell at the soil's border may have a share too small for a single point.
     return static_cast<std::size_t>(std::floor((share + 1e-6) * asked));
 }
 
@@ -168,6 +170,8 @@ Sampling one_panel_each(std::size_t elements) {
 Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand) {
     const int n = demand.points_per_panel;
     const int asked = demand.points_per_cell;
+    // That of a square lattice with enough points per cell, of which the loop below corrects the
+    // exceptions.
     const double distance =
         demand.cell_size / std::ceil(std::sqrt(static_cast<double>(asked)) - 1e-9);
     Sampling sampling = one_panel_each(elements.size());
@@ -185,6 +189,8 @@ Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDema
         bool any = false;
         for (const CellCover::Part& part : cover.parts) {
             if (count[part.cell] >= owed(cover.share[part.cell], asked)) continue;
+            // Once per round: an element lies in many cells, and the next count shows whether that
+            // was enough.
             if (refined[part.element]) continue;
             refined[part.element] = 1;
             any = true;
@@ -196,6 +202,7 @@ Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDema
         refuse_too_many(sampling.panels, n);
         count = counts(elements, sampling.panels, demand, cover);
     }
+    // Cells that are short after the last round are reported and logged, not refused.
     sampling.supply = supply_of(cover, count, asked);
     return sampling;
 }

@@ -48,6 +48,7 @@ class Neighbourhoods {
         found.resize(
             trees_[region]->knnSearch(place.data(), found.size(), found.data(), distance.data()));
         for (std::size_t& i : found) i = clouds_[region].member[i];
+        // The tree finds them in the order of its search; sums over sources need a fixed one.
         std::ranges::sort(found);
         return found;
     }
@@ -94,6 +95,7 @@ void carry_group(const Task& task, const Neighbourhoods& neighbourhoods, std::si
             value = task.value.row(task.to.same[p]);
             continue;
         }
+        // One system per element and not per point; none where all points lie on Gauss points.
         if (!interpolant) interpolant.emplace(interpolant_of(task, neighbourhoods, group, report));
         interpolant->at(task.to.place[p], value);
     }
@@ -114,6 +116,7 @@ std::optional<Interpolated> interpolate_locally(const Task& task, std::size_t ne
             for (std::size_t g = begin; g < end && !stopped; ++g) {
                 const double done =
                     static_cast<double>(g - begin) / static_cast<double>(end - begin);
+                // From the first thread alone, as Watch promises; the others see `stopped`.
                 if (thread == 0 && g % groups_between_looks == 0 && !work.watch.go_on(done))
                     stopped = true;
                 carry_group(task, neighbourhoods, g, result.value, own);
@@ -137,6 +140,7 @@ void refuse_too_many(std::size_t centres) {
 }
 
 std::optional<Interpolated> interpolate_globally(const Task& task, const Work& work) {
+    // Before anything of that size is allocated.
     refuse_too_many(task.from.place.size());
     Centres centres = merge_coincident(task.from.place, task.value);
     Interpolated result{

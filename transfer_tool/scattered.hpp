@@ -1,5 +1,7 @@
 // Interpolates values between two sets of places in the same regions, from Gauss points to material
 // points and back.
+// "local" exists because "paper" smears stress across the borders between regions and needs N^2
+// memory.
 #pragma once
 
 #include <cstdint>

@@ -46,6 +46,7 @@ Corners rebuilt(const Corners& x_0, const Corners& x) {
     const double along = (r_0.array() * r.array()).sum();
     const double across =
         (r_0.row(0).array() * r.row(1).array() - r_0.row(1).array() * r.row(0).array()).sum();
+    // Corners that have met in one point give no direction.
     const double angle = along == 0.0 && across == 0.0 ? 0.0 : std::atan2(across, along);
     Matrix2 R;
     R << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -127,6 +128,7 @@ Shapes shapes_of_elements(const MeshSnapshot& mesh, scene::Entangled policy,
                                   .area_on_mesh = corner_jacobians(x).sum(),
                                   .area = corner_jacobians(x_0).sum()});
     }
+    // After all elements: the message counts them and lists the first ones.
     if (policy == scene::Entangled::refuse && !shapes.rebuilt.empty())
         refuse(mesh, shapes.rebuilt, file);
     return shapes;

@@ -1,5 +1,7 @@
 // The corners of the elements for a transfer: of the deformed mesh, or, for an inverted element if
 // the scene requests it, of its undistorted shape.
+// The first step of a transfer. All later ones need J > 0: mass and volume are Gauss weights times
+// J.
 #pragma once
 
 #include <string>

@@ -130,6 +130,7 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
     if (!liquefied_) return;
     liquefied_->keep_below(water_table_of(scene));
     for (const scene::LiquefiedLine& line : settings.liquefied->lines)
+        // Times come from text in the scene and from summed steps in the snapshot.
         if (std::abs(line.transfer_time - mesh.time) < 1e-6) liquefied_->add(line);
 }
 
@@ -154,6 +155,7 @@ void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>
         return static_cast<std::int32_t>(std::ranges::find(soils, scene::Soil{region, material}) -
                                          soils.begin());
     };
+    // soils_of lists the regions' own soils first, in the section's order.
     RegionRule rule{.soil = static_cast<std::int32_t>(region), .region = region};
     for (const scene::SoilMapping& each : settings.mapping)
         if (each.region == region && each.saturated) rule.saturated = index(*each.saturated);
@@ -174,8 +176,10 @@ std::int32_t SoilMap::at(std::size_t element, const Vec2& xi) const {
     if (!rule.layers.empty() && liquefied_->holds(place)) {
         const double sigma_v0 = corner_values(mesh_.sigma_v0, mesh_.quads[element]).dot(N);
         const auto layer = std::ranges::upper_bound(layer_ends_, sigma_v0) - layer_ends_.begin();
+        // Stress beyond the last layer's end still belongs to that layer.
         return rule.layers[std::min(static_cast<std::size_t>(layer), rule.layers.size() - 1)];
     }
+    // After the liquefied layers: soil that has liquefied is also saturated.
     if (rule.saturated && place.y() < level_at(phreatic_line_, place.x())) return *rule.saturated;
     return rule.soil;
 }
@@ -191,6 +195,8 @@ materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& x
     if (!profile) return {};
     if (const auto soil = state_at(element, xi)) {
         const auto& [peak, critical] = soil->strength;
+        // phi = 0: the MPM has total stress and no pore pressure, so the undrained strength is a
+        // cohesion.
         return {soil->collapsed ? critical : peak, 0.0, critical, 0.0};
     }
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
@@ -229,6 +235,7 @@ void assign_soils(const SoilMap& map, Points& points) {
     for (const SoilOfPoints& soil : map.soils()) {
         s.regions.push_back(soil.region);
         s.materials_of_regions.push_back(soil.material);
+        // Without water total and effective stress are equal, and the file does not name a measure.
         if (!s.pore_pressure.empty() || map.water().is_there())
             s.stress_of_regions.push_back(soil.stress);
     }

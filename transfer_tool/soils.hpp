@@ -1,5 +1,7 @@
 // The soil at every place of the mesh: mapped materials, saturated and unsaturated parts, liquefied
 // layers.
+// Built first in transfer.cpp, so that a scene that does not match its snapshot is refused before
+// the costly interpolation. Asked for every point, and by the ledger for every Gauss point.
 #pragma once
 
 #include <span>
@@ -38,6 +40,7 @@ class SoilMap {
     const std::vector<SoilOfPoints>& soils() const { return soils_; }
     /// Index into soils() at the natural coordinates xi of an element. Columns and phreatic line
     /// refer to the undeformed mesh.
+    /// Undeformed, because the lines of a scene are drawn on the section as it was.
     std::int32_t at(std::size_t element, const Vec2& xi) const;
     /// Strength of a point there: from its soil's profile at the undeformed place, zero without
     /// profile; residual if liquefied. Wet soil with a state parameter has the strength of its

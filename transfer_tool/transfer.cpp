@@ -1,3 +1,6 @@
+// The method on one screen. The order is part of it: soils decide which stress points carry, the
+// stress and the softening decide the yield surface, the stress after the return decides V_0, and
+// the ledger compares what is left.
 #include "transfer_tool/transfer.hpp"
 
 #include <algorithm>
@@ -53,6 +56,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     assign_soils(map, points);
     settle_stress(map, points);
     if (settings.sigma_zz == scene::OutOfPlaneStress::zero)
+        // Before the return, which then counts what this leaves outside the yield surface.
         for (mechanics::Voigt& stress : points.state.stress) stress[2] = 0.0;
     start_softening(laws, points.state);
     start_at_state(map, points);
@@ -66,9 +70,11 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     if (settings.liquefied) t.liquefaction = liquefaction_of(map, mesh, settings.liquefied->when);
     t.collapse = map.collapse_report(points);
     t.state = std::move(points.state);
+    // For /mpm/shaking: the runout's ground moves on with it.
     t.state.base_motion = mesh.base_motion;
     t.state.steady_pressure = map.steady_pressure();
     if (settings.base_displacement == scene::BaseDisplacement::subtracted) {
+        // After the ledger, which compares with the mesh where it is.
         t.base_displacement = displacement_of_base(mesh);
         for (mechanics::Vec2& place : t.state.position) place.x() -= t.base_displacement;
     }

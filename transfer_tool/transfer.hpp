@@ -1,4 +1,5 @@
 // Converts a FEM snapshot to material points, step by step, without files.
+// Called by run.cpp, tests and benchmarks. Docs: docs/reference/methods/transfer.md, *Steps*.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
 // Progress reports and stop requests for long computations.
+// run.cpp connects it with the session's progress bar and stop requests.
 #pragma once
 
 #include <functional>

@@ -59,6 +59,8 @@ Quality quality_of(const Mesh& mesh) {
         q.shortest_edge = std::min(q.shortest_edge, shortest);
         q.longest_edge = std::max(q.longest_edge, longest);
         q.largest_aspect = std::max(q.largest_aspect, longest / shortest);
+        // The sum is four times the area: an element that is folded as a whole has no meaningful
+        // ratio.
         const double ratio = sum > 0.0 ? least / (0.25 * sum) : -1.0;
         if (ratio < q.least_jacobian) {
             q.least_jacobian = ratio;
@@ -101,6 +103,7 @@ Mesh build_mesh(const scene::Scene& scene, const std::filesystem::path& folder,
             break;
         }
     }
+    // For every source: also a .msh file of a user, and blocks with inward corners.
     check_convex(mesh, section);
     return mesh;
 }

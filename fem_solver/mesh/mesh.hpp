@@ -1,4 +1,6 @@
 // The finite-element mesh: nodes, quads and their regions, from mapped blocks, gmsh or a .msh file.
+// Called once per run (run.cpp, mesh_alone.cpp). Nodes and elements keep this order everywhere:
+// zones are runs of elements of one region, and free-field columns are appended after them.
 #pragma once
 
 #include <array>
@@ -72,6 +74,8 @@ Mesh mesh_with_gmsh(
 /// Reads a gmsh text mesh (format 2.2 or 4.1) whose physical surfaces have the regions' names.
 Mesh read_msh(const std::filesystem::path& file, const scene::Section& section);
 
+/// Measure of all tolerances of places: supports, sides and edges are found within a millionth of
+/// shortest_edge.
 struct Quality {
     double smallest_angle;  ///< [rad]
     double largest_aspect;  ///< longest side over shortest, worst element [-]

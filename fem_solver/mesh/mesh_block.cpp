@@ -1,3 +1,5 @@
+// Blocks: the mesh of a region between its four corners. No optimisation and no random numbers, so
+// the mesh follows from the polygon and the divisions alone.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -27,6 +29,7 @@ namespace {
 
 /// Share of a segment in the first k of n elements, each `growth` times as long as the one before.
 double share_at(int k, int n, double growth) {
+    // The geometric series divides by growth - 1.
     if (growth == 1.0) return static_cast<double>(k) / n;
     return std::expm1(k * std::log(growth)) / std::expm1(n * std::log(growth));
 }
@@ -92,6 +95,7 @@ std::string place(std::size_t index, const std::string& key) {
 
 Sides divide_sides(const Piece& piece) {
     const scene::Region& region = piece.region;
+    // Sides run counter-clockwise: side 2-3 is divided from the other end.
     const std::array<double, 4> growth{piece.growth, 1.0, 1.0 / piece.growth, 1.0};
     std::array<std::vector<Vec2>, 4> sides;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -134,6 +138,8 @@ Mesh map_block(const Piece& piece) {
             const double d_xi = xi_end - xi_start, d_eta = eta_end - eta_start;
             const double xi = (xi_start + d_xi * eta_start) / (1.0 - d_xi * d_eta);
             const double eta = between(eta_start, eta_end, xi);
+            // Border nodes are the sides' own points and not the interpolated ones: a neighbouring
+            // region divides the same side into the same points.
             if (j == 0)
                 mesh.nodes.push_back(sides.bottom[i]);
             else if (j + 1 == rows)

@@ -1,3 +1,6 @@
+// Meshes with gmsh's command line, through a .geo file in the run's folder. All borders are divided
+// here, not by gmsh: neighbours must share nodes, quads need an even border, and blocks keep their
+// divisions. Files stay for inspection (mesh.geo, gmsh.log).
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -84,6 +87,8 @@ Outline outline_of(const std::vector<Piece>& pieces) {
         for (std::size_t i = 0; i < ring.size(); ++i) {
             const int a = point_at(outline, ring[i], tolerance);
             const int b = point_at(outline, ring[(i + 1) % ring.size()], tolerance);
+            // A vertex of a neighbour may lie within this side: it splits the side, or the regions
+            // would not share their nodes.
             const std::vector<int> chain = points_between(outline, a, b, tolerance);
             for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
                 loop.push_back(line_between(outline, chain[k], chain[k + 1]));
@@ -140,6 +145,7 @@ void divide_block(Outline& outline, const std::vector<Piece>& pieces, std::size_
                                   "give both the same number"});
             }
             line.divisions = shares[i];
+            // A line has one direction, and the regions on its two sides use it in opposite ones.
             line.growth = lines[i] > 0 ? growth[k] : 1.0 / growth[k];
             line.divided_by = p;
         }
@@ -164,6 +170,7 @@ void divide_unstructured(Outline& outline, const std::vector<Piece>& pieces,
             if (line.divisions == 0) {
                 const double wanted = line.length / (2.0 * region.element_size);
                 line.divisions = 2 * std::max(1, static_cast<int>(std::lround(wanted)));
+                // A line without a neighbour: one more division on it disturbs no one.
                 if (uses[std::abs(signed_line) - 1] == 1) own = &line;
             }
             sum += line.divisions;
@@ -207,6 +214,7 @@ std::string geo_text(const Outline& outline, const std::vector<Piece>& pieces,
                      const Recipe& recipe) {
     std::ostringstream geo;
     geo << std::setprecision(17);
+    // One thread and nearly no random shift: the same scene gives the same mesh.
     geo << "General.NumThreads = 1;\nMesh.Algorithm = " << recipe.algorithm
         << ";\nMesh.RecombinationAlgorithm = " << recipe.recombination
         << ";\nMesh.RecombineAll = 1;\nMesh.RandomFactor = "
@@ -308,6 +316,7 @@ Mesh mesh_with_gmsh(const scene::Section& section, const std::filesystem::path& 
         exchange::publish_text(geo, geo_text(outline, pieces, recipes[attempt]));
         const int code = run_program({"gmsh", "-2", geo.string(), "-o", msh.string()}, log, stop);
         const bool last = attempt + 1 == recipes.size();
+        // Recipes fail in two ways: gmsh itself, or triangles that read_msh refuses.
         if (code != 0 && last) {
             throw fault::IoError("gmsh failed with exit code " + std::to_string(code) + ": see " +
                                  log.string());

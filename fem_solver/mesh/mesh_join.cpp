@@ -1,3 +1,5 @@
+// Makes one mesh of the blocks' meshes. Blocks are meshed one by one, so only here it shows whether
+// their common sides match. A gap or a hanging node would be a crack: the halves could part freely.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,6 +33,7 @@ std::vector<std::int32_t> first_coincident(const std::vector<Vec2>& nodes, doubl
             const std::int32_t j = order[l];
             if (nodes[i].x() - nodes[j].x() > tolerance) break;
             if ((nodes[i] - nodes[j]).norm() > tolerance) continue;
+            // The first node of a group keeps its coordinates, whichever is found first.
             const std::int32_t root = std::min(first[i], first[j]);
             first[i] = root;
             first[j] = root;
@@ -121,6 +124,8 @@ std::vector<fault::Fault> misfits(const Mesh& mesh, const scene::Section& sectio
         for (const auto& [node, of_node] : nodes) {
             if (of_node.region == own || node == edge.a || node == edge.b) continue;
             const char* kind = misfit(mesh, edge, node, of_node.outwards, tolerance);
+            // One fault per pair of regions: a side that does not match has as many as it has
+            // nodes.
             if (!kind || reported[std::minmax(of_node.region, own)]++ > 0) continue;
             faults.push_back(
                 {"/section/regions/" + std::to_string(of_node.region),
@@ -153,6 +158,7 @@ Mesh join(const std::vector<Mesh>& parts, const scene::Section& section) {
     std::vector<std::int32_t> number(all.nodes.size(), -1);
     std::vector<Vec2> kept;
     for (std::size_t i = 0; i < all.nodes.size(); ++i) {
+        // Twice: the first node of a group may itself have moved to an earlier one.
         const std::int32_t root = first[first[i]];
         if (number[root] < 0) {
             number[root] = static_cast<std::int32_t>(kept.size());

@@ -1,3 +1,6 @@
+// Reads a user's .msh file (/fem/msh_file) and the one that mesh_gmsh.cpp lets gmsh write. A user's
+// file can be anything: every count is read with a check of the stream, and faults of elements name
+// their number in that file.
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -41,6 +44,8 @@ class MshReader {
 
     RawMesh read() {
         std::string word;
+        // Unknown sections are skipped word by word. Nodes are looked up after all sections are
+        // read.
         while (in_ >> word) {
             if (word == "$MeshFormat")
                 read_format();
@@ -121,6 +126,7 @@ class MshReader {
             const long physicals = next<long>();
             for (long k = 0; k < physicals && in_; ++k) {
                 const int physical = next<int>();
+                // A surface with several names counts for the first.
                 if (k == 0) mesh_.physical_of_surface[tag] = physical;
             }
             skip(next<long>());
@@ -168,6 +174,7 @@ class MshReader {
         for (long i = 0; i < count && in_; ++i) {
             const long tag = next<long>();
             const int type = next<int>();
+            // long: the least int less one would overflow (found by fuzzing).
             const long tags = next<int>();
             const int physical = tags > 0 ? next<int>() : 0;
             skip(tags - 1);
@@ -271,6 +278,7 @@ Mesh read_msh(const std::filesystem::path& file, const scene::Section& section) 
         break;
     }
     if (!faults.empty()) throw fault::BadInput(file.string(), std::move(faults));
+    // Zones need the elements of a region in one run; their order within it stays the file's.
     std::ranges::stable_sort(raw.quads, {},
                              [&](const auto& q) { return region_of_tag.at(q.physical); });
     Mesh mesh;
@@ -285,11 +293,13 @@ Mesh read_msh(const std::filesystem::path& file, const scene::Section& section) 
             }
             const auto [place, is_new] =
                 number.emplace(tag, static_cast<std::int32_t>(mesh.nodes.size()));
+            // Numbered at first use: nodes of points and curves without an element drop out.
             if (is_new) mesh.nodes.push_back(node->second);
             quad[k] = place->second;
         }
         mesh.quads.push_back(quad);
         mesh.region_of_element.push_back(region_of_tag.at(each.physical));
+        // Clockwise quads are common in files and harmless.
         if (twice_area(corners_of(mesh, mesh.quads.size() - 1)) < 0.0) {
             std::swap(mesh.quads.back()[1], mesh.quads.back()[3]);
         }

@@ -1,5 +1,6 @@
 // Divides regions into parts with one kind of mesh: the region itself, or its middle and graded
 // strips.
+// Both meshers start from these pieces: blocks map them, gmsh gets them as surfaces.
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +30,7 @@ struct Progression {
 Progression fill(double length, double first, double last) {
     if (length <= 2.0 * first || last <= first) return {divisions_for(length, first), 1.0};
     const double end = std::min(last, 0.5 * length);
+    // Sums of a geometric series: n elements from `first` to `end` fill the length for this ratio.
     const double wanted = (length - first) / (length - end);
     const double many = 1.0 + std::log(end / first) / std::log(wanted);
     const int n = 2 * std::max(1, static_cast<int>(std::lround(0.5 * many)));
@@ -71,6 +73,7 @@ Piece strip(const scene::Region& region, std::size_t index, Side side, double x)
                       "the part beyond x = " + std::to_string(x) + " is not a quadrilateral",
                       "move the end of the strip to where ground and base are straight");
     }
+    // Two left and two right corners, the lower one first: 0, 2, 3, 1 is counter-clockwise.
     std::ranges::sort(ring, {}, [](const Vec2& p) { return p.x(); });
     if (ring[0].y() > ring[1].y()) std::swap(ring[0], ring[1]);
     if (ring[2].y() > ring[3].y()) std::swap(ring[2], ring[3]);
@@ -82,6 +85,7 @@ Piece strip(const scene::Region& region, std::size_t index, Side side, double x)
     const Vec2 inner = side == Side::left ? ring[3] - ring[2] : ring[1] - ring[0];
     const auto [columns, growth] = fill(width, region.element_size, region.grading.largest);
     piece.region.divisions = {columns, divisions_for(inner.norm(), region.element_size)};
+    // Elements grow away from the middle; side 0-1 runs from left to right.
     piece.growth = side == Side::left ? 1.0 / growth : growth;
     return piece;
 }

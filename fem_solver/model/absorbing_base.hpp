@@ -1,4 +1,6 @@
 // The dashpots of a Lysmer-Kuhlemeyer base and its input motion.
+// Made once by build_model. Dashpots enter the matrix and the residual (newton.cpp), the motion
+// enters as a force (set_external_force).
 #pragma once
 
 #include "core/motion/read_motion.hpp"

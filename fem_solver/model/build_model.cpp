@@ -12,6 +12,7 @@ namespace {
 std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
     std::vector<Zone> zones;
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
+        // Columns come after the body, so that a region may have a zone in each.
         const bool opens = e == 0 || mesh.region_of_element[e] != mesh.region_of_element[e - 1];
         if (opens) {
             const auto& region = scene.section.regions[mesh.region_of_element[e]];
@@ -57,6 +58,7 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
     const auto& motion = decided.motion.value;
     Model model;
     model.points_per_element = hourglass ? 1 : gauss_points;
+    // Before the columns are appended: monitors, snapshots and energies end here.
     model.body = {mesh.nodes.size(), mesh.quads.size()};
     FreeFieldColumns columns;
     if (const auto& sides = decided.free_field.value) {
@@ -89,6 +91,7 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
             model.volume[e] = nodal_volumes(x, thickness).sum();
         }
     }
+    // See Model::row_weight for the reason of 1 + 1 / thickness.
     if (!columns.inner.empty())
         model.row_weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(2 * mesh.nodes.size()));
     for (const std::int32_t node : columns.inner) {
@@ -96,6 +99,7 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
             1.0 / model.column_thickness;
     }
     model.mesh = std::move(mesh);
+    // Weights first: loads on the ground are added to the same force.
     set_weights(decided.gravity.value, 0.0, model);
     add_ground_loads(decided, model);
     if (decided.water.value) model.water = ground_water(scene, *decided.water.value, model);

@@ -1,4 +1,5 @@
 // Builds the model of a scene on a mesh: constraints, masses and laws.
+// Called once per run, before any stage. Stages change the model later (model/stages.hpp).
 #pragma once
 
 #include "fem_solver/model/choose.hpp"

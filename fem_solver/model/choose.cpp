@@ -41,6 +41,7 @@ Decided<ElementChoice> element_of(const scene::Fem& fem) {
 
 ModelDecisions decide_model(const scene::Scene& scene) {
     const scene::Fem& fem = scene::fem_of(scene);
+    // /fem/damping has become the stiffness coefficient when the scene was read.
     const bool damped = fem.rayleigh_mass > 0.0 || fem.rayleigh_stiffness > 0.0;
     const std::string no_motion =
         fem.base ? "none is given: the base is at rest" : "there is no base to carry it";

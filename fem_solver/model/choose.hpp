@@ -1,5 +1,6 @@
 // Decides the parts of the model from the scene. The model is built from the values, the plan
 // prints the lines.
+// Called by build_model, and again for each stage that changes the body (stages.hpp).
 #pragma once
 
 #include "core/process/plan.hpp"

@@ -1,3 +1,5 @@
+// Columns are appended after the body's nodes and elements (free_field.cpp), so that their part of
+// every array is its tail. Ties to the body are cut; ties among the columns get a new master.
 #include "fem_solver/model/columns_alone.hpp"
 
 #include <algorithm>
@@ -113,6 +115,7 @@ Model columns_alone(const Model& whole) {
         alone.zones.push_back(
             {part.first - elements, part.count, zone.density, zone.law, zone.viscosity});
     }
+    // The columns become the body: their forces must keep the size that the copied state has.
     alone.thickness = whole.thickness * whole.column_thickness;
     alone.constraints = {.held = held_of(whole.constraints, 2 * nodes),
                          .master = ties_of(whole.constraints.master, 2 * nodes),

@@ -1,5 +1,6 @@
 // The free-field columns of a model as a separate model: level ground without the load of a dam and
 // without failure. Their shaking: solve/base_motion.hpp.
+// Called once, when the first dynamic stage begins (base_motion.cpp).
 #pragma once
 
 #include "fem_solver/model/model.hpp"

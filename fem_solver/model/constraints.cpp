@@ -1,3 +1,5 @@
+// Ties and supports are resolved before any equation: a tied group has one number, a held one none.
+// The matrix needs no multipliers, which would make it indefinite.
 #include "fem_solver/model/constraints.hpp"
 
 #include <algorithm>
@@ -75,6 +77,7 @@ std::int32_t root_of(const std::vector<std::int32_t>& masters, std::int32_t i) {
 
 void tie(std::vector<std::int32_t>& masters, std::int32_t master, std::int32_t slave) {
     const std::int32_t a = root_of(masters, master), b = root_of(masters, slave);
+    // A group's root is its smallest index, in any order of its ties.
     masters[std::max(a, b)] = std::min(a, b);
 }
 
@@ -134,6 +137,8 @@ std::size_t hold_nodes(const scene::Support& support, const Mesh& mesh,
 
 Unknowns number_unknowns(const Constraints& c, const std::vector<bool>& pressure_is_unknown,
                          Solved solved) {
+    // Statics hold the base in x. The first dynamic stage replaces this support by its reaction
+    // (beginning.cpp).
     const bool base_is_free = solved == Solved::motion_and_pressure && !c.is_base.empty();
     std::vector<bool> held(c.held.size(), false);  // [masters]
     for (std::size_t d = 0; d < held.size(); ++d) {

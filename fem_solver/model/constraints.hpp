@@ -10,6 +10,8 @@ namespace breach::fem {
 
 /// Numbers of the unknowns, -1 if not unknown: displacements first, then pressures. Tied nodes
 /// share a number.
+/// Static stages, undrained ones and dynamic ones number differently (Solved); each stage's Newton
+/// has its own.
 struct Unknowns {
     std::vector<std::int32_t> of_dof;       ///< [2 per node, x then y]
     std::vector<std::int32_t> of_pressure;  ///< [nodes]; empty if no pressure is unknown
@@ -26,6 +28,8 @@ struct Tie {
 };
 
 /// Supports and ties of the nodes. All nodes of a chain of ties have the same master.
+/// Of the whole mesh with its columns. set_stage changes `held` when soil or supports change; ties
+/// stay.
 struct Constraints {
     std::vector<bool> held;                     ///< [dofs] by a support
     std::vector<std::int32_t> master;           ///< [dofs] itself if not tied
@@ -41,8 +45,8 @@ enum class Solved {
 };
 
 /// ties: of both displacements; pressure_ties: of pressures. Throws BadInput if a support contains
-/// no node, nothing supports an unchanging body in x or y, or a node above the base is both supported and
-/// tied.
+/// no node, nothing supports an unchanging body in x or y, or a node above the base is both
+/// supported and tied.
 Constraints constraints_of(const scene::Fem& fem, const std::optional<scene::ElasticBase>& base,
                            const Mesh& mesh, const std::vector<Tie>& ties,
                            const std::vector<Tie>& pressure_ties);

@@ -13,6 +13,7 @@ const std::array<Vec2, gauss_points>& gauss_positions() {
 }
 
 void evaluate_gradients(const Corners& x, double thickness, Gradients& out) {
+    // The same for every element: in natural coordinates the points have fixed places.
     static const std::array<Gradient, gauss_points> natural = [] {
         std::array<Gradient, gauss_points> all;
         for (std::size_t g = 0; g < gauss_points; ++g) {

@@ -1,5 +1,6 @@
 // The 4-node plane-strain quad: gradients at 2x2 Gauss points and the mean-dilatation strain
 // operator B-bar.
+// Evaluated once, in build_model: strains are small, and the mesh keeps its drawn shape.
 #pragma once
 
 #include <array>

@@ -42,6 +42,7 @@ std::map<std::array<std::int32_t, 2>, std::int32_t> regions_of_edges(const Mesh&
 void add_column(const scene::FreeField& field, const Body& body, Side side, double tolerance,
                 Mesh& mesh, FreeFieldColumns& columns) {
     const auto edge = side_nodes(mesh, body, side, tolerance);
+    // Each column element has the soil of the element that it stands beside.
     const auto regions = regions_of_edges(mesh, body);
     const auto refuse = [side] {
         throw fault::BadInput("scene",
@@ -56,6 +57,8 @@ void add_column(const scene::FreeField& field, const Body& body, Side side, doub
     for (const std::int32_t node : edge) {
         const auto inner = static_cast<std::int32_t>(mesh.nodes.size());
         const Vec2 x = mesh.nodes[node];
+        // At the place of the edge's node, but with its own pressure: the column's excess pressure
+        // is that of level ground.
         mesh.nodes.push_back(x);
         mesh.nodes.push_back(x + outwards);
         columns.ties.push_back({node, inner});

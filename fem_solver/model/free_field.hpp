@@ -1,5 +1,7 @@
 // Free-field columns: soil beside the mesh that moves as without the mesh. Geometry and ties; for
 // the solver they are thick elements.
+// Thick, because the section must not move them: a column of 10,000 times the thickness feels it as
+// nothing. Called by build_model only.
 #pragma once
 
 #include "fem_solver/model/constraints.hpp"

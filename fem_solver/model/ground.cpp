@@ -33,6 +33,8 @@ std::vector<OuterEdge> outer_edges(const Model& model) {
         for (std::size_t k = 0; k < 4; ++k) {
             const std::int32_t a = quad[k], b = quad[(k + 1) % 4];
             if (count[{std::min(a, b), std::max(a, b)}] > 1) continue;
+            // Counter-clockwise around its element, so that the normal to the right points
+            // outwards.
             const Vec2 along = mesh.nodes[b] - mesh.nodes[a];
             outer.push_back({{a, b, model.thickness_of(e) * Vec2(along.y(), -along.x())}, e});
         }
@@ -76,6 +78,8 @@ Part part_within(double a, double b, double from, double to) {
 
 /// A column beside the section gets the load at that side.
 Part part_under(const scene::Surcharge& load, double a, double b, const Sides& sides) {
+    // A load that reaches the section's side goes on beyond it: a free column beside a loaded edge
+    // would settle differently.
     const double middle = 0.5 * (a + b), x = std::clamp(middle, sides.left, sides.right);
     if (x == middle) return a == b ? Part{} : part_within(a, b, load.from, load.to);
     const double slack = 1e-6 * std::abs(a - b);
@@ -93,6 +97,8 @@ std::vector<GroundEdge> ground_edges(const Model& model) {
         const double small = 1e-6 * along.norm();
         const double x = 0.5 * (mesh.nodes[edge.a] + mesh.nodes[edge.b]).x();
         const bool upwards = -along.x() > small;
+        // A vertical face within the section is ground (a cut, a removed part); the section's ends
+        // are not.
         const bool within = e < model.body.elements && std::abs(along.x()) <= small &&
                             x > left + small && x < right - small;
         if (upwards || within) ground.push_back(edge);
@@ -143,6 +149,7 @@ static std::array<double, 2> carried(const scene::GroundWater& water, double gra
                                      const Vec2& x_a, const Vec2& x_b) {
     const double a = depth_of_water(water, x_a), b = depth_of_water(water, x_b);
     const double p_a = pressure_at(water, gravity, a), p_b = pressure_at(water, gravity, b);
+    // Consistent nodal forces of a linear pressure; below, of the triangle on the wet part alone.
     if (a * b >= 0.0) return {(2.0 * p_a + p_b) / 6.0, (p_a + 2.0 * p_b) / 6.0};
     const double wet = std::max(a, b) / std::abs(a - b);  // of the edge's length
     const double on_dry = std::max(p_a, p_b) * wet * wet / 6.0;

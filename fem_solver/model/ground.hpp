@@ -1,4 +1,6 @@
 // The ground surface of the mesh and the loads on it: ponded water and surcharge.
+// Called by build_model and for each stage that changes the body: soil that is removed or placed
+// has another ground.
 #pragma once
 
 #include "core/geometry/polyline.hpp"

@@ -1,3 +1,5 @@
+// From the scene's lines and boundaries to wet elements and prescribed pressures, of which
+// pore_water.cpp makes the operators.
 #include "fem_solver/model/ground_water.hpp"
 
 #include <algorithm>
@@ -56,6 +58,7 @@ void prescribe_boundaries(const GroundWater& water, const Mesh& mesh, double tol
             if (geometry::distance_to_segment(x, boundary.from, boundary.to) > tolerance) continue;
             found = true;
             const double p = boundary.level ? weight * std::max(0.0, *boundary.level - x.y()) : 0.0;
+            // A drained boundary does not overwrite the negative values above the line.
             if (p > 0.0 || !prescribed[i] || *prescribed[i] > 0.0) prescribed[i] = p;
         }
         if (found) continue;
@@ -79,6 +82,8 @@ std::vector<std::optional<double>> prescribed_pressures(
         for (const std::int32_t node : model.mesh.quads[e]) meets_dry[node] = true;
     }
     for (std::size_t i = 0; i < depth.size(); ++i) {
+        // Negative above the line: the interpolation in a cut element is then 0 on the line, on any
+        // mesh.
         if (depth[i] <= 0.0 || meets_dry[i]) prescribed[i] = weight * depth[i];
     }
     for (const GroundEdge& edge : ground_edges(model)) {
@@ -88,6 +93,7 @@ std::vector<std::optional<double>> prescribed_pressures(
     }
     prescribe_boundaries(water, model.mesh, tolerance, weight, prescribed);
     for (std::size_t i = 0; i < prescribed.size(); ++i) {
+        // Both sides of a column have one pressure, and one prescription.
         const std::int32_t master = model.constraints.pressure_master[i];
         if (static_cast<std::size_t>(master) != i) prescribed[i] = prescribed[master];
     }
@@ -103,6 +109,7 @@ std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const Gro
         const Zone& zone = model.zones[z];
         bool any = false;
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) any = any || wet[e];
+        // Only wet soil needs a void ratio and a permeability.
         if (!any) continue;
         const scene::Material& material = material_of(scene, model, zone);
         if (!material.void_ratio || !material.permeability) {
@@ -111,6 +118,7 @@ std::vector<std::optional<Fluid>> fluids_of(const scene::Scene& scene, const Gro
                               "give both, or leave out /fem/water"});
             continue;
         }
+        // Without mobility: each stage sets its own (set_permeability), an undrained one none.
         fluids[z] = Fluid{.bulk_modulus = water.bulk_modulus,
                           .density = water.density,
                           .mobility = Vec2::Zero(),

@@ -1,5 +1,6 @@
 // Pore water of a scene on the mesh: wet elements, prescribed pressures, and a stage's
 // permeability.
+// build_model makes the water of the first stage; set_stage makes it anew where stages move it.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
@@ -19,7 +20,8 @@ PoreWater ground_water(const scene::Scene& scene, const scene::GroundWater& wate
 void set_permeability(const scene::Scene& scene, scene::StagePermeability permeability,
                       Model& model);
 
-/// "; or ..." for a stage without equilibrium, if its water rests below a line that slopes; else "".
+/// Text "; or ..." for a stage without equilibrium, if its water rests below a line that slopes;
+/// empty otherwise.
 std::string seepage_remedy(const scene::Fem& fem, std::size_t stage);
 
 /// Prevents all flow, for an undrained stage.

@@ -21,6 +21,7 @@ Motion at_rest(const Model& model) {
     for (const Zone& zone : model.zones) {
         if (model.hourglass.empty()) break;
         const double G = materials::elasticity(zone.law).shear_modulus();
+        // 4 G: the modulus of isotropic elastic soil, until a first step gives a secant.
         motion.hourglass.insert(motion.hourglass.end(), zone.count, {Vec2::Zero(), 4.0 * G, 0.0});
     }
     return motion;

@@ -1,5 +1,7 @@
 // Constants of an analysis (mesh, unknowns, masses, weights, laws) and its variables (motion of the
 // nodes, state of the Gauss points).
+// build_model makes the Model; set_stage, set_permeability and close_to_flow change it when a stage
+// begins; during steps it is constant.
 #pragma once
 
 #include <Eigen/Core>
@@ -73,6 +75,7 @@ struct Model {
     HourglassModulus hourglass_modulus = HourglassModulus::current;
     std::vector<double> volume;  ///< of the undeformed elements [m3]
     Rayleigh rayleigh;
+    // Absent elements keep their places in all arrays: numbers of elements never change.
     std::vector<char> absent;  ///< [elements] not placed yet or removed; empty: all are present
     /// Force per dof withheld at the beginning of a stage [N], from when and over which time it is
     /// released [s]; empty: none.
@@ -111,6 +114,7 @@ struct Hourglass {
 };
 
 /// The variables of a time step.
+/// Two exist during a step: the accepted one that it starts from, and the trial of its end.
 struct Motion {
     Eigen::VectorXd u;          ///< displacement [m], per dof
     Eigen::VectorXd v;          ///< [m/s], per dof

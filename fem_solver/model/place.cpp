@@ -11,6 +11,8 @@ materials::Place Overburden::place(const Model& model, std::size_t point) const 
         model.points_per_element == 1
             ? Vec2(x.rowwise().mean())
             : Vec2(x * shape_functions(gauss_positions()[point % model.points_per_element]));
+    // The highest ground above the point: below an overhang or a pond's floor there are several
+    // edges.
     double top = at.y();
     for (const GroundEdge& edge : edges_) {
         Vec2 a = model.mesh.nodes[edge.a], b = model.mesh.nodes[edge.b];

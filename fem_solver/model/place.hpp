@@ -1,4 +1,6 @@
 // Position of integration points below the ground, for laws that vary in space.
+// Used when laws with memory begin (solve/memory.cpp) and for the friction before them
+// (plastic_gravity.cpp), not during steps.
 #pragma once
 
 #include "fem_solver/model/ground.hpp"

@@ -1,3 +1,5 @@
+// The water of a mesh. Which elements are wet and which pressures are prescribed is decided in
+// ground_water.cpp; the operators of one element are in porous_element.cpp.
 #include "fem_solver/model/pore_water.hpp"
 
 #include <Eigen/LU>
@@ -20,6 +22,7 @@ std::vector<std::int32_t> bodies_of(const Model& model, const PoreWater& water) 
     for (const PorousElement& each : water.elements) {
         for (const std::int32_t node : model.mesh.quads[each.element]) {
             const std::int32_t a = root(model.mesh.quads[each.element][0]), b = root(node);
+            // Union by the smaller node: elements that share nodes are one body of water.
             parent[std::max(a, b)] = std::min(a, b);
         }
     }
@@ -37,6 +40,7 @@ void check_drainage(const Model& model, const PoreWater& water,
         if (prescribed[i]) has_drain[body[i]] = true;
     }
     for (const PorousElement& each : water.elements) {
+        // Refused here with a place: the factorisation would fail without one.
         if (has_drain[body[model.mesh.quads[each.element][0]]]) continue;
         const Vec2 where = corners_of(model.mesh, each.element).rowwise().mean();
         throw fault::BadInput("scene",
@@ -73,6 +77,7 @@ Eigen::Vector4d shares_below(const Corners& x, const Eigen::Vector4d& depth) {
         const double top = shape_functions({xi, 1.0}).dot(depth);
         add(xi, -1.0, 1.0, whole);
         if (foot <= 0.0 && top <= 0.0) continue;
+        // Where the depth is 0 on this line of constant xi, in eta from -1 to 1.
         const double zero = foot * top < 0.0 ? (foot + top) / (foot - top) : 1.0;
         add(xi, foot >= 0.0 ? -1.0 : zero, top >= 0.0 ? 1.0 : zero, below);
     }
@@ -101,6 +106,8 @@ PoreWater build_pore_water(const Model& model, Wetness wetness) {
     for (std::size_t z = 0; z < model.zones.size(); ++z) {
         if (!wetness.fluids[z]) continue;
         const Zone& zone = model.zones[z];
+        // Until the first dynamic stage, which sets the modulus at its stress
+        // (set_skeleton_modulus).
         const double modulus = constrained_modulus(materials::elasticity(zone.law));
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
             if (!wetness.wet[e]) continue;
@@ -121,6 +128,7 @@ PoreWater build_pore_water(const Model& model, Wetness wetness) {
     water.prescribed = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(touched.size()));
     for (std::size_t i = 0; i < touched.size(); ++i) {
         const auto& p = wetness.prescribed[i];
+        // Nodes of dry soil alone have no pressure at all, not a pressure of 0 to solve for.
         water.is_unknown[i] = touched[i] && !p;
         if (touched[i] && p) water.prescribed[static_cast<Eigen::Index>(i)] = *p;
     }

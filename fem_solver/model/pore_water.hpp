@@ -1,5 +1,6 @@
 // Pore water on a mesh: unknown pressures, operators of the saturated elements, force of the
 // pressure, steady seepage. For one element: porous_element.hpp.
+// Built by ground_water.cpp for scenes, directly by tests.
 #pragma once
 
 #include "fem_solver/model/model.hpp"
@@ -22,7 +23,7 @@ struct Wetness {
 /// determines it.
 PoreWater build_pore_water(const Model& model, Wetness wetness);
 
-/// Recomputes all operators for the undeformed mesh or, if it moves, for displacements u.
+/// Recomputes all operators, after a change of mobilities or of the stabilisation's modulus.
 void evaluate_pore_water(const Model& model, PoreWater& water);
 
 /// f += Q p, the force of the pore pressure on the nodes [N].

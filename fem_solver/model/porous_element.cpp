@@ -36,6 +36,7 @@ void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid&
     const double V = geometry.volume, compliance = V * fluid.porosity / fluid.bulk_modulus;
     const Vec2 alpha = stabilisation_of(x, fluid, out.skeleton_modulus);
     for (int i = 0; i < 4; ++i) {
+        // Only the part below the line pushes: u and sigma' are those of the line as drawn.
         out.Q.middleRows<2>(2 * i) = 0.25 * V * dN.col(i) * out.below.transpose();
     }
     out.S.noalias() = V * dN.transpose() * alpha.asDiagonal() * dN;
@@ -49,6 +50,8 @@ void evaluate_porous(const SspGeometry& geometry, const Corners& x, const Fluid&
         out.S += compliance * unit_mass(x) + kappa.dot(alpha.cwiseMax(most)) * alternating;
         out.H += kappa.dot(fluid.mobility) * alternating;
     } else {
+        // As OpenSees: all four nodes share one storage, which an alternating pressure does not
+        // feel.
         out.S.array() += compliance / 16.0;
     }
     out.flux.noalias() = V * fluid.density * dN.transpose() * fluid.mobility.cwiseProduct(body);
@@ -67,6 +70,8 @@ void evaluate_porous(const Gradients& gradients, const Corners& x, const Fluid& 
         const Gradient& dN = gradients.dN[g];
         const double w = gradients.weight[g];
         const Eigen::Vector4d N = shape_functions(gauss_positions()[g]);
+        // As in B-bar: the pressures work on one volumetric strain per element, or it would lock
+        // again.
         mean += w * dN;
         shares += w * N;
         out.S += w * fluid.porosity / fluid.bulk_modulus * N * N.transpose();

@@ -34,7 +34,8 @@ inline constexpr double alternation_time = 0.02;
 struct PorousElement {
     std::size_t element;
     std::size_t zone;
-    /// Part of the integral of N_j below the phreatic line, over the whole [-].
+    /// M of the stabilisation: K + 4G/3 of the elastic soil, later of its stress when motion begins
+    /// [Pa].
     double skeleton_modulus;
     double density;  ///< rho of soil and water [kg/m3]
     /// Share of the integral of N_j that lies below the phreatic line [-]

@@ -13,6 +13,8 @@ void evaluate_ssp(const Corners& x, double thickness, SspGeometry& out) {
     inverse << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0);
     inverse /= J_0;
     out.dN.noalias() = inverse * natural;
+    // The linear part is taken out of h: rigid motion and uniform strain have no hourglass
+    // amplitude.
     out.gamma = 0.25 * (h - out.dN.transpose() * (x * h));
     out.volume = 4.0 * J_0 * thickness;
     const Vec2 d_x = inverse.row(0), d_y = inverse.row(1);

@@ -1,5 +1,6 @@
 // The stabilised single-point quad (McGann, Arduino & Mackenzie-Helnwein 2012): one material point
 // at the centre, and an assumed deviatoric strain for the two hourglass modes.
+// Symbols and equations: docs/reference/methods/up_element.md, sections 2 and 3.
 #pragma once
 
 #include "fem_solver/model/element.hpp"

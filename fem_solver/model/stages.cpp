@@ -1,3 +1,5 @@
+// Changes accumulate: each function looks at all stages up to the present one and not at the model
+// before it. A resumed run can therefore begin with any stage.
 #include "fem_solver/model/stages.hpp"
 
 #include <algorithm>
@@ -71,6 +73,7 @@ void hold_what_is_left(const scene::Scene& scene, std::size_t stage, Model& mode
               "release the support in this stage, or keep the region"}});
     }
     for (std::size_t i = 0; i < lonely.size(); ++i)
+        // A node without soil has no stiffness: free, it would make the matrix singular.
         if (lonely[i]) held[2 * i] = held[2 * i + 1] = true;
     model.constraints.held = std::move(held);
 }
@@ -88,6 +91,7 @@ void displace(const scene::Fem& fem, std::size_t stage, Model& model) {
                 for (const bool y : {false, true}) {
                     const auto& by = y ? each.y : each.x;
                     if (!by) continue;
+                    // An edge stays where an earlier stage moved it.
                     model.constraints.held[2 * i + (y ? 1 : 0)] = true;
                     if (s == stage && !lonely[i])
                         model.driven.push_back(
@@ -124,6 +128,7 @@ void find_undrained(const scene::Fem& fem, std::size_t stage, Model& model) {
     const auto& regions = fem.stages[stage].undrained;
     if (regions.empty()) return;
     model.undrained.resize(model.mesh.nodes.size(), false);
+    // Twice: soil that drains takes back the nodes that it shares.
     for (const bool drains : {false, true}) {
         for (const PorousElement& each : model.water.elements) {
             const auto region =
@@ -178,6 +183,8 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     now.water.value = fem.water_in(stage);
     for (std::size_t s = 0; s <= stage; ++s)
         if (const auto& loads = fem.stages[s].surcharge) now.surcharge.value = *loads;
+    // Soil that is placed or removed below water changes the wet elements, even if no stage moves
+    // water.
     const bool floods = floods_gaps(scene, model.mesh);
     if (fem.moves_the_water() || floods) model.water = ground_water(scene, *now.water.value, model);
     if (floods) refuse_wet_changes(scene, stage, model);
@@ -187,6 +194,7 @@ void set_stage(const scene::Scene& scene, const ModelDecisions& decided, std::si
     find_undrained(fem, stage, model);
     double k_h = 0.0;
     for (std::size_t s = 0; s <= stage; ++s) k_h = fem.stages[s].seismic_coefficient.value_or(k_h);
+    // Sets the external force anew, which the loads below are added to.
     set_weights(decided.gravity.value, k_h, model);
     add_ground_loads(now, model);
     apply_pressures(fem, stage, model);

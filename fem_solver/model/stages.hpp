@@ -1,4 +1,6 @@
 // Stages that change elements, supports, ground loads or water levels.
+// Course::place_stage applies them at the beginning of a stage and after a restart, only in scenes
+// whose stages change the body.
 #pragma once
 
 #include "fem_solver/model/choose.hpp"

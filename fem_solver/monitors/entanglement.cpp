@@ -45,6 +45,8 @@ Entanglement entanglement_of(const scene::Section& section, const Model& model, 
         on_surface = on_surface || surfaces.holds[n];
     }
     const double mean = volume > 0.0 ? sum / volume : epsilon_q[e];
+    // The distinction decides how a reader takes the end: a band says that the dam has failed, a
+    // corner only that the mesh is bad.
     const bool failed = mean > watch.failure_strain() || on_surface;
     const auto region = static_cast<std::size_t>(model.mesh.region_of_element[e]);
     return {.time = time,

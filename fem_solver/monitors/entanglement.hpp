@@ -1,5 +1,7 @@
 // Entanglement of a mesh: in failed soil, the usual end of a failing dam's analysis, or at a single
 // bad corner, independent of the failure.
+// Made by the dynamic stage that ends with it; facts.cpp writes it to result.json, a checkpoint
+// keeps it.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,3 +1,5 @@
+// Two counts, as neither sees all surfaces: places where a band meets the ground (Exits), and
+// bodies that bands cut off (CutOff), for surfaces that share their places. The larger one counts.
 #include "fem_solver/monitors/failure_surface.hpp"
 
 #include <algorithm>
@@ -67,6 +69,7 @@ std::int32_t upper_corner(const Mesh& mesh, const std::map<std::int32_t, BorderE
     for (const auto& [node, edge] : border) {
         outermost = std::min(outermost, sign * mesh.nodes[node].x());
     }
+    // The ground ends where the section ends: below these corners the border is its sides.
     const double near = 1e-6 * (1.0 + std::abs(outermost));
     std::int32_t best = -1;
     for (const auto& [node, edge] : border) {
@@ -89,6 +92,7 @@ std::vector<std::int32_t> bands_of(const Mesh& mesh, std::span<const double> eps
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         if (epsilon_q[e] <= threshold) continue;
         for (const std::int32_t node : mesh.quads[e]) {
+            // By shared nodes: a band that runs across the quads diagonally meets at corners only.
             if (first_at_node[node] < 0) first_at_node[node] = static_cast<std::int32_t>(e);
             const std::int32_t a = root(static_cast<std::int32_t>(e));
             const std::int32_t b = root(first_at_node[node]);
@@ -118,6 +122,8 @@ Exits exits_of(const Mesh& mesh, const Ground& ground, std::span<const double> e
         const std::int32_t b = band[ground.element[i]];
         if (b < 0) continue;
         const auto met = left_ground_at.find(b);
+        // Along the ground and not in a straight line: across a crest the two ends of a narrow dam
+        // are far apart.
         if (met != left_ground_at.end() && ground.begin[i] - met->second > least_separation) {
             ++exits.surfaces;
             is_surface[b] = true;
@@ -161,6 +167,7 @@ CutOff cut_off_by(const Mesh& mesh, const Ground& ground, const std::vector<bool
                 body.push_back(static_cast<std::size_t>(next));
             }
         }
+        // Soil that reaches the sides or the base is the ground that stays.
         if (held) continue;
         if (area >= least_area) ++(within ? cut.valleys : cut.bodies);
         if (area <= largest_area) continue;
@@ -213,6 +220,7 @@ struct Face {
 Face after(const Mesh& mesh, const Ground& ground, Face face) {
     const std::int32_t node = face.to(mesh);
     face.k = (face.k + 1) % 4;
+    // Turns around the node from element to element, until an edge without a neighbour.
     for (std::int32_t next; (next = ground.beside[face.element][face.k]) >= 0;) {
         const Quad& quad = mesh.quads[next];
         face = {static_cast<std::size_t>(next),
@@ -233,6 +241,8 @@ std::vector<std::vector<Face>> chains_of(const Mesh& mesh, const Ground& ground)
         return ground.beside[face.element][face.k] == Ground::air;
     };
     std::vector<bool> follows(4 * mesh.quads.size(), false);
+    // A chain begins at an edge that follows none of the ground. Around a hole every edge follows
+    // another.
     for (const Face& face : faces) follows[after(mesh, ground, face).number()] = true;
     std::vector<std::vector<Face>> chains;
     for (const Face& first : faces) {
@@ -295,6 +305,8 @@ FailureSurfaces failure_surfaces_of(const Mesh& mesh, const Ground& ground,
     if (surfaces.count == 0) return surfaces;
     CutOff cut = cut_off_by(mesh, ground, surfaces.holds, surfaces.holds, least_area);
     std::size_t valleys = 0;
+    // Two slides that share one wide band leave no sound body between them: a valley of the strain
+    // is then what separates them.
     for (const double times : {1.25, 1.5, 2.0, 3.0}) {
         std::vector<bool> ridges = surfaces.holds;
         for (std::size_t e = 0; e < ridges.size(); ++e) {

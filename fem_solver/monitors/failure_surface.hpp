@@ -1,4 +1,6 @@
 // Failure surfaces: bands of large strain that cut the section from ground to ground.
+// Watch reads the number of surfaces into each row of telemetry: triggers and the window of
+// transfer times wait for it. ground_of is made once per body, the search runs per row.
 #pragma once
 
 #include <array>
@@ -27,6 +29,7 @@ struct Ground {
 /// body without holes. Edges at absent elements are ground too, unless they surround a hole.
 Ground ground_of(const Mesh& mesh, std::vector<char> absent = {});
 
+/// `holds` and `slides` serve slip_across_band (watch.cpp) and the kind of an entanglement.
 struct FailureSurfaces {
     std::size_t count = 0;
     std::vector<bool> holds;  ///< [elements] in a band with a surface

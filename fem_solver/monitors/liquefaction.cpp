@@ -23,6 +23,8 @@ std::vector<double> pore_pressure_ratio(std::span<const double> excess,
                                         std::span<const double> sigma_v0, double least_stress) {
     std::vector<double> r_u(excess.size(), 0.0);
     for (std::size_t i = 0; i < excess.size(); ++i) {
+        // Under a small stress a small excess is a large ratio: the ground would always count as
+        // liquefied.
         if (sigma_v0[i] >= least_stress) r_u[i] = excess[i] / sigma_v0[i];
     }
     return r_u;

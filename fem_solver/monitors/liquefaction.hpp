@@ -1,4 +1,6 @@
 // Liquefied nodes by the excess pore pressure ratio, and the depth of liquefaction.
+// Used by Watch for telemetry, by upstream_wall at the end. Excess pressures come smoothed
+// (core/mechanics/excess_pressure): those of single nodes alternate.
 #pragma once
 
 #include <array>

@@ -58,6 +58,7 @@ const std::vector<Column>& columns() {
     static const std::vector<Column> all = [] {
         std::vector<Column> made;
         for (const auto& [name, member] : members) {
+            // Units and meaning are in core/telemetry/columns.hpp, which the service reads, too.
             made.push_back({*telemetry::column_named(name), member});
         }
         return made;
@@ -97,6 +98,7 @@ Distortion distortion_of(const Model& model, const Motion& motion, double strain
         if (model.is_absent(e)) continue;
         const auto ratio = mechanics::jacobian_ratio(displaced_corners(model, e, motion.u),
                                                      corners_of(model.mesh, e));
+        // Over all elements, strained or not: one folded corner ends the analysis.
         if (ratio.least < result.least) {
             result.least = ratio.least;
             result.worst_element = e;
@@ -186,6 +188,7 @@ Reading read_monitors(const Model& model, const Motion& motion, const Distortion
     r.crest_dy = motion.u[crest + 1];
     r.crest_displacement = std::hypot(r.crest_dx, r.crest_dy);
     r.base_velocity = base_velocity(model, motion);
+    // The body alone: columns of 10,000 times its thickness would dominate every energy.
     const auto dofs = static_cast<Eigen::Index>(2 * model.body.nodes);
     r.kinetic_energy =
         0.5 * (model.mass.head(dofs).array() * motion.v.head(dofs).array().square()).sum();

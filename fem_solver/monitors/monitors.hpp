@@ -1,4 +1,6 @@
 // Monitored quantities at one time, as a telemetry line and a row of the history.
+// Recorder reads them at each telemetry row; what is not of a single motion (dt, works) it adds
+// itself. Triggers, windows and reports know these columns by name.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -39,9 +39,12 @@ StrengthRatio strength_ratio(const Model& model, const Motion& motion, const Beg
                 if (e >= model.body.elements || model.is_absent(e) || u[e] < 0.0) continue;
                 const double before =
                     beginning.sigma_v0_points[zone.first * model.points_per_element + i];
+                // The law does not follow stress below its least one; ratios there are without
+                // meaning.
                 if (before < least_mean_stress(law)) continue;
                 const Voigt sigma = stress(law, points[i]);
                 states.push_back(points[i]);
+                // p' + u: an undrained strength above that would need suction.
                 bounds.push_back(-(sigma[0] + sigma[1] + sigma[2]) / 3.0 + u[e]);
                 weights.push_back(model.reference[e].weight[i % model.points_per_element]);
                 sigma_v0.push_back(before);

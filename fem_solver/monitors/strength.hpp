@@ -1,4 +1,6 @@
 // Present undrained strength of soil with a state parameter, over its initial stress.
+// Recorder computes it at an interval of the scene and not at each row: every point needs an
+// undrained path of its own.
 #pragma once
 
 #include "fem_solver/model/model.hpp"

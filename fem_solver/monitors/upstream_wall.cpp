@@ -42,6 +42,7 @@ UpstreamEnd upstream_end(const Model& model, const std::vector<bool>& lonely) {
     }
     const double height = high.y() - low.y();
     const double relief = std::abs(left - right);
+    // Level ground from side to side: neither end is upstream.
     if (relief <= sloping * height) return {low.x(), height, 0.0, relief};
     return left > right ? UpstreamEnd{low.x(), height, 1.0, relief}
                         : UpstreamEnd{high.x(), height, -1.0, relief};
@@ -68,6 +69,7 @@ std::vector<double> displacements(const Model& model, const Motion& motion,
         model.mesh.nodes.begin(),
         model.mesh.nodes.begin() + static_cast<std::ptrdiff_t>(model.body.nodes), {},
         [](const Vec2& x) { return x.y(); });
+    // An earthquake moves everything: only what moves against the base has failed.
     const auto base = 2 * (lowest - model.mesh.nodes.begin());
     std::vector<double> moved;
     for (std::size_t i = 0; i < model.body.nodes; ++i) {
@@ -84,6 +86,7 @@ Nearest nearest_failing(const scene::Fem& fem, const Model& model, const Motion&
     Nearest nearest;
     const double largest = std::ranges::max(moved);
     for (std::size_t i = 0; i < moved.size(); ++i)
+        // Three signs of failure; the one that comes nearest to the end is reported.
         if (moved[i] > moves * largest) nearest.look(end, model.mesh.nodes[i], "soil that moves");
     for (std::size_t e = 0; e < model.body.elements; ++e) {
         if (model.is_absent(e) || element_epsilon_q(model, motion, e) <= fem.failure_strain)

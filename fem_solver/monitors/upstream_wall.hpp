@@ -1,5 +1,6 @@
 // Flags a failing mass near the section's upstream end, where free-field columns or supports
 // replace the ground.
+// report_end asks once. The runout has a flag of the same name (mpm_solver/measure/ends.hpp).
 #pragma once
 
 #include <optional>

@@ -27,6 +27,8 @@ double viscous_share(const Model& model, const Motion& motion, double threshold)
                 const double shear_rate = circle(rate[0], rate[1], rate[2]);
                 const Voigt& sigma = motion.points[p].sigma;
                 const double shear = 0.5 * circle(sigma[0], sigma[1], 2.0 * sigma[3]);
+                // Weighted by rate: where a band does not shear any more, its damping is 0 and says
+                // nothing.
                 const double weight = shear_rate * model.volume[e];
                 viscous += weight * eta * shear_rate;
                 own += weight * shear;

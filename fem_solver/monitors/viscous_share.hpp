@@ -1,5 +1,6 @@
 // Share of damping in the stress of a failure band. If it is large, viscosity that the soil does
 // not have slows the slide.
+// Recorder reads it per row; report_end flags its largest value.
 #pragma once
 
 #include "fem_solver/model/model.hpp"

@@ -38,6 +38,7 @@ void Watch::look_at(const Model& model) {
         present_.quads.push_back(body_.quads[e]);
         present_.region_of_element.push_back(body_.region_of_element[e]);
     }
+    // With the numbers of all elements: bands and neighbours index epsilon_q of the whole body.
     ground_ = ground_of(body_, std::move(absent));
     nodes_ = nodes_in(present_, window_);
 }
@@ -53,6 +54,7 @@ double slip_across(const Model& model, const Motion& motion, const FailureSurfac
     Vec2 of_slide = Vec2::Zero(), of_rest = Vec2::Zero();
     double slide = 0.0, rest = 0.0;
     for (std::size_t e = 0; e < model.body.elements; ++e) {
+        // Without the bands themselves, whose displacement lies between those of the two bodies.
         if (surfaces.holds[e] || model.is_absent(e)) continue;
         const Dofs8 u = gather(model.mesh.quads[e], motion.u);
         const Vec2 moved = model.volume[e] * Eigen::Map<const Corners>(u.data()).rowwise().mean();
@@ -86,6 +88,7 @@ void Watch::read_water(const Model& model, const Motion& motion, const Beginning
                        Reading& reading) const {
     double mass = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < model.body.nodes; ++i) {
+        // Prescribed pressures do not change and would dilute the mean.
         if (!model.water.is_unknown[i]) continue;
         const auto n = static_cast<Eigen::Index>(i);
         mass += model.nodal_mass[i];

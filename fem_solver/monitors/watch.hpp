@@ -1,4 +1,5 @@
 // Monitors liquefaction and failure surfaces of the body.
+// Owned by Course. It keeps the body without columns, so that no caller has to cut arrays.
 #pragma once
 
 #include "fem_solver/monitors/failure_surface.hpp"

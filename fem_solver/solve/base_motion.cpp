@@ -26,6 +26,7 @@ std::vector<Stage> dynamic_stages(const scene::Fem& fem) {
 }
 
 /// The columns during the stages.
+/// The dynamic stage of the columns, in short: no monitors, no error control, no plastic gravity.
 class Columns {
   public:
     Columns(const scene::Scene& scene, const Model& whole, const Motion& start)
@@ -62,6 +63,7 @@ class Columns {
     /// Advances to this time with steps of the stage or shorter. False: the smallest does not
     /// converge.
     bool advance_to(double end) {
+        // A cut lasts until the next sample: each begins with the stage's step again.
         double dt = stage_->time_step;
         const Newmark newmark{fem_.newmark_beta, fem_.newmark_gamma};
         while (time_ < end) {
@@ -122,6 +124,7 @@ FreeGround free_ground(const scene::Scene& scene, const Model& whole, const Moti
     for (std::int64_t k = 1; k <= samples; ++k) {
         const double time = static_cast<double>(k) * base.time_step;
         bool converged = true;
+        // A stage may end between two samples: the columns change stage exactly there.
         while (s + 1 < stages.size() && stage_end < time && converged) {
             converged = columns.advance_to(stage_end);
             columns.begin(stages[++s]);

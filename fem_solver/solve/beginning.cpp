@@ -15,6 +15,7 @@ Eigen::VectorXd base_reaction(const Model& model, const Motion& motion) {
     Eigen::VectorXd missing = Eigen::VectorXd::Zero(model.dofs());
     for (std::size_t i = 0; i < model.constraints.is_base.size(); ++i) {
         const auto d = static_cast<Eigen::Index>(2 * i);
+        // Released without this force, the base would jump by the static shear on it.
         if (model.constraints.is_base[i]) missing[d] = motion.force[d] - applied[d];
     }
     return missing;
@@ -43,6 +44,7 @@ std::vector<double> vertical_stress(const Model& model, const Motion& motion) {
 double modulus_of(const Model& model, const Motion& motion, const PorousElement& porous) {
     const Zone& zone = model.zones[porous.zone];
     double modulus = porous.skeleton_modulus;
+    // Laws without memory: the elastic modulus of build_pore_water stays.
     if (motion.memory.empty()) return modulus;
     const std::size_t first = (porous.element - zone.first) * model.points_per_element;
     materials::with_memory(zone.law, motion.memory[porous.zone],
@@ -77,6 +79,7 @@ void set_skeleton_modulus(const Beginning& beginning, Model& model) {
 }
 
 LateralStress lateral_stress(const Model& model, const Motion& motion) {
+    // Sums over the points: only ratios of them are used.
     const auto mean_of = [&](std::size_t e) {
         Voigt mean = Voigt::Zero();
         for (std::size_t g = 0; g < model.points_per_element; ++g) {
@@ -92,6 +95,7 @@ LateralStress lateral_stress(const Model& model, const Motion& motion) {
     double volume = 0.0;
     for (std::size_t e = 0; e < model.body.elements; ++e) {
         const Voigt sigma = mean_of(e);
+        // Near the ground, and where soil is absent, the ratio has no meaning.
         if (-sigma[1] <= 0.01 * largest) continue;
         const double ratio = sigma[0] / sigma[1];
         K.average += model.volume[e] * ratio;

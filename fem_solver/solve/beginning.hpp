@@ -1,5 +1,7 @@
 // State at the beginning of the first dynamic stage: reference of r_u, reaction of the base, motion
 // of the free field.
+// begin_motion (begin_stage.cpp) makes it once per run; snapshots, monitors and the base's force
+// refer to it until the end.
 #pragma once
 
 #include "core/exchange/base_motion.hpp"
@@ -23,6 +25,7 @@ struct Beginning {
 Beginning beginning_of(const Model& model, const Motion& motion);
 
 /// Sets the modulus of the pressure stabilisation to these values.
+/// Again after each rebuilding of the water and after a restart: a Model alone has elastic moduli.
 void set_skeleton_modulus(const Beginning& beginning, Model& model);
 
 /// Coefficient of lateral stress sigma'_xx / sigma'_yy: volume average over the body [-], and its

@@ -1,3 +1,5 @@
+// Three passes (strains, laws, forces) and not one per element: a law then takes all points of a
+// zone together, which PM4Sand needs for its lanes.
 #include "fem_solver/solve/internal_force.hpp"
 
 #include <algorithm>
@@ -38,6 +40,8 @@ InternalForce::InternalForce(const Model& model, Seconds& seconds,
     d_epsilon_.resize(model.points());
     tangent_.resize(model.points());
     d_q_.resize(model.hourglass.size());
+    // One thread adds to the nodes at once. Several fill this first, and the sum has the same
+    // order.
     if (team_->threads() > 1) nodal_.resize(model.mesh.quads.size());
     for (const Zone& zone : model.zones) {
         const double G = materials::elasticity(zone.law).shear_modulus();
@@ -61,6 +65,7 @@ void InternalForce::small_strains(std::size_t element, const Motion& old, const 
     }
     if (!d_q_.empty()) d_q_[element] = hourglass_amplitude(model_.hourglass[element], d_u);
     if (!model_.is_absent(element)) return;
+    // Absent soil has nodes that move with their neighbours; its laws must see nothing of it.
     for (std::size_t g = 0; g < points_; ++g) d_epsilon_[element * points_ + g].setZero();
     if (!d_q_.empty()) d_q_[element].setZero();
 }
@@ -179,6 +184,7 @@ void InternalForce::force_pass(const Motion& old, Motion& trial) {
             trial.force.segment<2>(d) += f.segment<2>(2 * k);
         }
     };
+    // Strains, hourglass and forces of one range together: its data are then still in the cache.
     const auto range = [&](std::size_t begin, std::size_t end, const auto& take) {
         accumulate_strain(begin, end, old, trial);
         if (!d_q_.empty()) advance_hourglass(begin, end, old, trial);
@@ -216,6 +222,8 @@ void InternalForce::stiffness_pass(const Motion& old, LinearSystem& A) const {
         Stiffness K = Stiffness::Zero();
         for (std::size_t g = 0; g < points_; ++g) {
             Tangent C = q.weight[g] * tangent_[e * points_ + g];
+            // LDL^T stores one triangle. The symmetrised tangent converges more slowly, not to
+            // another state.
             if (symmetric) C = (0.5 * (C + C.transpose())).eval();
             const StrainOperator CB = C * q.B[g];
             K.noalias() += q.B[g].transpose() * CB;
@@ -231,6 +239,7 @@ Geometry InternalForce::evaluate(const std::vector<materials::Law>& laws, const 
         const Stopwatch watch(seconds_, &Seconds::assembly);
         strain_pass(old, trial);
     }
+    // No forces then: `trial` has stresses of some zones only, and the caller discards it.
     if (law_pass(laws, old, trial, Wanted::stress) == Geometry::degenerate) {
         return Geometry::degenerate;
     }

@@ -1,5 +1,7 @@
 // Stresses and nodal forces from displacements, and the tangent, in passes over strains, laws and
 // forces. Small strain on the undeformed mesh.
+// Called by Newton in each iteration. Everything per element and point runs on the team's threads;
+// sums over nodes stay in order, so that results do not depend on them.
 #pragma once
 
 #include <memory>
@@ -82,6 +84,8 @@ class InternalForce {
     const std::size_t points_;  ///< per element
     std::shared_ptr<numerics::Team> team_;
     Seconds& seconds_;
+    // Over the whole step, from `old`: laws integrate from the accepted state in each iteration, so
+    // that iterations leave no trace in their memories.
     std::vector<Voigt> d_epsilon_;  ///< [points]
     std::vector<Tangent> tangent_;  ///< [points]
     MemoryPass memory_;

@@ -32,6 +32,8 @@ template <typename Visit>
 void LinearSystem::visit_elements(Visit visit) const {
     for (const Quad& quad : model_.mesh.quads) {
         const auto n = displacements_of(quad, unknowns_);
+        // Column by column, as Eigen stores an element's matrix: place_ and its values run in step.
+        // Pattern, places and assembly must keep this order.
         for (const std::int32_t j : n) {
             for (const std::int32_t i : n) visit(i, j);
         }
@@ -72,6 +74,7 @@ LinearSystem::LinearSystem(const Model& model, Unknowns unknowns, Symmetry symme
     const auto place = [&](std::int32_t i, std::int32_t j) {
         return is_stored(i, j, symmetry_) ? index_of(A_, i, j) : -1;
     };
+    // Places in the value array are found once; assembling is then addition without a search.
     place_.reserve(model.mesh.quads.size() * 64);
     visit_elements([&](std::int32_t i, std::int32_t j) { place_.push_back(place(i, j)); });
     visit_water([&](std::int32_t i, std::int32_t j) { of_water_.push_back(place(i, j)); });
@@ -105,6 +108,8 @@ void LinearSystem::add_diagonal(double factor, const Eigen::VectorXd& per_dof) {
 
 void LinearSystem::add_water(const TimeRule& rule) {
     if (of_water_.empty()) return;
+    // The mass balance is divided by -c_v: only then are the two coupling blocks transposes of each
+    // other.
     const double of_storage = 1.0 / (rule.gamma_dt() * rule.c_v), of_conduction = 1.0 / rule.c_v;
     const std::int32_t* place = of_water_.data();
     double* values = A_.valuePtr();
@@ -126,6 +131,7 @@ Factorisation LinearSystem::factorise() {
     }
     ldlt_.factorize(A_);
     if (ldlt_.info() != Eigen::Success) return Factorisation::failed;
+    // A tangent that softens can have negative pivots where the factorisation itself succeeds.
     const auto positive = (ldlt_.vectorD().array() > 0.0).count();
     const auto negative = (ldlt_.vectorD().array() < 0.0).count();
     const bool right_signs =

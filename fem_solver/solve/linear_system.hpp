@@ -4,6 +4,8 @@
 //   [ -Q^T  -B_p ]   with A_u = K + c_v C + c_a M and B_p = (S / (gamma dt) + H) / c_v:
 // LDL^T needs no pivoting. Each factorisation checks that there are as many positive pivots as
 // displacements and as many negative ones as pressures.
+// Newton owns one per stage, and a second one of elastic stiffness where there is
+// stiffness-proportional damping.
 #pragma once
 
 #include <Eigen/SparseCholesky>

@@ -71,6 +71,8 @@ StressBias begin_memory(const Model& model, Motion& motion) {
         std::size_t p = zone.first * model.points_per_element;
         materials::with_memory(zone.law, motion.memory.back(), [&](const auto& law, auto& points) {
             for (auto& each : points) {
+                // Compression positive, as the void ratio needs it; plane strain has no third
+                // component.
                 const double epsilon_v = -(motion.strain[p][0] + motion.strain[p][1]);
                 each = first_memory(at_point(law, overburden, model, p), motion.points[p].sigma,
                                     epsilon_v);
@@ -83,6 +85,8 @@ StressBias begin_memory(const Model& model, Motion& motion) {
                     ++cut.cut_down;
                     cut.largest_cut = std::max(cut.largest_cut, size);
                 }
+                // State must mirror the memory; what the law could not hold is out of balance from
+                // here.
                 sigma = held;
             }
         });
@@ -105,6 +109,7 @@ MemoryPass::MemoryPass(const Model& model, std::shared_ptr<numerics::Team> team)
 
 std::size_t MemoryPass::first_too_large(std::span<const Voigt> d_epsilon) {
     const auto found = std::ranges::find_if(d_epsilon, [](const Voigt& each) {
+        // Negated: a NaN is too large as well.
         return !(each.cwiseAbs().maxCoeff() <= largest_strain);
     });
     return static_cast<std::size_t>(found - d_epsilon.begin());

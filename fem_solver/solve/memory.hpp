@@ -1,6 +1,8 @@
 // Zones with laws whose points have a memory besides State (core/materials/memory.hpp): the switch
 // from the elastic stages to these laws, and their integration over a zone. Motion::memory has the
 // memories; State mirrors their stress.
+// begin_stage.cpp calls begin_memory once; InternalForce calls MemoryPass for each zone and
+// iteration.
 #pragma once
 
 #include <memory>
@@ -107,6 +109,7 @@ MemoryPass::Answer MemoryPass::integrate(const Law& law, std::size_t z,
     const char* name = traits(law).name;
     if (const std::size_t i = first_too_large(d_epsilon); i < d_epsilon.size())
         return refuse(Refusal::Why::strain, name, zone, i, d_epsilon[i]);
+    // The first step after the switch: `trial` is older than the memories.
     if (trial.memory.size() != old.memory.size()) trial.memory = old.memory;
     const std::span from(std::get<materials::ZoneMemory<Law>>(old.memory[z]).points);
     const std::span to(std::get<materials::ZoneMemory<Law>>(trial.memory[z]).points);

@@ -1,3 +1,6 @@
+// The order of an iteration: stresses and forces (evaluate), residual (balance), tests of its end,
+// correction with the kept matrix or a new one. `trial` is always the last evaluated state,
+// converged or not.
 #include "fem_solver/solve/newton.hpp"
 
 #include <Eigen/Cholesky>
@@ -52,6 +55,7 @@ constexpr double elastic_share = 0.05;
 constexpr double grace = 100.0;
 
 /// Residuals of one step: detects when they stop decreasing.
+/// Stalled: after at least six iterations, the best residual has not halved in the last four.
 class Progress {
   public:
     void note(double residual) {
@@ -103,6 +107,8 @@ Newton::Newton(const Model& model, Solved solved, NewtonSettings settings, Symme
     for (int k = 0; k < depth; ++k) d_plain_[k] = d_x_[k] = residual_;
 }
 
+/// Values of the matrix and not its factors: factorising the same values again gives the same
+/// factors.
 NewtonMemory Newton::memory() const {
     NewtonMemory copy = memory_;
     const auto values = matrix_.values();
@@ -175,6 +181,8 @@ Geometry Newton::evaluate(const StepProblem& problem, Motion& trial, Matrix matr
     }
     {
         const Stopwatch watch(seconds_, &Seconds::assembly);
+        // At a limit state the laws' tangents are singular. A part of the elastic stiffness makes
+        // iterations slower and finite; equilibrium is judged by forces and not by the matrix.
         if (tangent_ == Tangent::stiffened)
             internal_force_.add_elastic_stiffness(elastic_share, matrix_);
         add_inertia_and_water(problem.rule);
@@ -223,6 +231,7 @@ void Newton::add_water(const StepProblem& problem, Motion& trial) {
     exchanged_.setZero();
     double rounding = 0.0;
     const auto& elements = model_.water.elements;
+    // Shares are computed on the threads, then added in the order of the elements.
     of_water_.resize(elements.size());
     for_ranges(elements.size(), *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t e = begin; e < end; ++e) {
@@ -252,6 +261,8 @@ Newton::WaterShare Newton::water_share(const PorousElement& each, const StepProb
         p[i] = trial.p[quad[i]];
         p_rate[i] = trial.p_rate[quad[i]];
     }
+    // Columns count as if they had the body's thickness, here as in share_: their exchange would
+    // hide any imbalance of the body.
     const double share = model_.thickness / model_.thickness_of(each.element);
     const Eigen::Vector4d expansion = each.Q.transpose() * gather(quad, trial.v);
     const Eigen::Vector4d stored = each.S * p_rate, conducted = each.H * p;
@@ -363,6 +374,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
     using End = NewtonOutcome::End;
     const TimeRule& rule = problem.rule;
     const bool same_rule = rule.c_a == memory_.rule.c_a && rule.c_v == memory_.rule.c_v;
+    // A matrix that needed more iterations than two factorisations cost is renewed at once.
     const bool serves = memory_.has_matrix && same_rule &&
                         memory_.last_iterations <= static_cast<int>(2.0 * worth_of_matrix);
     remembered_ = next_ = 0;
@@ -393,6 +405,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
             tangent_ == Tangent::stiffened && residual <= grace * settings_.tolerance;
         if (near_limit && progress.stalled()) return {End::converged, iteration, residual};
         if (iteration == 0) first = std::max(residual, settings_.tolerance);
+        // Diverged: the caller cuts the step, which costs less than the remaining iterations.
         const bool lost = !std::isfinite(residual) || residual > 1e4 * first;
         if (lost || iteration >= settings_.largest_iterations ||
             progress.without_better() > settings_.patience) {
@@ -405,6 +418,7 @@ NewtonOutcome Newton::solve(const StepProblem& problem, Motion& trial) {
         const double wanted = std::log(settings_.tolerance / residual);
         const bool slow =
             rate >= 1.0 || (rate > 0.0 && wanted / std::log(rate) > 2.0 * worth_of_matrix);
+        // Slow: the matrix is renewed if the rest at this rate costs more than two factorisations.
         const bool worth = slow && (!of_ends || residual > worst_jump * settings_.tolerance);
         matrix = worth && renewals_left-- > 0 ? Matrix::renew : Matrix::keep;
         before = residual;

@@ -2,6 +2,8 @@
 //     M a + C v + f_int(u) + f_viscous(v) - Q p = f_ext,   Q^T v + S p' + H p = flux,
 // by Newton's method. A factorisation is kept while it converges, with Anderson acceleration (1965)
 // over the last corrections. Without unknown pressures there is no second equation.
+// One per stage (Course::make_newton). Steps call solve(); who wants another step size calls
+// forget_matrix().
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +25,8 @@ struct NewtonSettings {
     int patience = std::numeric_limits<int>::max();  ///< iterations without a smaller residual
 };
 
+/// degenerate: a law refused the trial, or no matrix could be factorised. The caller cuts the step,
+/// as for not_converged, and reports why_degenerate() if it cannot.
 struct NewtonOutcome {
     enum class End { converged, not_converged, degenerate };
     End end;
@@ -49,6 +53,7 @@ struct NewtonMemory {
 };
 
 /// Beginning and predicted end of a step.
+/// Made by static_step and dynamic_step for one solve: it refers to the caller's vectors.
 struct StepProblem {
     const std::vector<materials::Law>& laws;
     const Motion& old;
@@ -81,8 +86,7 @@ class Newton {
     const NewtonCounts& counts() const { return counts_; }
     void set_counts(const NewtonCounts& counts) { counts_ = counts; }
     NewtonMemory memory() const;
-    /// Adds `factor` times C v to f [N]: damping of mass and stiffness, base dashpots, viscosity,
-    /// on the mesh of the last evaluation.
+    /// Adds `factor` times C v to f [N]: damping of mass and stiffness, base dashpots, viscosity.
     void add_damping_force(double factor, const Eigen::VectorXd& v, Eigen::VectorXd& f);
     /// False: the stored matrix does not fit this problem; nothing is restored.
     bool restore(const NewtonMemory& memory);

@@ -27,6 +27,8 @@ std::vector<double> friction_angles(const Model& model, const Motion& motion) {
             for (std::size_t p = begin; p < begin + zone.count * model.points_per_element; ++p) {
                 const auto first =
                     first_memory(at_point(law, overburden, model, p), motion.points[p].sigma, 0.0);
+                // The smallest of the zone: apart from the cohesion, every point then lies inside
+                // its own surface.
                 least = std::min(least, friction(law, first));
             }
             angles.back() = std::asin(least);
@@ -44,6 +46,8 @@ std::vector<materials::Law> frictional_laws(const Model& model, const std::vecto
         laws.push_back(law);
         if (materials::remembers(law))
             laws.back() =
+                // Dilatancy equals friction (associated flow); tension is cut at the apex, where it
+                // changes nothing.
                 materials::with_plasticity(law, {c, phi[z], phi[z], c / std::tan(phi[z])});
     }
     return laws;
@@ -64,6 +68,7 @@ FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& mo
     for (double c = first_cohesion; c >= last_cohesion && share < smallest_cut;
          c = share * rest.cohesion) {
         const std::vector<materials::Law> laws = frictional_laws(model, phi, c);
+        // Another level has another tangent, and the kept one is of a different surface.
         newton.forget_matrix();
         const NewtonOutcome outcome =
             static_step(newton, model, laws, 1.0, start, motion, prediction, trial);
@@ -74,6 +79,7 @@ FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& mo
                 rest.residual = outcome.residual;
                 break;
             }
+            // A smaller reduction of the cohesion next, down to a tenth.
             share = std::sqrt(share);
             continue;
         }

@@ -1,6 +1,8 @@
 // Gravity for a law with memory (PM4Sand). Elastic gravity leaves stresses outside its surfaces at
 // faces and ponds, from which the law cannot return. A frictional analysis finds an equilibrium
 // inside the surfaces as initial state of the law.
+// begin_laws (begin_stage.cpp) calls it once per run. With 25 iterations per level, as in steps,
+// the search stopped between 0.5 and 13.5 kPa by the mesh.
 #pragma once
 
 #include <string>

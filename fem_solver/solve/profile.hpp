@@ -1,4 +1,5 @@
 // CPU time of a run: seconds by kind of work, and the table that --profile prints.
+// Stopwatches are always on: result.json has the seconds of each run.
 #pragma once
 
 #include <cstdint>

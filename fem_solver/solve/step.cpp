@@ -34,6 +34,7 @@ NewtonOutcome static_step(Newton& newton, const Model& model,
     }
     const NewtonOutcome outcome =
         newton.solve({laws, old, rule, prediction.external, old.u, old.v, old.p_rate}, trial);
+    // Statics has no time: c_v = 1/s made increments of "velocities" only for the balance of water.
     trial.v.setZero();
     trial.p_rate.setZero();
     return outcome;
@@ -44,6 +45,8 @@ void set_external_force(const Model& model, const Beginning& beginning, double t
     force = model.external_force;
     if (beginning.base_reaction.size() > 0) force += beginning.base_reaction;
     if (model.base.any()) model.base.add_force(time, force);
+    // All of it at the stage's beginning, which leaves nothing out of balance, and linearly less
+    // until the ramp's end.
     const double gone = time - model.withheld_from;
     if (model.withheld.size() > 0 && gone < model.withheld_for)
         force += (1.0 - gone / model.withheld_for) * model.withheld;
@@ -56,6 +59,7 @@ NewtonOutcome dynamic_step(Newton& newton, const Model& model,
     const auto [beta, gamma] = newmark;
     prediction.u = old.u + dt * old.v + dt * dt * (0.5 - beta) * old.a;
     prediction.v = old.v + dt * (1.0 - gamma) * old.a;
+    // From p_1 = p_0 + dt ((1 - gamma) p'_0 + gamma p'_1), solved for p'_1 at p_1 = p_0.
     prediction.p_rate = -(1.0 - gamma) / gamma * old.p_rate;
     set_external_force(model, beginning, end, prediction.external);
     trial.u = prediction.u + beta * dt * dt * old.a;  // constant acceleration as first guess
@@ -70,6 +74,7 @@ void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Mo
                      Motion& scratch) {
     scratch = motion;
     newton.internal_force().evaluate(laws, motion, scratch);
+    // Strains and displacement stay: nothing has moved.
     motion.points = scratch.points;
     motion.memory = scratch.memory;
     motion.force = scratch.force;
@@ -94,6 +99,7 @@ void set_acceleration(Newton& newton, const Model& model, const Beginning& begin
     R -= motion.force;
     newton.add_damping_force(-1.0, motion.v, R);
     const Unknowns& n = newton.unknowns();
+    // A tied group has one acceleration: forces and masses are summed over its dofs.
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n.displacements), mass = force;
     for (std::size_t d = 0; d < n.of_dof.size(); ++d) {
         if (n.of_dof[d] < 0) continue;

@@ -1,4 +1,6 @@
 // One step: a load share in statics, Newmark in dynamics. The caller decides how to continue.
+// Stages (static_stage.cpp, dynamic_stage.cpp) and the columns alone (base_motion.cpp) share these
+// functions.
 #pragma once
 
 #include "fem_solver/solve/beginning.hpp"
@@ -12,6 +14,7 @@ struct Newmark {
 };
 
 /// Scratch memory of a step.
+/// Kept in Course between steps, so that no step allocates vectors of the mesh's size.
 struct Prediction {
     Eigen::VectorXd u, v;      ///< per dof
     Eigen::VectorXd p_rate;    ///< per node

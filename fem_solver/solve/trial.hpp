@@ -1,4 +1,6 @@
 // Marks a run as a trial (--plan --measure).
+// trial.cpp sets it; a trial leaves out what only results need, such as the motion of the free
+// ground.
 #pragma once
 
 namespace breach::fem {

@@ -28,6 +28,7 @@ Dofs8 viscous_forces(const ElementOperators& element, double eta, const Dofs8& v
     }
     if (element.hourglass == nullptr) return f;
     const Vec2 q_rate = hourglass_amplitude(*element.hourglass, v);
+    // One point does not see the hourglass modes: they flow with 4 eta where elasticity has 4 G.
     return f + hourglass_forces(*element.hourglass, 4.0 * eta * (element.hourglass->H * q_rate));
 }
 

@@ -1,12 +1,13 @@
 // Newtonian stress 2 eta dev D in addition to the law's: nodal forces and damping matrix of an
 // element. dev: 3D deviator of the plane-strain rate of deformation D.
+// InternalForce adds it in dynamic stages. The MPM has the same entry of a material.
 #pragma once
 
 #include "fem_solver/model/ssp_quad.hpp"
 
 namespace breach::fem {
 
-/// Integration data of an element on the present mesh.
+/// Integration data of an element on the undeformed mesh.
 struct ElementOperators {
     const Quadrature& quadrature;
     std::size_t points;

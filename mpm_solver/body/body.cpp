@@ -73,6 +73,7 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
     }
     body.softening =
         NonlocalSoftening(body.points, body.zones, body.grid, body.gimp_half_size, body.widest);
+    // A checkpoint brings the strains of its last average; a fresh run counts increments from here.
     if (body.softening.is_on() && body.points.epsilon_q_shared.empty())
         NonlocalSoftening::remember(body.points);
     const std::size_t n = body.points.size();
@@ -85,6 +86,8 @@ Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string&
         body.tally.kinetic += 0.5 * body.points.m[p] * v.squaredNorm();
         body.tally.fastest = std::max(body.tally.fastest, v.norm());
     }
+    // Points::resize sets homes to -1. Sorting a checkpoint's points anew would add the sums of
+    // nodes in another order, and a resumed run would not have the same bits.
     const bool has_homes = body.points.home[0] >= 0;
     if (has_homes) {
         body.strips.cut(body.grid, body.points, body.zones);
@@ -116,6 +119,8 @@ void refuse_buried_points(const Body& body, const std::string& file) {
 double wave_speed(const Body& body) {
     double fastest = 0.0;
     for (const Zone& zone : body.zones) {
+        // The density of the force (V) and not of the tracked volume: soil that sprays swells, and
+        // would shorten the step of all others although its gaps carry no stress.
         fastest = std::max(fastest, zone.elasticity.wave_speed(1.0 / zone.largest_specific_volume));
     }
     return fastest;
@@ -126,6 +131,9 @@ double viscous_speed(const Zone& zone, double eta, double h) {
 }
 
 double courant_step(const Body& body, double cfl) {
+    // Two limits. The scene's Courant number holds for waves, flow and the material's viscosity.
+    // Damping counts only against the stability limit, so that soil at rest does not shorten the
+    // step.
     double viscous = 0.0;
     double damped = 0.0;
     for (const Zone& zone : body.zones) {

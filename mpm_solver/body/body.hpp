@@ -16,6 +16,9 @@
 
 namespace breach::mpm {
 
+/// Filled by the operations of step.cpp. The works accumulate over the whole run, checkpoints
+/// included; kinetic and fastest are those of the last step; strayed returns to 0 with each sort;
+/// once lost is set, Simulation ends the run (guard.hpp).
 struct Tally {
     double plastic = 0.0;    ///< work dissipated by plastic strain so far [J]
     double friction = 0.0;   ///< work dissipated by the floor's friction so far [J]
@@ -36,6 +39,8 @@ struct Computing {
     InstructionSet instructions = best_instruction_set();
 };
 
+/// Made by make_body at the start or from a checkpoint, owned by Simulation. After that only
+/// step.hpp, OverlapMeter (excess and gaps) and Simulation (frame_acceleration) change it.
 struct Body {
     Grid grid;
     Points points;
@@ -43,6 +48,8 @@ struct Body {
     Vec2 gravity;  ///< [m/s2]
     /// Horizontal acceleration of the grid over the next step; set by the simulation [m/s2].
     double frame_acceleration = 0.0;
+    /// The same for every number of points per cell: domains as large as a point's share of the
+    /// cell made runouts depend on that number.
     double gimp_half_size;  ///< [cells]
     double blending_rate;   ///< beta [1/s]
     double overlap_rate;    ///< of the overlap correction [1/s]
@@ -63,6 +70,7 @@ struct Body {
 
 /// Precomputes everything; the points keep their positions. `steady`: pore pressure of the FEM for
 /// /mpm/water. Throws BadInput with `file` if a point is outside the grid.
+/// Points with homes (a checkpoint's) keep their order, in which sums are added; others are sorted.
 Body make_body(const scene::Scene& scene, ZonedPoints points, const std::string& file,
                const Computing& computing = {}, const mechanics::NodalField& steady = {});
 
@@ -77,6 +85,7 @@ double wave_speed(const Body& body);
 double viscous_speed(const Zone& zone, double eta, double h);
 
 /// Largest Courant number of stable explicit steps; damping uses the margin below it.
+/// The prototype kept its points up to 0.73 to 0.9 and lost them beyond.
 inline constexpr double largest_courant = 0.8;
 
 /// Largest step at this Courant number: cfl h / (c + |v|) [s].

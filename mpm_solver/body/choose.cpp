@@ -25,6 +25,8 @@ Decided<Averages> averages_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
         case scene::AntiLocking::automatic:
             break;
     }
+    // Strain and stress are averaged together: with averaged strains alone and gap closure,
+    // prototypes blew up.
     if (materials::traits(soil.law).yields)
         return {Averages::per_cell, {what, Use::on, "plastic flow keeps its volume", pointer}};
     if (materials::elasticity(soil.law).nu > locking_nu)
@@ -36,6 +38,8 @@ Decided<Averages> averages_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
 
 Decided<VolumeRule> volume_rule_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
     const std::string what = "gap closure after tension", pointer = "/mpm/gap_closure";
+    // Without closure each pull on a point adds volume that no compression takes back: in the
+    // prototype, debris grew to more than 1.6 times its volume.
     if (!materials::traits(soil.law).opens)
         return {VolumeRule::tracked, {what, Use::left_out, "no law opens in tension", pointer}};
     if (!mpm.gap_closure)
@@ -103,6 +107,8 @@ Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
 }
 
 InstructionSet best_instruction_set() {
+    // The extensions that CMakeLists.txt compiles loops_avx512.cpp with; AVX2 and FMA come with
+    // AVX-512.
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512vl")) {
         return InstructionSet::avx512;

@@ -1,4 +1,6 @@
 // Selects the loops for the scene, before the first step.
+// make_body selects the loops of each zone, and --plan prints the reasons of the same decisions, so
+// that the plan cannot differ from the run.
 #pragma once
 
 #include <string>
@@ -26,6 +28,7 @@ struct SoilDecisions {
 };
 
 /// A soil for the loops, with scaled `law`.
+/// Only for a call: it refers to the caller's objects.
 struct SoilOfZone {
     const std::string& material;
     const materials::Law& law;

@@ -1,3 +1,6 @@
+// Called by begin.cpp for a run without --input; the log of every run compares its points with the
+// section (sampling_of). Exact areas and levels matter more than equal points: a whole number of
+// points per cell once sampled a pond of 29.4 m as 30.0 m.
 #include "mpm_solver/body/fill.hpp"
 
 #include <algorithm>
@@ -41,6 +44,7 @@ struct Patch {
 
 Patch patch_of(const Polygon& polygon) {
     if (polygon.size() < 3) return {0.0, Vec2::Zero()};
+    // Relative to a vertex: products of coordinates far from the origin would cancel.
     const Vec2& base = polygon[0];
     double area = 0.0;
     Vec2 moment = Vec2::Zero();
@@ -56,6 +60,7 @@ Patch patch_of(const Polygon& polygon) {
 }
 
 using Place = std::pair<int, int>;  ///< (column, row) of a square
+/// Ordered by column and row: that is the order of a region's points in all outputs.
 using Patches = std::map<Place, Patch>;
 
 Patch joined(const Patch& a, const Patch& b) {
@@ -68,6 +73,7 @@ Patch joined(const Patch& a, const Patch& b) {
 void join_slivers(Patches& patches, double square) {
     for (auto sliver = patches.begin(); sliver != patches.end();) {
         Patch* best = nullptr;
+        // By sides only: a point joined over a corner would lie outside both squares.
         if (sliver->second.area < 0.25 * square) {
             for (const Place& step : {Place{-1, 0}, Place{1, 0}, Place{0, -1}, Place{0, 1}}) {
                 const auto next = patches.find(
@@ -96,6 +102,7 @@ Patches sample(const Polygon& polygon, const Vec2& origin, double spacing) {
     };
     Patches patches;
     for (int i = first(0); i < last(0); ++i) {
+        // Once per column: its squares are then cut from a polygon that has few vertices left.
         const Polygon column = cut(cut(polygon, 0, origin.x() + i * spacing, 1.0), 0,
                                    origin.x() + (i + 1) * spacing, -1.0);
         for (int j = first(1); j < last(1); ++j) {
@@ -127,13 +134,15 @@ void add_point(const scene::Scene& scene, const scene::StandingWater& water, std
     state.resize(state.size() + 1);
     state.position.back() = patch.centroid;
     state.mass.back() = material.density * volume;
+    // The section is drawn with the soil under its own weight, so `volume` is the compressed one.
     state.volume_0.back() = volume / (1.0 + sigma_m / soil.bulk_modulus());
     state.volume.back() = volume;
     state.stress.back() = sigma;
     state.region.back() = static_cast<std::int32_t>(region);
 }
 
-/// Adds the strength of the last point.
+/// Strengths of the last point; zero for a material without a profile, as the arrays have an entry
+/// for every point. Nothing has liquefied in a section without transfer.
 void add_strength(const scene::Ground& ground, const scene::Material& material, std::size_t region,
                   exchange::ParticleState& state) {
     materials::PointStrength of{};
@@ -160,6 +169,8 @@ std::vector<const scene::Material*> materials_of_regions(const scene::Scene& sce
 FilledSection fill_section(const scene::Scene& scene) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     const double square = mpm.cell_size / mpm.fill_points;
+    // Squares tile the grid's cells unless shifted; `draws` of a study shift the lattice to measure
+    // how far a runout depends on it.
     const Vec2 origin{mpm.domain_x[0] + mpm.fill_shift[0] * square,
                       mpm.floor.level + mpm.fill_shift[1] * square};
     FilledSection filled;
@@ -203,6 +214,7 @@ std::vector<SampledRegion> sampling_of(const scene::Scene& scene,
                               .height = box.high.y() - box.low.y(),
                               .points = 0};
         for (std::size_t p = 0; p < state.size(); ++p) {
+            // By name: a transfer's state has its own list of regions, in the snapshot's order.
             if (state.regions[state.region[p]] != region.name) continue;
             const double area = state.volume[p] / state.thickness;
             sampled.sampled_area += area;

@@ -22,6 +22,7 @@ void lay_terrain(Grid& grid, const scene::Mpm& mpm) {
     grid.contact_of.assign(grid.conditions.size(), 0);
     for (std::int32_t i = 0; i < grid.columns; ++i) {
         const double x = grid.origin.x() + i * grid.h;
+        // A floor without zones holds soil, and then so does the terrain.
         const double friction =
             mpm.floor.friction.empty() ? std::numeric_limits<double>::infinity() : grid.friction[i];
         for (std::int32_t j = 0; j < grid.rows; ++j) {
@@ -61,11 +62,14 @@ Grid make_grid(const scene::Mpm& mpm) {
     grid.h = h;
     grid.per_h = 1.0 / h;
     grid.origin = {mpm.domain_x[0] - h, mpm.floor.level - h};
+    // One node more than cells, and a ghost node at each end: the 3 x 3 nodes of a point on a wall
+    // are all in the arrays.
     grid.columns = cells_x + 3;
     grid.rows = cells_y + 3;
     const double round_off = 1e-9 * h;  // a point on a wall is inside up to round-off
     grid.low = {mpm.domain_x[0] - round_off, mpm.floor.level - round_off};
     grid.high = {mpm.domain_x[1] + round_off, mpm.domain_y[1] + round_off};
+    // An open end clips no domain; a point that reaches it is lost, which ends the run (guard.hpp).
     if (mpm.left != scene::Wall::open) grid.walls_x.low = 1;
     if (mpm.right != scene::Wall::open) grid.walls_x.high = cells_x + 1;
     grid.walls_y.low = floor_row;
@@ -73,6 +77,7 @@ Grid make_grid(const scene::Mpm& mpm) {
     const auto n = static_cast<std::size_t>(grid.nodes());
     grid.conditions.assign(n, 0);
     grid.friction.assign(grid.columns, 0.0);
+    // No zones at all mean a floor that holds soil; between zones it is frictionless.
     const bool slips = !mpm.floor.friction.empty();
     const std::uint8_t on_floor =
         slips ? condition::floor : std::uint8_t{condition::hold_x | condition::hold_y};

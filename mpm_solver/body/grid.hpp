@@ -1,4 +1,6 @@
 // The square background grid: positions, walls, nodal arrays, active nodes.
+// Made once per run. step() resets and refills mass and motion of the active nodes; Strips decides
+// at each sort which nodes are active, so that empty cells cost nothing.
 #pragma once
 
 #include <Eigen/Core>
@@ -54,6 +56,8 @@ struct Grid {
     std::vector<std::int32_t> active;
 
     std::int32_t nodes() const { return columns * rows; }
+    // Coordinates in cells from the first ghost node: positive for every point of the grid, so that
+    // truncation in cell() rounds down.
     double xi(double x) const { return (x - origin.x()) * per_h; }
     double eta(double y) const { return (y - origin.y()) * per_h; }
     /// Cell that contains (xi, eta): index of its lower left node.

@@ -19,10 +19,14 @@ double GroundMotion::velocity(double t) const {
 }
 
 double GroundMotion::acceleration(double t, double dt) const {
+    // Not the record's acceleration at t: only the difference makes the impulses of all steps add
+    // up to the change of the ground's velocity.
     return (velocity(t + dt) - velocity(t)) / dt;
 }
 
 double GroundMotion::displacement(double t) const {
+    // Trapezoids between samples, and one to `until`: exact for a velocity that is linear in
+    // between.
     const double until = transfer_time_ + t;
     const auto at = [&](double time) { return velocity(time - transfer_time_); };
     double sum = 0.0, from = 0.0;

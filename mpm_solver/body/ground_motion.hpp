@@ -1,6 +1,8 @@
 // Motion of the ground below the runout, on the runout's clock. The grid moves with it: floor,
 // terrain and walls are at rest in this frame, and minus the ground's acceleration acts on the
 // soil.
+// Simulation asks for the acceleration before each step. The frame is rigid: soil does not act back
+// on the ground (docs/reference/methods/earthquake_in_the_runout.md).
 #pragma once
 
 #include <vector>

@@ -1,3 +1,6 @@
+// One average of a group, on one thread: growth of the points to the nodes, among the nodes, and
+// back to the points. Between groups the nodal arrays are zero. follow() is called by
+// update_stress.
 #include "mpm_solver/body/nonlocal.hpp"
 
 #include <algorithm>
@@ -88,6 +91,8 @@ void NonlocalSoftening::follow(Points& points, const std::vector<Zone>& zones, c
     if (++pace_.done < pace_.due) return;
     const double growth = spread(points, zones, grid);
     remember(points);
+    // Proportional to the last growth, and at most doubled: a slope at rest that starts to slide is
+    // seen after few steps.
     const double longer = growth > 0.0 ? std::min(growth_to_share / growth, 2.0) : 2.0;
     const auto due = static_cast<std::int64_t>(longer * static_cast<double>(pace_.due));
     pace_ = {.due = std::clamp(due, std::int64_t{1}, most_steps)};
@@ -114,6 +119,8 @@ double NonlocalSoftening::spread(Points& points, const std::vector<Zone>& zones,
         const materials::Softening& softening = *materials::softening(zone.law);
         const double spent = spent_after * softening.epsilon_q_end;
         const double per_range = 1.0 / (softening.epsilon_q_end - softening.epsilon_q_start);
+        // Soil that has not yielded since the last average is equal to the last bit, and most soil
+        // has not.
         if (!grows(points, zone)) continue;
         weights_.clear();
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
@@ -131,6 +138,8 @@ double NonlocalSoftening::spread(Points& points, const std::vector<Zone>& zones,
             });
         }
         average(grid, neighbourhoods_[group.zone]);
+        // The same points in the same order as above: takes_part reads nothing that this loop
+        // changes.
         auto weights = weights_.begin();
         for (std::size_t p = zone.begin; p < zone.end; ++p) {
             if (!takes_part(points, p, group, spent)) continue;
@@ -209,6 +218,7 @@ void NonlocalSoftening::take(const Grid& grid, Run run, const std::vector<Column
         }
     }
     for (std::int32_t node = run.begin; node < run.end; ++node) {
+        // Weights are 0 at the node itself: without soil around, it keeps its own mean.
         const double around = mean_[node];
         mean_[node] = around > 0.0 ? given_[node] / around : growth_[node] / volume_[node];
     }

@@ -32,10 +32,12 @@ class NonlocalSoftening {
     /// Call after the stress update of a step; averages if due.
     void follow(Points& points, const std::vector<Zone>& zones, const Grid& grid);
     /// Replaces the increment of every brittle point by that of its neighbourhood. Returns the mean
-    /// increment of softening soil, over the strain from peak to residual strength.
+    /// increment of softening soil over the strain from peak to residual strength, weighted by the
+    /// increment itself: the few points of a band decide, not the soil at rest beside it.
     double spread(Points& points, const std::vector<Zone>& zones, const Grid& grid);
 
     const Pace& pace() const { return pace_; }
+    /// For checkpoints: a resumed run averages at the same steps.
     void go_on_from(const Pace& pace) { pace_ = pace; }
 
   private:

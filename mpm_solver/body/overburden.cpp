@@ -14,6 +14,7 @@ using scene::Vec2;
 
 /// Also raises `top` to the polygon's highest soil there.
 double thickness_above(const Polygon& polygon, const Vec2& place, double& top) {
+    // Ascending; between an even crossing and the next one the vertical is inside.
     const std::vector<double> heights = geometry::crossings(polygon, place.x());
     double thickness = 0.0;
     for (std::size_t k = 0; k + 1 < heights.size(); k += 2) {

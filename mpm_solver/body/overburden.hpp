@@ -1,4 +1,6 @@
 // Overburden: the initial stress of filled points.
+// Used by fill.cpp under "fill_stress": "overburden". Without it soil falls into its weight at the
+// start.
 #pragma once
 
 #include "core/mechanics/elasticity.hpp"

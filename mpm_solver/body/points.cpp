@@ -1,3 +1,6 @@
+// From the exchange's particle state to the loops' arrays and back. Inside, two quantities are not
+// those of the scene: K and with it V_0 (stiffness scale), and the softening strain (band width).
+// Both directions convert, so that particle files never contain scaled values (checkpoints do).
 #include "mpm_solver/body/points.hpp"
 
 #include <algorithm>
@@ -170,6 +173,8 @@ void settle_volumes(Points& points, Zone& zone) {
     for (std::size_t p = zone.begin; p < zone.end; ++p) {
         const double sigma_m = (points.sxx[p] + points.syy[p] + points.szz[p]) / 3.0;
         const double elastic = 1.0 + sigma_m / K;
+        // Stress and volume stay those of the transfer. V_0 is what a softer K must change, or the
+        // soil would jump by its elastic compression in the first step.
         if (K != zone.K_drawn) points.V_0[p] *= (1.0 + sigma_m / zone.K_drawn) / elastic;
         if (zone.volume_rule == VolumeRule::from_stress) points.V[p] = points.V_0[p] * elastic;
     }
@@ -186,6 +191,7 @@ void scale_softening(Points& points, const Zone& zone) {
 /// Refuses points of another thickness than the section.
 void refuse_thickness(const scene::Scene& scene, const exchange::ParticleState& state,
                       const std::string& file) {
+    // Depths and areas divide volumes by /thickness.
     if (std::abs(state.thickness - scene.thickness) <= 1e-9 * scene.thickness) return;
     throw fault::BadInput(
         file, {{"/VTKHDF",
@@ -200,6 +206,8 @@ struct Measures {
     double K, K_drawn;  ///< bulk modulus, scaled and in the scene [Pa]
 };
 
+/// From the scene and not from the zones: zones have no index by soil, and a material without
+/// points has none.
 std::vector<Measures> measures_of(const scene::Scene& scene) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     std::vector<Measures> measures;
@@ -242,6 +250,7 @@ void Points::resize(std::size_t n) {
 
 void refuse_without_strength(const scene::Scene& scene, const Points& points,
                              const std::string& file) {
+    // One strength profile in the scene is enough for the arrays to exist for all points.
     if (!points.c.empty()) return;
     const std::vector<bool> have = strengths_of_points(scene);
     for (std::size_t p = 0; p < points.size(); ++p) {
@@ -282,6 +291,7 @@ ZonedPoints zoned_points(const scene::Scene& scene, const exchange::ParticleStat
     std::vector<std::size_t> order(state.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto material = [&](std::size_t p) { return soils[match[state.region[p]]].material; };
+    // Stable, so that the order within a material follows from the input alone.
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return material(a) < material(b); });
 

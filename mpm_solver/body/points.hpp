@@ -1,4 +1,6 @@
 // The material points as structure of arrays, ordered by zone: the points with one law.
+// Sorting permutes all arrays within their zone; `number` leads back to the input, whose order all
+// outputs and Carried keep.
 #pragma once
 
 #include <cmath>
@@ -83,6 +85,7 @@ struct Damping {
 Damping damping_of(const scene::Scene& scene, const scene::Material& soil,
                    const mechanics::Elasticity& elasticity);
 
+/// Input of make_body: at the start from zoned_points, from a checkpoint with zones_of.
 struct ZonedPoints {
     Points points;
     std::vector<Zone> zones;

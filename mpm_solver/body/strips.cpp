@@ -1,3 +1,8 @@
+// A point strays at most half a cell before the next sort, and reaches the 3 x 3 nodes around its
+// nearest node: together two columns beyond its home. Strip k thus touches columns 4k - 2 to 4k +
+// 5, and strip k + 2 begins at 4k + 6: neighbours of the same colour never meet.
+// sort() runs when keep_sorted (step.cpp) finds a point too far from home, cut() alone after a
+// checkpoint was loaded.
 #include "mpm_solver/body/strips.hpp"
 
 #include <algorithm>
@@ -31,6 +36,7 @@ void mark_reachable(const Grid& grid, const Points& points, const Zone& zone,
     std::int32_t last = -1;
     for (std::size_t p = zone.begin; p < zone.end; ++p) {
         const std::int32_t home = points.home[p];
+        // Sorted points with the same home follow one another.
         if (home == last) continue;
         last = home;
         const std::int32_t i = home / grid.rows;
@@ -81,6 +87,8 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
     for (std::size_t z = 0; z < zones_; ++z) {
         std::size_t p = zones[z].begin;
         while (p < zones[z].end) {
+            // By home, not by position: until the next sort a point belongs to the strip that it
+            // was sorted into.
             const std::int32_t strip = points.home[p] / grid.rows / width;
             const std::size_t begin = p;
             while (p < zones[z].end && points.home[p] / grid.rows / width == strip) ++p;
@@ -96,12 +104,15 @@ void Strips::cut(Grid& grid, const Points& points, const std::vector<Zone>& zone
         }
         all_.insert(all_.end(), apart_[colour].begin(), apart_[colour].end());
     }
+    // From left to right: for_all_points adds the strips' sums in this order.
     std::sort(all_.begin(), all_.end());
     find_active_nodes(grid, points, zones);
 }
 
 /// The 5 x 5 nodes around every home: those that a point can reach.
 void Strips::find_active_nodes(Grid& grid, const Points& points, const std::vector<Zone>& zones) {
+    // While the old list is known: step() clears only active nodes, and a node that leaves the list
+    // would keep its last values.
     clear(grid);
     std::vector<std::uint8_t> of_any(static_cast<std::size_t>(grid.nodes()), 0);
     std::vector<std::uint8_t> of_zone;

@@ -25,6 +25,7 @@ class Strips {
     void cut(Grid& grid, const Points& points, const std::vector<Zone>& zones);
 
     std::size_t count() const { return count_; }
+    /// Empty for a strip that the zone does not reach.
     Span span(std::size_t strip, std::size_t zone) const { return spans_[strip * zones_ + zone]; }
     /// Strips that share no nodes: the even ones, the odd ones.
     const std::array<std::vector<std::size_t>, 2>& apart() const { return apart_; }

@@ -56,6 +56,7 @@ double Terrain::level(double x) const {
            (edge.to.y() - edge.from.y()) * (x - edge.from.x()) / (edge.to.x() - edge.from.x());
 }
 
+/// Used per point by checks (refuse_buried_points, guard.cpp), hence the search among few segments.
 double Terrain::distance(const Vec2& place) const {
     const double height = place.y() - level(place.x());
     // The nearest segment is at most as far as the ground straight below or above.
@@ -88,6 +89,7 @@ Vec2 Terrain::ridge_normal(const Vec2& node, double nearest, double reach) const
 std::optional<Contact> Terrain::contact(const Vec2& node, double reach, double friction) const {
     if (node.y() > level(node.x()) && !near(node, reach)) return std::nullopt;
     const double nearest = std::abs(distance(node));
+    // A node deep below the ground is beyond reach of all segments: it feels the nearest.
     const double felt = std::max(reach, nearest * (1.0 + 1e-9));
     const auto [from, to] = beside(node.x(), felt);
     const Edge* left = nullptr;
@@ -97,6 +99,7 @@ std::optional<Contact> Terrain::contact(const Vec2& node, double reach, double f
         if (!left) left = &edges_[k];
         right = &edges_[k];
     }
+    // Normals that lean towards each other.
     const bool is_valley = left->normal.x() > right->normal.x() + 1e-12;
     if (is_valley) return Contact{left->normal, right->normal, friction};
     return Contact{ridge_normal(node, nearest, reach), std::nullopt, friction};

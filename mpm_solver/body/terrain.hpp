@@ -1,4 +1,6 @@
 // The terrain below the flow, a polyline through square cells: the nodes near it and their normals.
+// make_grid computes the contacts of all nodes once; the step applies them (rub). Cells need not
+// follow the ground: nothing is meshed.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,6 @@
 // Grid to particle. Compiled once per instruction set.
+// Called by grid_to_particle for each zone and strip, after the nodes' momentum was updated: nodes
+// have their velocity at the end of the step and its change.
 #pragma once
 
 #include "mpm_solver/loops/loop_blocks.hpp"
@@ -175,16 +177,21 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
             const Weights<N> weights(sx, sy, grid.rows);
             const Gathered<N> at = gathered(grid, weights);
 
+            // FLIP keeps the point's own velocity and adds the change; PIC takes the grid's. A
+            // share per step would make the result depend on dt, therefore blend is a rate times
+            // dt.
             const Real vx = keep * (load<Real>(a.vx + p) + at.dvx) + blend * at.vx;
             const Real vy = keep * (load<Real>(a.vy + p) + at.dvy) + blend * at.vy;
             store(a.vx + p, vx);
             store(a.vy + p, vy);
             const Real v2 = vx * vx + vy * vy;
             const auto own = own_lanes<Real>(block);
+            // A tail's other lanes repeat its last point: harmless for a maximum, wrong in a sum.
             kinetic = kinetic + select(own, Real(0.5) * load<Real>(a.m + p) * v2, Real(0.0));
             fastest = larger(v2, fastest);
             set_gradient(a, p, at, grid.per_h);
 
+            // Points move with the grid's velocity: their own has the noise that FLIP leaves.
             Real moving_x = at.vx;
             Real moving_y = at.vy;
             const Real dx = xi - sx.centre;
@@ -193,6 +200,7 @@ void gather(const ZoneWork& work, Span span, Totals& sums) {
                 move_to_place(grid, weights, at, dx, dy, moving_x, moving_y);
             }
             if constexpr (averages == Averages::per_cell) {
+                // Before the move: stress() reads the average of the cell that this sum went to.
                 store<N>(a.cell + p, integers(xi) * grid.rows + integers(eta));
                 add_to_cells(work.cells, a, p, at, grid.per_h, count);
             }

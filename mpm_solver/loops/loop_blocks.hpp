@@ -1,4 +1,6 @@
 // Points in blocks of register width. Compiled once per instruction set.
+// The loops have no remainder loop: the last points of a span go through a copy (Tail), whose spare
+// lanes repeat a valid point, so that no law sees undefined numbers.
 #pragma once
 
 #include <cstddef>
@@ -63,6 +65,7 @@ template <class Isa, class Each>
     constexpr std::size_t N = Isa::lanes;
     Tail<Isa> tail;
     for (std::size_t p = span.begin; p < span.end; p += N) {
+        // A block never reaches past its span: the points beyond may be another thread's.
         const bool whole = p + N <= span.end;
         const int count = whole ? static_cast<int>(N) : static_cast<int>(span.end - p);
         if (!whole) tail.read(points, p, count);

@@ -2,6 +2,8 @@
 // instruction set: this file must not contain types or inline functions whose layout or code
 // depends on compiler flags (no Eigen, no containers). A zone's loops are selected before the first
 // step.
+// Called through for_all_points (share.hpp) only, which makes a ZoneWork per strip and zone and
+// adds the Totals in a fixed order.
 #pragma once
 
 #include <cstddef>
@@ -80,6 +82,8 @@ using Loop = void (*)(const ZoneWork&, Span, Totals&);
 
 /// One zone's loops in the order of the step; null if not used.
 struct Loops {
+    // Writes nodes that neighbouring strips share; so do gather and stress with the cells of
+    // anti-locking. settle and dissipate write their own points only.
     Loop scatter = nullptr;  ///< mass, momentum and force
     Loop gather = nullptr;
     Loop stress = nullptr;

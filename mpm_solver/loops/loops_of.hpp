@@ -16,6 +16,7 @@ void choose_stress(const Choice& choice, Loops& loops) {
                        : stress<Isa, Law, averages, Overlap::left_alone, rule>;
 }
 
+/// Law and decisions are template parameters: what a zone does not use costs no branch per point.
 template <class Isa, Averages averages, VolumeRule rule, class... Laws>
 void choose_law(const Choice& choice, Loops& loops, materials::LawList<Laws...>) {
     std::size_t place = 0;

@@ -82,6 +82,7 @@ inline constexpr RealOfPoints<Array> reals_of_points[] = {
     {"tan_phi_residual", &P::tan_phi_residual, Life::run, &P::c},
 };
 
+// A member without a row would be neither sorted nor stored.
 static_assert(
     [] {
         PointReals<int> rows{};

@@ -1,4 +1,6 @@
 // Particle to grid. Compiled once per instruction set.
+// Called by particle_to_grid. A node has four numbers side by side, momentum and force: one vector
+// operation adds both components of both.
 #pragma once
 
 #include "mpm_solver/loops/loop_blocks.hpp"
@@ -32,6 +34,8 @@ template <int N, Viscosity viscosity>
     store(gifts.m, m);
     const Real mh = m * h;
     const Real mLxx = mh * Lxx, mLxy = mh * Lxy, mLyx = mh * Lyx, mLyy = mh * Lyy;
+    // From the centroid of the domain, not from the point: beside a wall, where the domain is
+    // clipped, the weights reproduce linear fields about the centroid only.
     const Real dx = sx.first - sx.centre;
     const Real dy = sy.first - sy.centre;
     const Real mwx = m * load<Real>(a.vx + p) + mLxx * dx + mLxy * dy;
@@ -40,6 +44,8 @@ template <int N, Viscosity viscosity>
     Real xx = load<Real>(a.sxx + p);
     Real yy = load<Real>(a.syy + p);
     Real xy = load<Real>(a.sxy + p);
+    // Beside the law's stress, and never stored in it: the law would return it to its yield
+    // surface.
     if constexpr (viscosity == Viscosity::newtonian) {
         const Real eta = load<Real>(a.eta + p);
         const Real two_eta = eta + eta;
@@ -164,6 +170,7 @@ template <int N>
         Shared shared;
         for (int k = 0; k < count; ++k) {
             shared.take(w, gifts, k);
+            // The sum leaves the registers when the next point has other nodes.
             if (k + 1 == count || w.node[k + 1] != w.node[k]) shared.hand_over(grid, w.node[k]);
         }
     } else {

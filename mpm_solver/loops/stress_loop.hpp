@@ -1,4 +1,7 @@
 // Stress update of a zone. Compiled once per instruction set.
+// The order in update_stress (step.cpp): dissipate with the viscosity that the force had, stress
+// with the law, settle with the finished cell averages. Velocity gradients are those of the end of
+// the step (update stress last).
 #pragma once
 
 #include "mpm_solver/loops/loop_blocks.hpp"
@@ -93,6 +96,8 @@ class Increments {
         made.hidden = none;
         Real d_epsilon_v = (Lxx + Lyy) * dt_;
         if constexpr (averages == Averages::per_cell) {
+            // Only the volume is averaged: the shape changes by each point's own gradient (`shift`
+            // below).
             d_epsilon_v = of_cells<N>(work_.cells, a.cell + p, &CellSum::trD) * dt_;
         }
         // Additional compression for the law only, not for the point's volume.
@@ -111,6 +116,7 @@ class Increments {
             made.opens = volume < Real(work_.widest);
             store(a.volume + p, select(made.opens, grown, smaller(grown, volume)));
             const Real gap = load<Real>(a.gap + p);
+            // Debris whose grains come together is compressed only after its cracks are closed.
             const Real closing = smaller(positive(-d_epsilon_v), gap);
             made.gap = gap - closing;
             d_epsilon_v = d_epsilon_v + closing;
@@ -119,6 +125,7 @@ class Increments {
         const Real eyy = Lyy * dt_;
         const Real shift = (d_epsilon_v - exx - eyy) * third;
         const Real gamma_xy = (Lxy + Lyx) * dt_;
+        // The spin rotates the old stress first; the strain increment then acts on the rotated one.
         const InPlane<Real> old =
             turned<Real>({sxx, syy, load<Real>(a.sxy + p)}, Real(0.5) * (Lyx - Lxy) * dt_);
         const Real volumetric = lambda_ * d_epsilon_v;
@@ -163,6 +170,7 @@ template <class Law, VolumeRule volume_rule, class Real>
         store(a.gap + p, increment.gap + opened);
     }
     if constexpr (Law::softens != materials::Softens::never) {
+        // The law has used the strength at the start of the step: softening is explicit.
         const Real drives = Law::softens == materials::Softens::with_total_strain
                                 ? increment.d_epsilon_q
                                 : update.d_epsilon_q;

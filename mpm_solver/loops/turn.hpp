@@ -1,4 +1,6 @@
 // Rotation of a stress by the spin of one time step.
+// Exact rotation and not the first order of the Jaumann rate: that one changes a stress by 11 % per
+// turn in steps of 0.01 rad.
 #pragma once
 
 namespace breach::mpm {

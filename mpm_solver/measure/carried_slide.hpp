@@ -1,5 +1,6 @@
 // A slide that stress waves carried: soil that keeps its shape slid on a floor whose friction took
 // less than Coulomb says.
+// The runout cannot show it: it looks like any other slide. write_results checks each finished run.
 #pragma once
 
 #include <optional>

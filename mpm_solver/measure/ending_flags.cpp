@@ -117,6 +117,7 @@ std::vector<Flag> flags_of_ending(const Ending& ending) {
                              words::set("/mpm/stiffness_scale", ending.scaled ? "auto" : "1"),
                          "/mpm/stiffness_scale"});
     if (ending.moving) flags.push_back(still_moving(ending));
+    // Negated, here and below: a NaN raises the flag.
     const bool much = !(std::abs(ending.numerical_share) <= largest_numerical_share);
     const bool stands = ending.stood && !ending.moving && std::isfinite(ending.numerical_share);
     if (much && stands) {

@@ -1,4 +1,5 @@
 // Flags of a finished run, with their limits.
+// write_results raises them once per run; docs/reference/flags.md lists them for readers.
 #pragma once
 
 #include <optional>

@@ -52,6 +52,7 @@ std::vector<Flag> walls_reached(const scene::Mpm& mpm, const FlowView& view, con
     const double right = rise_at(view, depths, last);
     if (mpm.right != Wall::open && right > 0.0)
         flags.push_back(pressed("right", view.high, right, mpm));
+    // A pond may lean on the left wall from the start; only soil that arrives there is a fault.
     const bool free_before = depths.first.front() < told_rise(view, 0.0);
     const double left = rise_at(view, depths, 0);
     if (mpm.left != Wall::open && free_before && left > 0.0)
@@ -86,6 +87,7 @@ std::optional<Flag> ground_left(const scene::Scene& scene, const FlowView& view,
                                 const Depths& depths) {
     const scene::Mpm& mpm = scene::mpm_of(scene);
     const auto end = ground_end(scene);
+    // Ground that reaches the end of the grid leaves no step for soil to fall over.
     if (!end || end->x + view.width > view.high) return std::nullopt;
     const double beyond =
         mpm.terrain.empty() ? mpm.floor.level : Terrain(mpm.terrain).level(end->x + view.width);
@@ -124,6 +126,7 @@ std::optional<Flag> upstream_end_reached(const scene::Scene& scene, const FlowVi
     const std::vector<double> places = profile_places(view);
     std::size_t k = 0;
     while (k < places.size() && depths.first[k] < told_rise(view, 0.0)) ++k;
+    // Column 1 still counts as the end: soil may begin within the first cell.
     if (k > 1) return std::nullopt;  // a free face, or no mobile soil
     const double end = places[k];
     const double told = std::max(0.05 * H, 0.5 * view.width);

@@ -1,5 +1,7 @@
 // Ends of the model within the flow: walls reached by the flow, the end of the firm ground, the
 // upstream end reached by the failure.
+// Checked by write_results at the end of a run. Each of them shortens or falsifies a runout without
+// any other sign.
 #pragma once
 
 #include "core/fault/flag.hpp"

@@ -25,6 +25,8 @@ Energy energy_of(const Body& body) {
     return energy;
 }
 
+/// docs/reference/methods/mpm.md, *Energy*. Elastic energy is not released: it is on the other side
+/// of the budget.
 double released(const Energy& start, const Energy& now) {
     return start.kinetic + start.gravitational - now.gravitational + now.shaking - start.shaking;
 }

@@ -31,6 +31,8 @@ void add_row(Envelope& envelope, double now, const std::vector<Flow>& profile) {
         return !times.empty() && now < times.back() + (1.0 - 1e-9) * envelope.interval;
     };
     if (early()) return;
+    // Thinning doubles the interval, so a run of unknown length keeps 128 to 256 rows evenly in
+    // time.
     if (times.size() == most_rows) {
         thin(envelope, profile.size());
         if (early()) return;
@@ -66,6 +68,7 @@ void Envelope::see(double now, const std::vector<Flow>& profile, double arrival_
     for (std::size_t k = 0; k < profile.size(); ++k) {
         const double h = profile[k].depth;
         const double v = std::abs(profile[k].velocity);
+        // Thin soil ahead of the flow is faster than the flow.
         if (h >= arrival_depth) velocity[k] = std::max(velocity[k], v);
         flux[k] = std::max(flux[k], h * v * v);
         if (h > depth[k]) {
@@ -74,6 +77,7 @@ void Envelope::see(double now, const std::vector<Flow>& profile, double arrival_
         }
         if (arrival[k] == never && h >= arrival_depth) {
             const double share = (arrival_depth - last_depth[k]) / (h - last_depth[k]);
+            // Linear since the last sample; soil that is there at the first one arrives with it.
             arrival[k] = time == never ? now : time + share * (now - time);
         }
         last_depth[k] = h;

@@ -32,6 +32,7 @@ struct Sums {
 };
 
 /// Integral of the hat function about x within the grid [m].
+/// Half a hat at an end of the grid: without this, depths there would read half.
 double hat_width(const FlowView& view, double x) {
     const auto half = [&](double room) {
         const double s = std::clamp(room / view.width, 0.0, 1.0);
@@ -68,6 +69,7 @@ std::vector<Flow> flow_profile(const Points& points, const FlowView& view) {
     std::int32_t cell = 0;
     Sums to_left;
     Sums to_right;
+    // Nearly all additions stay in two local sums instead of the two columns' entries.
     const auto keep = [&] {
         sums[cell].add(to_left);
         sums[cell + 1].add(to_right);
@@ -131,6 +133,7 @@ std::vector<double> ground_profile(const Points& points, const FlowView& view,
 std::vector<double> surface_profile(const Points& points, const FlowView& view,
                                     std::vector<double> ground) {
     for (std::size_t p = 0; p < points.size(); ++p) {
+        // Upper edge of a square of the point's volume.
         const double top = points.y[p] + 0.5 * std::sqrt(points.soil_volume(p) / view.thickness);
         const auto k = static_cast<std::size_t>(std::lround((points.x[p] - view.low) / view.width));
         ground[k] = std::max(ground[k], top);

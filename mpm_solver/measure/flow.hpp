@@ -1,4 +1,5 @@
 // The soil as a flow: depth and mean velocity over x, at gauges and as profile.
+// Used for gauges, profiles, front, envelope and sections, so that all of them mean the same depth.
 #pragma once
 
 #include <cstdint>

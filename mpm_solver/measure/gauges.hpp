@@ -1,4 +1,5 @@
 // Records of the scene's gauges: depth and velocity per row of the history.
+// Simulation::look adds to them; telemetry, history.h5, result.json and checkpoints contain them.
 #pragma once
 
 #include <optional>

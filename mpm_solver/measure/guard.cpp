@@ -52,6 +52,8 @@ Limits limits_of(const Body& body, const scene::Mpm& mpm, const Energy& start, d
     const double mass = std::accumulate(body.points.m.begin(), body.points.m.end(), 0.0);
     return {.speed = runaway_factor * (wave_speed(body) + fall + body.tally.fastest + swing),
             .energy_gain = mpm.largest_energy_gain,
+            // A stable slope releases almost nothing: at least a fall of a hundredth of a cell, and
+            // the energy that the soil starts with, are the scale of a gain.
             .energy_floor = start.elastic + start.kinetic + 0.01 * mass * g * body.grid.h,
             .volume_ratio = largest_volume_ratio};
 }

@@ -1,4 +1,6 @@
 // Ends a run that has gone wrong (blow-up, lost mass), and reports where and when.
+// Simulation::advance asks step_complaint after every step, which costs no pass over the points;
+// Simulation::look asks the others. Each complaint ends the run with exit code 70.
 #pragma once
 
 #include <optional>
@@ -10,7 +12,7 @@ namespace breach::mpm {
 
 struct Limits {
     double speed;         ///< a faster point counts as runaway [m/s]
-    double energy_gain;   ///< relative to energy_scale [-]
+    double energy_gain;   ///< over the energy released, at least energy_floor [-]
     double energy_floor;  ///< smaller gains are noise [J]
     double volume_ratio;  ///< soil volume over the initial one [-]
 };

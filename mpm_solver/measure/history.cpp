@@ -5,6 +5,7 @@
 namespace breach::mpm {
 
 void store(const History& history, const std::string& prefix, exchange::Archive& archive) {
+    // Columns exist without rows, too: a checkpoint may come before the first measurement.
     const Row blank;
     for_each_column(blank, [&](const char* name, const char* unit, double) {
         archive.reals[prefix + name].reserve(history.size());

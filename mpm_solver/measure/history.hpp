@@ -1,4 +1,6 @@
 // The history of a run: one row per telemetry line.
+// Simulation::look adds the rows. for_each_column is the one list of columns, from which telemetry,
+// history.h5 and checkpoints are made: renaming one changes files that others read.
 #pragma once
 
 #include <cstdint>

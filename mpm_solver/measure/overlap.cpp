@@ -72,6 +72,8 @@ void OverlapMeter::fill_nodes(const Body& body, std::vector<double>& fill) const
         for (std::int32_t j = 0; j < rows; ++j) {
             double& node = fill[i * rows + j];
             if (node == 0.0) continue;
+            // Capacities are integrals of the same kernel: uniformly filled soil has a fill of 1
+            // beside a wall, too.
             const double capacity = capacity_x_[i] * capacity_y_[j] * thickness_;
             node = capacity > 0.0 ? node / capacity : 0.0;
         }
@@ -118,10 +120,12 @@ void OverlapMeter::hold_gaps_to_room(Body& body) {
             fill_about_[p] += N * fill_[i * rows + j];
         });
         for (std::size_t p = span.begin; p < span.end; ++p) {
+            // At a fill of 1 the point's share is its own volume; crowded nodes leave it less.
             const double room = points.V[p] / fill_about_[p];
             if (points.gap[p] <= 0.0 || points.volume[p] <= room) continue;
             const double closing = std::min(std::log(points.volume[p] / room), points.gap[p]);
             points.gap[p] -= closing;
+            // A gap is a logarithmic strain (Points::soil_volume).
             points.volume[p] *= std::exp(-closing);
         }
     });

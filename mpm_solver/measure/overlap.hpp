@@ -1,5 +1,7 @@
 // Overlap of soil: points may cluster although every integrated volume is right
 // (docs/reference/methods/mpm.md, *One step*).
+// The meter is used in two ways: measure() reports at each telemetry line, mark() and
+// hold_gaps_to_room() change points every few steps before the step (Simulation::advance).
 #pragma once
 
 #include <vector>

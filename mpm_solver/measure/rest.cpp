@@ -39,6 +39,7 @@ Clusters fast_soil(const Body& body, const std::vector<std::uint8_t>& counts, do
 }
 
 /// Removes the connected cells from `clusters` and returns their sum.
+/// Cells of the ghost rows hold no points, so that +- 1 does not join the ends of two columns.
 Cluster flood(Clusters& clusters, std::int32_t rows) {
     Cluster whole;
     std::vector<std::int32_t> open{clusters.begin()->first};
@@ -87,6 +88,7 @@ Window window_of(const History& history, double from) {
         half = std::max(half, row.kinetic_mobile);
         window.change = std::max({window.change, std::abs(row.runout - now.runout),
                                   std::abs(row.runout_beyond_toe - now.runout_beyond_toe)});
+        // The last row before the window counts, too: it is the state at the window's beginning.
         if (row.time <= from) break;
     }
     return window;
@@ -147,6 +149,7 @@ std::optional<std::string> why_moving(const History& history, const Energy& star
         return "it was not followed for " + number(std::max(rest.earliest, rest.window)) +
                " s, the least that can tell";
     }
+    // The moving bodies come last: finding them costs most.
     const double mass = mass_of(body.points, counts);
     const Energy then{.gravitational = now.gravitational_energy, .shaking = now.shaking_work};
     const double scale = energy_scale(rest, released(start, then), mass);

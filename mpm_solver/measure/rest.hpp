@@ -1,6 +1,7 @@
 // Whether the mobile soil is at rest, and if not, why. A stationary front is not enough: it is also
 // stationary while a failing mass accelerates behind it, or while soil flows that does not affect
 // the percentiles of x.
+// Simulation::look asks after each row; course() ends the run on the answer.
 #pragma once
 
 #include <optional>

@@ -34,6 +34,7 @@ Runout runout_of(const Points& points, const std::vector<std::uint8_t>& mobile, 
         if (!mobile[points.region[p]]) continue;
         const double distance = points.x[p] - toe_x;
         all.emplace_back(distance, points.m[p]);
+        // Without open gaps, as depths are: spray would count as deposit.
         if (distance > 0.0) volume_beyond += points.soil_volume(p);
     }
     if (all.empty()) return {};

@@ -1,4 +1,6 @@
 // Runout of the soil, by exact definitions.
+// Definitions for users: docs/reference/methods/runout.md. Signed distances: the 99th percentile of
+// their absolute values would be the far end of the pond.
 #pragma once
 
 #include <cstdint>

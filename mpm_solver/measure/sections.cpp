@@ -39,6 +39,7 @@ double flux_at(const Body& body, const FlowView& view, double x) {
     double sum = 0.0;
     for (std::int32_t strip = first; strip <= last; ++strip) {
         for (std::size_t z = 0; z < body.zones.size(); ++z) {
+            // The strips spare a pass over all points at every sample.
             const Span span = body.strips.span(static_cast<std::size_t>(strip), z);
             for (std::size_t p = span.begin; p < span.end; ++p) {
                 const double distance = std::abs(points.x[p] - x);
@@ -56,6 +57,7 @@ void sample_sections(const std::vector<scene::FlowSection>& sections, const Body
     records.resize(sections.size());
     for (std::size_t k = 0; k < sections.size(); ++k) {
         SectionRecord& record = records[k];
+        // A measurement may coincide with a sample of advance().
         if (now == record.time) continue;
         const double flux = flux_at(body, view, sections[k].x);
         if (record.time >= 0.0)
@@ -87,6 +89,7 @@ void read_sections(const std::vector<scene::FlowSection>& sections, const Points
 std::optional<Peak> peak_of(const SectionRecord& record, const std::vector<double>& times,
                             const FlowView& view, double arrival_depth) {
     double fastest = fastest_of(record.depth, record.velocity, arrival_depth);
+    // No reading is so deep: any depth is better than no peak.
     if (fastest == 0.0) fastest = fastest_of(record.depth, record.velocity, 0.0);
     if (fastest == 0.0 || times.size() < 2) return std::nullopt;
     const double window = 2.0 * view.width / fastest;

@@ -1,5 +1,7 @@
 // Flow through the scene's sections: hydrographs per metre of width. Volumes are the constant
 // initial ones (V_0), independent of loosening.
+// Measured twice on purpose: from positions (read_sections, per row) and from momentum
+// (sample_sections, every few steps). Their difference is the closure, the error of a hydrograph.
 #pragma once
 
 #include <optional>
