@@ -17,9 +17,10 @@ PointArrays arrays_of(Points& points) {
     return arrays;
 }
 
-GridArrays arrays_of(Grid& grid, const WallRows& walls_y) {
+GridArrays arrays_of(Grid& grid, const scene::StandingWater& water, const WallRows& walls_y) {
     return {.mass = grid.mass.data(),
             .motion = grid.motion.data()->data(),
+            .still = water.nodes().data(),
             .rows = grid.rows,
             .h = grid.h,
             .per_h = grid.per_h,
@@ -43,7 +44,7 @@ double damping_return(const Zone& zone, double dt) {
 ZoneWork work_of(Body& body, const PointArrays& points, std::size_t z, double dt) {
     const Zone& zone = body.zones[z];
     return {.points = points,
-            .grid = arrays_of(body.grid, zone.walls_y),
+            .grid = arrays_of(body.grid, body.water, zone.walls_y),
             .cells = body.averages[z].empty() ? nullptr : body.averages[z].data(),
             .law = std::visit([](const auto& law) -> const void* { return &law; }, zone.lanes),
             .moduli = materials::make_moduli(zone.elasticity),

@@ -94,26 +94,11 @@ void keep_sorted(Body& body) {
 void step(Body& body, double dt) {
     keep_sorted(body);
     clear(body.grid);
-    if (body.water.is_there()) push_by_water(body, dt);
     particle_to_grid(body, dt);
     update_momentum(body, dt);
     if (body.frame_acceleration != 0.0) body.tally.shaking += work_of_frame(body, dt);
     grid_to_particle(body, dt);
     update_stress(body, dt);
-}
-
-void push_by_water(Body& body, double dt) {
-    Points& points = body.points;
-    constexpr std::size_t each = 4096;  // points of a thread's task
-    body.team->share((points.size() + each - 1) / each, [&](std::size_t task) {
-        const std::size_t end = std::min(points.size(), (task + 1) * each);
-        for (std::size_t p = task * each; p < end; ++p) {
-            const Vec2 push = (dt * points.displaced[p] / points.m[p]) *
-                              body.water.gradient({points.x[p], points.y[p]});
-            points.vx[p] -= push.x();
-            points.vy[p] -= push.y();
-        }
-    });
 }
 
 void particle_to_grid(Body& body, double dt) {

@@ -13,10 +13,6 @@ void step(Body& body, double dt);
 /// Sorts the points if one has moved too far from its home.
 void keep_sorted(Body& body);
 
-/// Adds the impulse of standing water, -V grad p dt, to the points' velocities. At the points, not
-/// at nodes: a point at the surface of the water or of the soil feels the pressure of its own place.
-void push_by_water(Body& body, double dt);
-
 /// Maps mass, affine momentum and internal force of the points to the nodes.
 void particle_to_grid(Body& body, double dt);
 

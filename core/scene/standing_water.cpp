@@ -30,10 +30,10 @@ StandingWater::StandingWater(const Scene& scene, const mechanics::NodalField& st
     const Mpm& mpm = mpm_of(scene);
     if (!mpm.water) return;
     const double h = mpm.cell_size, gamma = mpm.water->density * scene.gravity;
-    origin_ = {mpm.domain_x[0], mpm.floor.level};
+    origin_ = {mpm.domain_x[0] - h, mpm.floor.level - h};
     per_h_ = 1.0 / h;
-    columns_ = std::lround((mpm.domain_x[1] - origin_.x()) * per_h_) + 1;
-    rows_ = std::lround((mpm.domain_y[1] - origin_.y()) * per_h_) + 1;
+    columns_ = std::lround((mpm.domain_x[1] - mpm.domain_x[0]) * per_h_) + 3;
+    rows_ = std::lround((mpm.domain_y[1] - mpm.floor.level) * per_h_) + 3;
     nodes_.resize(static_cast<std::size_t>(columns_ * rows_));
     const auto node = [&](std::int64_t i, std::int64_t j) -> double& {
         return nodes_[static_cast<std::size_t>(i * rows_ + j)];

@@ -103,6 +103,7 @@ Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
             .averages = decided.averages.value,
             .overlap = scheme.overlap.value,
             .viscosity = decided.viscosity.value,
+            .medium = mpm.water ? Medium::water : Medium::air,
             .volume_rule = decided.volume_rule.value};
 }
 

@@ -32,7 +32,8 @@ struct PointArrays : PointReals<double*> {
 
 struct GridArrays {
     double* mass;
-    double* motion;  ///< four per node
+    double* motion;       ///< four per node
+    const double* still;  ///< pressure of standing water at the nodes; null without [Pa]
     std::int32_t rows;
     double h, per_h;
     double x_0, y_0;  ///< of the first ghost node [m]
@@ -94,6 +95,7 @@ struct Loops {
 enum class Averages { none, per_cell };
 enum class Overlap { left_alone, corrected };
 enum class Viscosity { none, newtonian };
+enum class Medium { air, water };
 /// The volume in the internal force.
 enum class VolumeRule {
     tracked,  ///< V = volume: laws without cracks, or gap closure off
@@ -108,6 +110,7 @@ struct Choice {
     Averages averages;
     Overlap overlap;
     Viscosity viscosity;
+    Medium medium;
     VolumeRule volume_rule;
 };
 

@@ -24,10 +24,17 @@ void choose_law(const Choice& choice, Loops& loops, materials::LawList<Laws...>)
      ...);
 }
 
+template <class Isa, Viscosity viscosity>
+Loop scatter_in(Medium medium) {
+    return medium == Medium::water ? scatter<Isa, viscosity, Medium::water>
+                                   : scatter<Isa, viscosity, Medium::air>;
+}
+
 template <class Isa, Averages averages>
 void choose_all(const Choice& choice, Loops& loops) {
-    loops.scatter = choice.viscosity == Viscosity::newtonian ? scatter<Isa, Viscosity::newtonian>
-                                                             : scatter<Isa, Viscosity::none>;
+    loops.scatter = choice.viscosity == Viscosity::newtonian
+                        ? scatter_in<Isa, Viscosity::newtonian>(choice.medium)
+                        : scatter_in<Isa, Viscosity::none>(choice.medium);
     loops.gather = gather<Isa, averages>;
     if (choice.volume_rule == VolumeRule::from_stress) {
         choose_law<Isa, averages, VolumeRule::from_stress>(choice, loops, materials::LaneLaws{});

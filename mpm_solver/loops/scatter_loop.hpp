@@ -7,16 +7,34 @@
 
 namespace breach::mpm {
 
+/// -grad p of standing water at one point: bilinear between nodes, 0 where p is not positive. xi,
+/// eta: its place in cells from the first node.
+[[gnu::always_inline]] inline void still_pull(const GridArrays& grid, double xi, double eta,
+                                              double& x, double& y) {
+    const std::int32_t i = static_cast<std::int32_t>(xi), j = static_cast<std::int32_t>(eta);
+    const double* left = grid.still + static_cast<std::int64_t>(i) * grid.rows + j;
+    const double* right = left + grid.rows;
+    const double tx = xi - i, ty = eta - j;
+    const double up_left = left[1] - left[0], up_right = right[1] - right[0];
+    const double p_left = left[0] + ty * up_left, p_right = right[0] + ty * up_right;
+    const double slope = p_right - p_left;
+    const double wet = p_left + tx * slope > 0.0 ? -grid.per_h : 0.0;
+    x = wet * slope;
+    y = wet * (up_left + tx * (up_right - up_left));
+}
+
 /// Contribution of a point to node (i, j) of its nine. With the velocity w at the first node, the
 /// momentum m N (v + L (x_ij - x_p)) = m Nx_i Ny_j (w + i h L_x + j h L_y) and the force
 /// -V sigma grad N are both of the form P_i Ny_j + Q_i M_j:
 ///     P_i = S_i (A + i B),  A = (m w, f_x.),  B = (m h L_x, 0),  S_i = (Nx_i, Nx_i, dNx_i, dNx_i)
 ///     Q_i = Nx_i C,         C = (m h L_y, f_y.),         M_j = (j Ny_j, j Ny_j, dNy_j, dNy_j)
+/// In water P_i also has Nx_i D with the force D = (0, 0, -V grad p).
 template <int N>
 struct Gifts {
     Quad<N> A[N];
     Quad<N> B[N];
     Quad<N> C[N];
+    Quad<N> D[N];  ///< in water only
     double m[N];
 };
 
@@ -60,6 +78,24 @@ template <int N, Viscosity viscosity>
     to_points(mLxy, mLyy, fxy, fyy, gifts.C);
 }
 
+/// Standing water acts at the points and not at nodes: a point at the surface of water or soil
+/// feels the pressure of its own place. It reaches the points' velocities by the nodes, as all
+/// forces do: added to them directly, its changes within a cell would grow in modes that no node
+/// sees (5 m/s in soil at rest below a kink of the water's line).
+template <int N>
+[[gnu::always_inline]] inline void fill_water(Gifts<N>& gifts, const ZoneWork& work,
+                                              const PointArrays& a, std::size_t p,
+                                              const Lanes<N>& xi, const Lanes<N>& eta) {
+    Lanes<N> x(0.0), y(0.0);
+    for (int k = 0; k < N; ++k) {
+        double pull_x, pull_y;
+        still_pull(work.grid, xi.v[k], eta.v[k], pull_x, pull_y);
+        x.v[k] = pull_x, y.v[k] = pull_y;
+    }
+    const Lanes<N> V = load<Lanes<N>>(a.displaced + p), none(0.0);
+    to_points(none, none, V * x, V * y, gifts.D);
+}
+
 /// Contribution to a column of three nodes; `mass` of all three.
 template <int N>
 struct Column {
@@ -92,7 +128,7 @@ template <int N>
 }
 
 /// Contribution of a point to its three columns.
-template <int N>
+template <int N, Medium medium>
 class Giver {
     using Four = Quad<N>;
 
@@ -108,12 +144,15 @@ class Giver {
           row_of_N_(first_of(Ny_low_, Ny_middle_, Ny_high_)),
           A_(gifts.A[k]),
           B_(gifts.B[k]),
-          C_(gifts.C[k]) {}
+          C_(gifts.C[k]) {
+        if constexpr (medium == Medium::water) D_ = gifts.D[k];
+    }
 
     /// Adds the contribution to the next column, from left to right.
     [[gnu::always_inline]] void give(Column<N>& column, double Nx_of_column, double dNx) {
         const Four Nx(Nx_of_column);
-        const Four P = halves(Nx, Four(dNx)) * A_;
+        Four P = halves(Nx, Four(dNx)) * A_;
+        if constexpr (medium == Medium::water) P = P + Nx * D_;
         const Four Q = Nx * C_;
         column.low = column.low + P * Ny_low_ + Q * M_low_;
         column.middle = column.middle + P * Ny_middle_ + Q * M_middle_;
@@ -127,16 +166,18 @@ class Giver {
     Four M_low_, M_middle_, M_high_;
     Four m_Ny_, row_of_N_;
     Four A_, B_, C_;
+    Four D_;  ///< in water only
 };
 
 /// Sums contributions of points with the same nodes in registers, for CPUs with enough of them. The
 /// order of points makes neighbours share nodes (strips.hpp).
+template <Medium medium>
 class Shared {
     static constexpr int N = 8;
 
   public:
     [[gnu::always_inline]] void take(const Weights<N>& w, const Gifts<N>& gifts, int k) {
-        Giver<N> giver(w, gifts, k);
+        Giver<N, medium> giver(w, gifts, k);
         giver.give(left_, w.Nx[0][k], w.dNx[0][k]);
         giver.give(middle_, w.Nx[1][k], w.dNx[1][k]);
         giver.give(right_, w.Nx[2][k], w.dNx[2][k]);
@@ -163,11 +204,11 @@ class Shared {
     Column<N> right_ = none();
 };
 
-template <int N>
+template <Medium medium, int N>
 [[gnu::always_inline]] inline void give_all(const GridArrays& grid, const Weights<N>& w,
                                             const Gifts<N>& gifts, int count) {
     if constexpr (N == 8) {
-        Shared shared;
+        Shared<medium> shared;
         for (int k = 0; k < count; ++k) {
             shared.take(w, gifts, k);
             // The sum leaves the registers when the next point has other nodes.
@@ -175,7 +216,7 @@ template <int N>
         }
     } else {
         for (int k = 0; k < count; ++k) {
-            Giver<N> giver(w, gifts, k);
+            Giver<N, medium> giver(w, gifts, k);
             for (int i = 0; i < 3; ++i) {
                 const ColumnPlace at(grid, w.node[k], i);
                 Column<N> column = load_column<N>(at);
@@ -186,7 +227,7 @@ template <int N>
     }
 }
 
-template <class Isa, Viscosity viscosity>
+template <class Isa, Viscosity viscosity, Medium medium>
 void scatter(const ZoneWork& work, Span span, Totals&) {
     constexpr int N = Isa::lanes;
     using Real = Lanes<N>;
@@ -204,7 +245,8 @@ void scatter(const ZoneWork& work, Span span, Totals&) {
             const Weights<N> weights(sx, sy, grid.rows);
             Gifts<N> gifts;
             fill_gifts<N, viscosity>(gifts, work, a, p, sx, sy);
-            give_all<N>(grid, weights, gifts, count);
+            if constexpr (medium == Medium::water) fill_water(gifts, work, a, p, xi, eta);
+            give_all<medium, N>(grid, weights, gifts, count);
         });
 }
 
