@@ -1,3 +1,5 @@
+// One definition of the excess pressure for everyone who reads a snapshot: the transfer's liquefied
+// zone, frames for the dashboard, and the FEM itself for its largest value so far.
 #include "core/exchange/excess_pressure.hpp"
 
 #include <algorithm>

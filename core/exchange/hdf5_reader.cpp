@@ -1,3 +1,6 @@
+// Reads files that may be truncated, damaged or made by others. Nothing is allocated from a number
+// in the file before it is compared with the file's size, and no HDF5 error ends the program:
+// faults are collected, so that a user sees all of them at once.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -110,6 +113,7 @@ std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
     return names;
 }
 
+/// A shape beyond this is damage, found before memory is reserved for it.
 double Hdf5Reader::capacity(hid_t dataset) const {
     constexpr double most_that_inflates = 1032.0;  // largest ratio of zlib's deflate
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
@@ -152,6 +156,7 @@ std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
     return Dataset{std::move(id), std::move(shape)};
 }
 
+/// For arrays of positions, whose rows give the number of points.
 std::size_t Hdf5Reader::rows(const std::string& path) {
     const auto dataset = open(path, H5T_FLOAT);
     if (!dataset) return 0;
@@ -251,6 +256,7 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& path) {
     return values;
 }
 
+/// Compares the class of type only: HDF5 converts between widths and byte orders.
 bool Hdf5Reader::read_attribute(const std::string& object, const std::string& name, hid_t type,
                                 void* value) {
     const std::string where = object + "@" + name;
@@ -295,6 +301,8 @@ std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std:
     return value;
 }
 
+/// Each row takes at least a byte, so the file's size bounds a count before any array is resized.
+/// Not for compressed frames: there a byte may stand for many rows.
 std::size_t Hdf5Reader::count_attribute(const std::string& object, const std::string& name) {
     const std::int64_t value = integer_attribute(object, name);
     if (value < 0 || static_cast<std::uintmax_t>(value) > bytes_) {
@@ -304,6 +312,8 @@ std::size_t Hdf5Reader::count_attribute(const std::string& object, const std::st
     return static_cast<std::size_t>(value);
 }
 
+/// Reading is the check: the Fletcher-32 filter runs in H5Dread. Without this a damaged copy for
+/// ParaView would pass as a sound file.
 void Hdf5Reader::check_rest() {
     std::vector<std::string> paths;
     const auto collect = [](hid_t, const char* name, const H5O_info_t* info, void* out) -> herr_t {
@@ -324,6 +334,7 @@ void Hdf5Reader::check_unread(const std::string& path) {
     const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
     const auto count = space ? static_cast<double>(H5Sget_simple_extent_npoints(space.get())) : 0.0;
     const double needed = type ? static_cast<double>(H5Tget_size(type.get())) * count : 0.0;
+    // Real numbers are kept, to refuse NaN; of all other types only the reading counts.
     const bool plausible = type && space && needed <= capacity(id.get());
     const bool is_real = plausible && H5Tget_class(type.get()) == H5T_FLOAT;
     std::vector<double> reals(is_real ? static_cast<std::size_t>(count) : 0);

@@ -1,3 +1,6 @@
+// Whole states in double precision, which a runout starts from or ends with, and frames in single
+// precision, which are looked at. for_each_field is the one list of fields for writing, reading and
+// checking, so that no field is in only some of them.
 #include "core/exchange/particle_state.hpp"
 
 #include <algorithm>
@@ -17,6 +20,7 @@ const Kind frame_kind{"particle_frame", 1};
 const std::string at_points = "/VTKHDF/PointData/";
 const std::string stress_of_regions = "/breachline/stress_of_regions";
 
+/// The four arrays of strength are all there or none: the first one, cohesion, decides.
 void check_sizes(const ParticleState& s) {
     const std::size_t n = s.size();
     bool agree = s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
@@ -98,6 +102,7 @@ void write_stress_measures(Hdf5Image& image, const std::vector<StressMeasure>& m
     image.strings(stress_of_regions, names);
 }
 
+/// Files without this list have effective stresses throughout.
 std::vector<StressMeasure> read_stress_measures(Hdf5Reader& reader, std::size_t regions) {
     std::vector<StressMeasure> measures;
     if (!reader.exists(stress_of_regions)) return measures;
@@ -166,6 +171,7 @@ void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n, Wanted wan
     const bool has_cohesion = reader.exists(at_points + "cohesion");
     for_each_field(s, [&](const char* name, auto, Given given, auto& values) {
         const std::string path = at_points + name;
+        // An optional field that exists is read in full: too short, it is a fault like any other.
         const bool must_be = (given == Given::always && wanted == Wanted::state) ||
                              (given == Given::with_cohesion && has_cohesion);
         if (!must_be && !reader.exists(path)) return;
@@ -185,6 +191,7 @@ ParticleState read_state(Hdf5Reader& reader, Wanted wanted) {
     reader.refuse_if_faulty();
     if (points <= 0) reader.fault(here + "@points", "no particles");
     const std::size_t n = reader.rows("/VTKHDF/Points");
+    // Two sources of one number: a truncated array may still be a valid dataset.
     if (n != 0 && points > 0 && n != static_cast<std::size_t>(points))
         reader.fault("/VTKHDF/Points", std::to_string(n) + " rows, but /breachline@points is " +
                                            std::to_string(points));
@@ -217,6 +224,7 @@ void ParticleState::resize(std::size_t n) {
     });
 }
 
+/// In total stress the pore pressure is already in `stress`; adding it would count it twice.
 double ParticleState::pressure_beside(std::size_t p) const {
     const bool is_total =
         !stress_of_regions.empty() && stress_of_regions[region[p]] == StressMeasure::total;
@@ -258,6 +266,7 @@ void write_particle_frame(const std::filesystem::path& path, const ParticleState
                           std::span<const std::string_view> fields, const Provenance& provenance) {
     check_sizes(state);
     for (const std::string_view name : fields) {
+        // A misspelt name would silently write a frame without the field.
         bool known = false;
         for_each_field(state,
                        [&](std::string_view each, auto, auto, auto&) { known |= each == name; });
