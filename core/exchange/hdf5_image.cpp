@@ -203,6 +203,7 @@ void Hdf5Image::attribute(const std::string& object, const std::string& name,
 }
 
 void Hdf5Image::save(const std::filesystem::path& path) && {
+    // Closing flushes the last metadata into the image: only then is it a whole file.
     if (!file_.close()) throw fault::IoError(path.string() + ": no memory to write it");
     const auto* bytes = static_cast<const char*>(memory_.begin);
     publish_text(path, {bytes, end_of_file(bytes)});

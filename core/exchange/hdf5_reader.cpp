@@ -73,6 +73,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const std::vector<Kind
         fault("/breachline", "missing: not a file of Breachline");
         refuse_if_faulty();
     }
+    // The kind before all else: faults about datasets mean nothing in a file of another kind.
     const std::string name = text_attribute("/breachline", "kind");
     const std::int64_t version = integer_attribute("/breachline", "version");
     refuse_if_faulty();
@@ -98,6 +99,7 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
            H5Aexists_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
+/// For archives, whose names only the writing phase knows.
 std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
     std::vector<std::string> names;
     const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
@@ -126,8 +128,10 @@ double Hdf5Reader::capacity(hid_t dataset) const {
     return most_that_inflates * std::min(file, static_cast<double>(H5Dget_storage_size(dataset)));
 }
 
+/// Every reading goes through here: existence, type and plausible size are checked in one place.
 std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
                                                     H5T_class_t type_class) {
+    // Also when it fails: check_rest() must not report the same dataset again.
     opened_.insert(path);
     if (!exists(path)) {
         fault(path, "missing");
@@ -170,6 +174,7 @@ std::size_t Hdf5Reader::rows(const std::string& path) {
 template <typename T>
 bool Hdf5Reader::read(const std::string& path, H5T_class_t type_class, std::span<T> values,
                       std::size_t width) {
+    // After a fault the caller goes on, to find further faults, and must not see leftover values.
     std::ranges::fill(values, T{});
     const auto dataset = open(path, type_class);
     if (!dataset) return false;
@@ -208,6 +213,7 @@ void Hdf5Reader::array(const std::string& path, std::span<std::int32_t> values, 
 
 template <typename T>
 std::vector<T> Hdf5Reader::read_any(const std::string& path, H5T_class_t type_class) {
+    // Opened twice: once for the length, then by read(), which checks shape and checksum.
     std::size_t rows = 0;
     {
         const auto dataset = open(path, type_class);
@@ -237,6 +243,7 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& path) {
     const auto dataset = open(path, H5T_STRING);
     if (!dataset) return {};
     const Handle type(H5Dget_type(dataset->id.get()), H5Tclose);
+    // Variable-length texts would lie in HDF5's global heap, outside the checksummed chunks.
     if (dataset->shape.size() != 1 || H5Tis_variable_str(type.get()) != 0) {
         fault(path, "expected a list of fixed-length texts");
         return {};

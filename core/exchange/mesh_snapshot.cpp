@@ -96,6 +96,8 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     if (!s.excess_pressure_max.empty())
         image.array(nodal + "excess_pressure_max", s.excess_pressure_max, 0, "Pa");
 
+    // Averages are for the eye: mean_stress is averaged from the points, not taken from the
+    // average.
     const std::string cell = "/VTKHDF/CellData/";
     const auto gauss = static_cast<std::size_t>(s.gauss_per_element);
     std::vector<double> mean_stress(s.stress.size());
@@ -115,6 +117,7 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(cell + "inverted", std::span<const std::int32_t>(inverted));
 }
 
+/// What only Breachline reads. Counts are attributes so that a reader can size its arrays first.
 void write_exact(Hdf5Image& image, const MeshSnapshot& s) {
     const std::string here = "/breachline";
     image.attribute(here, "time", s.time);
@@ -227,6 +230,8 @@ void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& 
     std::move(image).save(path);
 }
 
+/// Faults are collected in three rounds, each thrown before the next one relies on it: the counts,
+/// the arrays, then what the arrays mean.
 MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
     Hdf5Reader reader(path, {mesh_kind}, "give a whole FEM snapshot as fem_solver wrote it");
     const std::string here = "/breachline";

@@ -26,6 +26,7 @@ void check_sizes(const ParticleState& s) {
     bool agree = s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
                  (s.stress_of_regions.empty() || s.stress_of_regions.size() == s.regions.size());
     for_each_field(s, [&](auto, auto, Given given, const auto& values) {
+        // Both kinds of optional arrays are empty in a scene that has nothing for them.
         const std::size_t due = given == Given::with_cohesion ? s.strength.c.size() : n;
         agree &= values.size() == due || (given == Given::maybe && values.empty());
     });
@@ -84,6 +85,7 @@ void write_points(Hdf5Image& image, const ParticleState& s,
     });
 }
 
+/// Of states and frames alike: what a number at a point means without the fields.
 void write_state(Hdf5Image& image, const ParticleState& state) {
     const std::string here = "/breachline";
     const auto points = static_cast<std::int64_t>(state.size());
@@ -211,6 +213,7 @@ void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
 
 }  // namespace
 
+/// For a caller that fills a state point by point; arrays that only some scenes have stay empty.
 void ParticleState::resize(std::size_t n) {
     position.resize(n, mechanics::Vec2::Zero());
     region.resize(n);
@@ -281,6 +284,7 @@ void write_particle_frame(const std::filesystem::path& path, const ParticleState
     std::move(image).save(path);
 }
 
+/// For the dashboard's pictures, which take a final state as their last frame.
 ParticleState read_particle_frame(const std::filesystem::path& path) {
     Hdf5Reader reader(path, {frame_kind, particle_kind}, "give particles that mpm_solver wrote");
     ParticleState s = read_state(reader, Wanted::what_is_there);

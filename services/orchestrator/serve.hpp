@@ -10,7 +10,7 @@
 
 namespace breach::orchestrator {
 
-/// Where phases run.
+/// local: on this machine, ended when the service stops; slurm: as jobs, which go on without it.
 enum class Place { local, slurm };
 
 struct ServeSettings {
