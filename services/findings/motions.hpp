@@ -1,5 +1,6 @@
 // Findings of a study of several motions: the measure that correlates best with liquefaction and
 // runout, the least liquefied depth with soil past the toe, and its probability for a given motion.
+// All are of the motions that were chosen, not of the site's hazard.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
