@@ -1,5 +1,5 @@
-// Picture and cost of documents before they are submitted. Separate from the routes, because Eigen
-// and httplib cannot be included together.
+// Picture and cost of documents before they are submitted. Know the request's body, but nothing of
+// HTTP; run on the request's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>
