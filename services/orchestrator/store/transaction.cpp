@@ -300,7 +300,8 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     add_event(run_of(task), task, "attempt", detail);
 }
 
-/// Counts failed tries only; attempts count every start.
+/// Counts attempts that failed or were lost, not those that were interrupted; attempts count every
+/// start.
 std::int64_t Transaction::count_try(const std::string& task) {
     return database_
         .integer("UPDATE tasks SET tries = tries + 1 WHERE id=? RETURNING tries", {task})
