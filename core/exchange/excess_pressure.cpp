@@ -1,5 +1,5 @@
-// One definition of the excess pressure for everyone who reads a snapshot: the transfer's liquefied
-// zone, frames for the dashboard, and the FEM itself for its largest value so far.
+// From a snapshot's fields; the smoothing itself is in core/mechanics, where the FEM uses the same
+// for its largest value so far. The transfer's liquefied zone and the dashboard's frames ask here.
 #include "core/exchange/excess_pressure.hpp"
 
 #include <algorithm>

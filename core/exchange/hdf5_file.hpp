@@ -1,6 +1,6 @@
 // HDF5 for core/exchange only: a file built in memory and published whole, and a reader that
-// reports every fault. No other code includes hdf5.h. Not thread-safe: the service takes a mutex
-// around reading (files/frames.hpp), phases read and write from one thread.
+// reports every fault. No other code includes hdf5.h. Not thread-safe: a caller with several
+// threads takes a lock, as the service does (files/frames.hpp).
 #pragma once
 
 #include <hdf5.h>

@@ -77,7 +77,8 @@ constexpr void for_each_field(Fields& of, Visit&& visit) {
     visit("tan_phi_residual", "1", with_cohesion, of.strength.tan_phi_residual);
 }
 
-// A field that is added to PointFields but not to the list above would silently miss in the files.
+// A field that is added to PointFields but not to the list above would silently be missing from the
+// files.
 static_assert(
     [] {
         const PointFields none;

@@ -25,7 +25,7 @@ std::string as_text(const Cost& cost) {
         text += line("memory: " + what, "cost      %-34s%14.0f bytes\n", bytes);
     double all = 0.0;
     for (const auto& [kind, spent] : cost.seconds) all += spent;
-    // A FEM whose stages plan no step yet has counts and memory, but no time to divide.
+    // A FEM without a dynamic stage has counts and memory, but no step to divide by.
     if (cost.steps == 0 || all <= 0.0) return text + "cost      no step was taken\n";
     const auto steps = static_cast<double>(cost.steps);
     text += line("one step, of " + std::to_string(cost.steps) + " tried",

@@ -38,8 +38,7 @@ std::string worded(std::string code) {
     return code;
 }
 
-/// A mean velocity or a largest depth of a moving runout may still fall; these four only increase
-/// while soil moves on.
+/// Other numbers of a runout, such as its depth beyond the toe, may also fall while soil moves.
 bool grows(std::string_view quantity) {
     constexpr std::array growing{"runout", "runout_beyond_toe", "runout_largest",
                                  "area_beyond_toe"};

@@ -10,7 +10,7 @@
 
 namespace breach::findings {
 
-/// A FEM and its results.
+/// A FEM and its results; without a runout it counts for the liquefied depth only.
 struct Shaken {
     std::string variant;
     std::vector<double> measures;  ///< of the input, in the order of motion::named_measures

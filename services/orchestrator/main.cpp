@@ -41,8 +41,8 @@ int guarded(const std::function<int()>& work, ExitCode of_bad_input = ExitCode::
 int main(int argc, char** argv) {
     CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
     app.set_version_flag("--version", std::string("breachline ") + breach::version());
-    // Of an option that stands in the settings file and on the command line, the last one counts.
     app.require_subcommand(1);
+    // An option that is given twice: the last one counts.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     ServeOptions options(std::filesystem::canonical("/proc/self/exe"));
     CLI::App* serving = options.add_to(app);

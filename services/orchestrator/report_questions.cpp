@@ -98,8 +98,7 @@ criteria::Expression condition(const json& text) {
     return criteria::parse(text.get<std::string>(), criteria::Kind::condition, "/conditions");
 }
 
-/// When the condition is first true [s]; null: never.
-/// The evaluation keeps durations and peaks, so the lines must go through it in their order.
+/// The evaluation keeps samples for its windows, so the lines must go through it in their order.
 json first_time(const criteria::Expression& condition, const std::vector<telemetry::Line>& lines,
                 const std::map<std::string, double>& constants) {
     criteria::Evaluation evaluation(condition);

@@ -23,8 +23,7 @@ const json& resolved(const json& schema) {
     return scene::scene_schema().at(json::json_pointer(to.substr(1)));
 }
 
-/// By "type" where the alternatives have one, else by the JSON type: enough for this schema, where
-/// no two alternatives of one entry agree in both.
+/// By "type" where the alternatives have one, else by the JSON type; the first that fits counts.
 bool is_meant(const json& value, const json& alternative) {
     const json& type = alternative.value("/properties/type/const"_json_pointer, json());
     if (!type.is_null()) return value.is_object() && value.value("type", json()) == type;
@@ -92,9 +91,8 @@ class Lister {
     const std::vector<std::string>& set_;
 };
 
-/// Whether the completed scene derives this entry from a sand's relative density.
-/// D_R and G_0 are given by the author; the other parameters of PM4Sand follow where he gave none.
-/// Found by completing the law again without the entry.
+/// D_R and G_0 are given by the author; the other parameters of PM4Sand follow from them unless
+/// given. Found by completing the law again without the entry.
 bool follows_from_density(const json& scene, const std::string& pointer) {
     const std::size_t law = pointer.find("/law/");
     if (!pointer.starts_with("/materials/") || law == std::string::npos) return false;

@@ -1,4 +1,5 @@
-// `breachline serve`: assembles the service and runs until SIGINT or SIGTERM.
+// `breachline serve`: assembles the service and runs until SIGINT or SIGTERM. The only place that
+// knows all of its parts.
 #pragma once
 
 #include <filesystem>

@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A service writes a file before its row, so a young file without a row may be on its way.
+// The rows are those of the moment at which the audit began: a younger file may have got its row
+// since, or be about to get it.
 constexpr auto young = std::chrono::minutes(1);
 
 const std::string from_backup =

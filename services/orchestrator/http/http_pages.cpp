@@ -165,7 +165,7 @@ std::string api_description(const Router& router) {
     return document.dump(1);
 }
 
-/// Ready: there is room on the disk and the database answers. A load balancer or systemd asks.
+/// Ready: there is room on the disk and the database answers.
 void ready(const Service& service, Call& call) {
     std::error_code error;
     const auto space = std::filesystem::space(service.data.scratch(), error);

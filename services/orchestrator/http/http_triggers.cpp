@@ -14,7 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-/// lag_s: how much later than wanted the snapshot is. *_ms: milliseconds of the day's clock.
+/// lag_s: how much later than wanted the snapshot is, in the FEM's time. *_ms: delays since the
+/// service read the line that met the trigger.
 json as_json(const FiringRow& row) {
     const Firing& firing = row.firing;
     return {{"transfer_time", firing.transfer_time},

@@ -1,5 +1,5 @@
-// Picture and cost of documents before they are submitted. Know the request's body, but nothing of
-// HTTP; run on the request's thread.
+// Picture and cost of documents before they are submitted. Both know the request's body, but
+// nothing of HTTP; they run on the request's thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -53,7 +53,7 @@ auto read_here(Read read) {
 
 }  // namespace
 
-/// "does not exist" is puzzling to a client who sees the file on his own disk.
+/// "does not exist" is puzzling to a client on another machine, where the file does exist.
 std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
     for (Fault& each : faults)
         if (is_about_a_missing_file(each))

@@ -30,7 +30,7 @@ json batches_of(const Study& study) {
 NewRun new_run(const Study& study, const Numerics& numerics) {
     TaskGraph graph = plan_tasks(study, numerics);
     std::vector<std::string> files;
-    // Removal of a run must know which sent files it still names.
+    // A sent file stays as long as a run names it (Transaction::forget_file).
     for (const auto& each : scene::references_in({study.scene, study.document}))
         files.push_back(each.sha256);
     const std::size_t states = std::max<std::size_t>(1, study.transfer_times.size());

@@ -33,7 +33,7 @@ std::optional<std::array<double, 2>> ends_of(const statistics::Distribution& dis
     return std::nullopt;
 }
 
-/// Factors and lognormal numbers vary by ratios, so the search halves ratios.
+/// Factors and lognormal numbers vary by ratios, so the search works on their logarithms.
 bool is_logarithmic(const Parameter& parameter, double low) {
     const DistributionKind kind = parameter.distribution.kind;
     return low > 0.0 &&

@@ -44,7 +44,7 @@ std::vector<double> even_range(const json& range, std::vector<Fault>& faults) {
                           "give a step of at least 1e-6 s"});
         return {};
     }
-    // 1e-9 of a step: (1.0 - 0.0) / 0.1 must give ten steps.
+    // 1e-9 of a step: 0.3 / 0.1 is 2.9999999999999996 and must give three steps.
     const double count = std::floor((to - from) / step + 1e-9) + 1;
     if (count > static_cast<double>(most_times)) {
         faults.push_back({"/transfer_times/step",

@@ -69,7 +69,7 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
         for (const std::string& each : {std::string(), sample.name})
             if (const auto own = factors.find(each); own != factors.end())
                 sample.safety = own->second;
-        // A sample with a runout has a row, even when it failed. Without one, the store says why
+        // A sample with an MPM task has a row, even when it failed. Without one, the store says why
         // there was no transfer; a sample that neither knows may still get there.
         if (const auto found = rows.find(sample.name); found != rows.end()) {
             sample.state = value_of(found->second, "state");
