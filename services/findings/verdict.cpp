@@ -135,6 +135,8 @@ void add_submitted(const Facts& facts, std::vector<Reason>& reasons) {
     }
 }
 
+/// Unusable only where every analysis fails: of several variants, one that does not stand may be
+/// what the study is about.
 Reason reason_of(const Unstable& unstable) {
     const bool all = unstable.analyses == unstable.of_analyses;
     const std::string of = unstable.of_analyses == 1 ? ""

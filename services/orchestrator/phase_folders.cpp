@@ -86,6 +86,7 @@ std::optional<PhaseFolder> read_phase(const fs::path& files) {
                       .fault = {}};
     phase.plan.label = label_of(files);
     phase.plan.phase = phase_of(phase.plan.label, phase.result);
+    // A scene in a folder that is no phase's: left out, not a fault.
     if (rank_of(phase.plan.phase) == phases::all.size()) return {};
     read_label(phase.plan);
     if (phase.result.is_object()) return phase;

@@ -34,6 +34,8 @@ std::unique_ptr<Executor> executor_of(const ServeSettings& settings) {
     return std::make_unique<LocalExecutor>(settings.self);
 }
 
+/// On stdout for programs that start the service (with --port 0 they need the port), in the log for
+/// people.
 void announce(const ServeSettings& settings, int port) {
     const std::string url = "http://" + settings.http.host + ":" + std::to_string(port);
     std::cout << nlohmann::json{{"event", "listening"}, {"url", url}, {"port", port}}.dump()
