@@ -227,7 +227,8 @@ void ParticleState::resize(std::size_t n) {
     });
 }
 
-/// In total stress the pore pressure is already in `stress`; adding it would count it twice.
+/// Only effective stress has u beside it: a total stress contains it, and adding it would count it
+/// twice.
 double ParticleState::pressure_beside(std::size_t p) const {
     const bool is_total =
         !stress_of_regions.empty() && stress_of_regions[region[p]] == StressMeasure::total;
