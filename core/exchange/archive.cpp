@@ -1,3 +1,6 @@
+// Checkpoints, histories and the service's results table in one layout: three groups, one for each
+// type of value, with one dataset per name. The phase that writes a kind decides what its names
+// mean.
 #include "core/exchange/archive.hpp"
 
 #include <utility>
@@ -29,6 +32,7 @@ void write_archive(const std::filesystem::path& path, const Archive& archive,
     std::move(image).save(path);
 }
 
+/// Versions are not converted: the remedy of the fault is to start afresh.
 Archive read_archive(const std::filesystem::path& path, const std::string& kind, int version,
                      Reals may_be) {
     Hdf5Reader reader(path, {{kind, version}}, "remove the file and start afresh");
@@ -44,6 +48,7 @@ Archive read_archive(const std::filesystem::path& path, const std::string& kind,
     for (const std::string& name : reader.names_in(integers))
         archive.integers[name] = reader.any_integers(integers + "/" + name);
     for (const std::string& name : reader.names_in(texts))
+        // A text is written as one row; a row is read as far as its first zero byte.
         for (const std::string& text : reader.strings(texts + "/" + name))
             archive.texts[name] += text;
     archive.spent = read_provenance(reader).spent;

@@ -1,3 +1,6 @@
+// What the files of meshes and of points have in common. ParaView reads the group /VTKHDF,
+// Breachline reads both it and /breachline, so a quantity is stored once where ParaView's type
+// loses nothing.
 #include "core/exchange/common_groups.hpp"
 
 namespace breach::exchange {
@@ -5,6 +8,8 @@ namespace {
 
 constexpr std::size_t corners_of(Cell cell) { return cell == Cell::quad ? 4 : 1; }
 
+/// ParaView knows vectors of three and symmetric tensors of six components; the zeros that plane
+/// strain adds are dropped again here.
 template <int n>
 void read_padded(Hdf5Reader& reader, const std::string& path,
                  std::vector<Eigen::Matrix<double, n, 1>>& rows, std::size_t width) {
@@ -37,6 +42,8 @@ void write_grid(Hdf5Image& image, const std::vector<mechanics::Vec2>& points, Ce
     const std::vector<std::uint8_t> types(cells, static_cast<std::uint8_t>(cell));
 
     image.group("/VTKHDF");
+    // VTKHDF 1.0 has no time steps inside a file; a run's times come from the series beside
+    // (core/process/series.hpp).
     const std::int64_t version[2] = {1, 0};
     image.attribute("/VTKHDF", "Version", std::span(version));
     image.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
@@ -73,6 +80,7 @@ void read_regions(Hdf5Reader& reader, std::vector<std::string>& regions,
                          std::to_string(regions.size()) + " regions");
 }
 
+/// Stops at the first bad row: a damaged file would otherwise give one fault for each point.
 void check_region_indices(Hdf5Reader& reader, const std::string& path,
                           const std::vector<std::int32_t>& indices, std::size_t regions) {
     for (std::size_t i = 0; i < indices.size(); ++i)
@@ -96,6 +104,8 @@ const std::string base_motion = "/breachline/base_motion";
 
 void write_base_motion(Hdf5Image& image, const BaseMotion& motion) {
     if (!motion.any()) return;
+    // Absent, not empty, where the ground's motion is unknown: an empty velocity is a fault on
+    // reading.
     image.group(base_motion);
     image.attribute(base_motion, "time_step", motion.time_step);
     image.array(base_motion + "/velocity", motion.velocity, 0, "m/s");
@@ -120,6 +130,7 @@ void write_provenance(Hdf5Image& image, const Provenance& provenance) {
     image.attribute(here, "threads", std::span(&threads, 1));
     image.attribute(here, "wall_seconds", provenance.spent.wall);
     image.attribute(here, "cpu_seconds", provenance.spent.cpu);
+    // A dataset, not an attribute: HDF5 limits attributes to 64 KiB and a scene may be longer.
     image.strings(here + "/scene", {provenance.scene});
     image.strings(here + "/overrides", provenance.overrides);
     std::vector<std::string> paths;

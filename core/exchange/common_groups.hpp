@@ -53,6 +53,7 @@ std::span<double> flat(std::vector<Eigen::Matrix<double, n, 1>>& rows) {
 }
 
 /// Each row of n values followed by zeros up to `width`.
+/// In the file's type: frames are written in single precision.
 template <class Real, int n>
 std::vector<Real> padded(const std::vector<Eigen::Matrix<double, n, 1>>& rows, std::size_t width) {
     std::vector<Real> values(rows.size() * width, Real{});

@@ -1,3 +1,5 @@
+// Cells of the tables that the service and the CLI write. Every text is quoted, so that no caller
+// has to look for commas or line ends in a label.
 #include "core/exchange/csv.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Values in tables of comma-separated text (RFC 4180).
+// Values in tables of comma-separated text (RFC 4180): the service's results and the CLI's tables.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

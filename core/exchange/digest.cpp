@@ -1,3 +1,5 @@
+// SHA-256 of inputs (provenance, cache keys, sent files) and of secrets (tokens). Declared in
+// provenance.hpp.
 #include <openssl/evp.h>
 
 #include <array>
@@ -43,6 +45,7 @@ std::string sha256_of_file(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) throw fault::IoError(path.string() + ": cannot be opened: " + std::strerror(errno));
     Sha256 sha256;
+    // In blocks: a snapshot may be larger than the memory that is free.
     std::array<char, 1 << 16> block;
     do {
         file.read(block.data(), block.size());

@@ -1,3 +1,5 @@
+// From a snapshot's fields; the smoothing itself is in core/mechanics, where the FEM uses the same
+// for its largest value so far. The transfer's liquefied zone and the dashboard's frames ask here.
 #include "core/exchange/excess_pressure.hpp"
 
 #include <algorithm>

@@ -9,7 +9,8 @@ namespace breach::exchange {
 /// the snapshot has no u_0.
 std::vector<double> nodal_excess_pressure(const MeshSnapshot& mesh);
 
-/// Its maximum since the shaking began; the present value if the snapshot stores no maximum.
+/// Its maximum since the shaking began; the present value if the snapshot stores no maximum. With
+/// it, soil that has drained since still counts as liquefied (LiquefiedWhen::ever).
 std::vector<double> largest_excess_pressure(const MeshSnapshot& mesh);
 
 }  // namespace breach::exchange

@@ -1,5 +1,6 @@
 // HDF5 for core/exchange only: a file built in memory and published whole, and a reader that
-// reports every fault. No other code includes hdf5.h. Not thread-safe.
+// reports every fault. No other code includes hdf5.h. Not thread-safe: a caller with several
+// threads takes a lock, as the service does (files/frames.hpp).
 #pragma once
 
 #include <hdf5.h>
@@ -17,7 +18,7 @@
 
 namespace breach::exchange {
 
-/// An HDF5 identifier that closes itself.
+/// An HDF5 identifier that closes itself. Negative: HDF5 refused the call that was to make it.
 class Handle {
   public:
     using Close = herr_t (*)(hid_t);
@@ -91,12 +92,14 @@ class Hdf5Image {
                  hid_t type, const std::string& unit);
 
     Storage storage_;
+    // Before file_: closing HDF5's file still writes to the image.
     MemoryFile memory_;
     Handle file_;
 };
 
 /// Reader that trusts nothing in a file. A call that finds an error adds a fault with the dataset's
-/// path and returns zeros or empty text; refuse_if_faulty() throws all faults.
+/// path and returns zeros or empty text; refuse_if_faulty() throws all faults. A caller must call
+/// it before it uses what it read.
 class Hdf5Reader {
   public:
     /// Throws IoError if the file cannot be opened, BadInput if it is incomplete or of none of

@@ -1,3 +1,5 @@
+// Files are built in memory by HDF5's core driver and written by publish(). So a full disk or a
+// kill leaves no half file, and HDF5's own error texts never reach a user.
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
@@ -20,12 +22,15 @@ hid_t made(hid_t id, const std::string& what) {
     return id;
 }
 
+/// HDF5 would store when each object was made, and two files of the same state would differ.
 Handle without_times(hid_t property_class) {
     Handle list(made(H5Pcreate(property_class), "a property list"), H5Pclose);
     H5Pset_obj_track_times(list.get(), false);
     return list;
 }
 
+/// HDF5 grows the image by `growth` bytes at a time, so its buffer is longer than the file:
+/// end_of_file() says how much of it to write.
 void* grow_image(void*, size_t size, H5FD_file_image_op_t, void* memory) {
     auto& file = *static_cast<MemoryFile*>(memory);
     void* const larger = std::realloc(file.begin, size);
@@ -33,6 +38,8 @@ void* grow_image(void*, size_t size, H5FD_file_image_op_t, void* memory) {
     return larger;
 }
 
+/// HDF5 wants to free the image when the file closes. It must outlive that, because only a closed
+/// file has its final bytes; ~MemoryFile frees it.
 herr_t keep_image(void*, H5FD_file_image_op_t, void*) { return 0; }
 
 /// Not H5Fget_file_image: it writes a version 3 superblock with a wrong checksum (1.10.8).
@@ -42,6 +49,7 @@ hid_t create_file(MemoryFile& memory) {
     H5FD_file_image_callbacks_t callbacks{};
     callbacks.image_realloc = grow_image;
     callbacks.image_free = keep_image;
+    // HDF5 copies the property list; every copy must write to the same MemoryFile.
     callbacks.udata_copy = [](void* data) { return data; };
     callbacks.udata_free = [](void*) -> herr_t { return 0; };
     callbacks.udata = &memory;
@@ -93,6 +101,8 @@ void Hdf5Image::group(const std::string& path) {
         H5Gclose);
 }
 
+/// Checksums need chunks, so even a short array is chunked. A chunk is never longer than the array:
+/// a small dataset would else take 1 MiB.
 void Hdf5Image::dataset(const std::string& path, const void* values, std::size_t count,
                         std::size_t width, hid_t type, const std::string& unit) {
     const std::size_t columns = std::max<std::size_t>(width, 1);
@@ -165,6 +175,7 @@ void Hdf5Image::attribute(const std::string& object, const std::string& name,
                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
              object + "@" + name),
         H5Aclose);
+    // The type of an empty text has one byte, which must exist.
     H5Awrite(made_attribute.get(), type.get(), value.empty() ? "\0" : value.data());
 }
 
@@ -192,6 +203,7 @@ void Hdf5Image::attribute(const std::string& object, const std::string& name,
 }
 
 void Hdf5Image::save(const std::filesystem::path& path) && {
+    // Closing flushes the last metadata into the image: only then is it a whole file.
     if (!file_.close()) throw fault::IoError(path.string() + ": no memory to write it");
     const auto* bytes = static_cast<const char*>(memory_.begin);
     publish_text(path, {bytes, end_of_file(bytes)});

@@ -1,3 +1,6 @@
+// Reads files that may be truncated, damaged or made by others. Nothing is allocated from a number
+// in the file before it is compared with the file's size, and no HDF5 error ends the program:
+// faults are collected, so that a user sees all of them at once.
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -70,6 +73,7 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& path, const std::vector<Kind
         fault("/breachline", "missing: not a file of Breachline");
         refuse_if_faulty();
     }
+    // The kind before all else: faults about datasets mean nothing in a file of another kind.
     const std::string name = text_attribute("/breachline", "kind");
     const std::int64_t version = integer_attribute("/breachline", "version");
     refuse_if_faulty();
@@ -95,6 +99,7 @@ bool Hdf5Reader::has_attribute(const std::string& object, const std::string& nam
            H5Aexists_by_name(file_.get(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
+/// For archives, whose names only the writing phase knows.
 std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
     std::vector<std::string> names;
     const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
@@ -110,6 +115,7 @@ std::vector<std::string> Hdf5Reader::names_in(const std::string& group) {
     return names;
 }
 
+/// A shape beyond this is damage, found before memory is reserved for it.
 double Hdf5Reader::capacity(hid_t dataset) const {
     constexpr double most_that_inflates = 1032.0;  // largest ratio of zlib's deflate
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
@@ -122,8 +128,10 @@ double Hdf5Reader::capacity(hid_t dataset) const {
     return most_that_inflates * std::min(file, static_cast<double>(H5Dget_storage_size(dataset)));
 }
 
+/// Every reading goes through here: existence, type and plausible size are checked in one place.
 std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
                                                     H5T_class_t type_class) {
+    // Also when it fails: check_rest() must not report the same dataset again.
     opened_.insert(path);
     if (!exists(path)) {
         fault(path, "missing");
@@ -152,6 +160,7 @@ std::optional<Hdf5Reader::Dataset> Hdf5Reader::open(const std::string& path,
     return Dataset{std::move(id), std::move(shape)};
 }
 
+/// For arrays of positions, whose rows give the number of points.
 std::size_t Hdf5Reader::rows(const std::string& path) {
     const auto dataset = open(path, H5T_FLOAT);
     if (!dataset) return 0;
@@ -165,6 +174,7 @@ std::size_t Hdf5Reader::rows(const std::string& path) {
 template <typename T>
 bool Hdf5Reader::read(const std::string& path, H5T_class_t type_class, std::span<T> values,
                       std::size_t width) {
+    // After a fault the caller goes on, to find further faults, and must not see leftover values.
     std::ranges::fill(values, T{});
     const auto dataset = open(path, type_class);
     if (!dataset) return false;
@@ -203,6 +213,7 @@ void Hdf5Reader::array(const std::string& path, std::span<std::int32_t> values, 
 
 template <typename T>
 std::vector<T> Hdf5Reader::read_any(const std::string& path, H5T_class_t type_class) {
+    // Opened twice: once for the length, then by read(), which checks shape and checksum.
     std::size_t rows = 0;
     {
         const auto dataset = open(path, type_class);
@@ -232,6 +243,7 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& path) {
     const auto dataset = open(path, H5T_STRING);
     if (!dataset) return {};
     const Handle type(H5Dget_type(dataset->id.get()), H5Tclose);
+    // Variable-length texts would lie in HDF5's global heap, outside the checksummed chunks.
     if (dataset->shape.size() != 1 || H5Tis_variable_str(type.get()) != 0) {
         fault(path, "expected a list of fixed-length texts");
         return {};
@@ -251,6 +263,7 @@ std::vector<std::string> Hdf5Reader::strings(const std::string& path) {
     return values;
 }
 
+/// Compares the class of type only: HDF5 converts between widths and byte orders.
 bool Hdf5Reader::read_attribute(const std::string& object, const std::string& name, hid_t type,
                                 void* value) {
     const std::string where = object + "@" + name;
@@ -295,6 +308,8 @@ std::int64_t Hdf5Reader::integer_attribute(const std::string& object, const std:
     return value;
 }
 
+/// Each row takes at least a byte, so the file's size bounds a count before any array is resized.
+/// Not for compressed frames: there a byte may stand for many rows.
 std::size_t Hdf5Reader::count_attribute(const std::string& object, const std::string& name) {
     const std::int64_t value = integer_attribute(object, name);
     if (value < 0 || static_cast<std::uintmax_t>(value) > bytes_) {
@@ -304,6 +319,8 @@ std::size_t Hdf5Reader::count_attribute(const std::string& object, const std::st
     return static_cast<std::size_t>(value);
 }
 
+/// Reading is the check: the Fletcher-32 filter runs in H5Dread. Without this a damaged copy for
+/// ParaView would pass as a sound file.
 void Hdf5Reader::check_rest() {
     std::vector<std::string> paths;
     const auto collect = [](hid_t, const char* name, const H5O_info_t* info, void* out) -> herr_t {
@@ -324,6 +341,7 @@ void Hdf5Reader::check_unread(const std::string& path) {
     const Handle space(id ? H5Dget_space(id.get()) : -1, H5Sclose);
     const auto count = space ? static_cast<double>(H5Sget_simple_extent_npoints(space.get())) : 0.0;
     const double needed = type ? static_cast<double>(H5Tget_size(type.get())) * count : 0.0;
+    // Real numbers are kept, to refuse NaN; of all other types only the reading counts.
     const bool plausible = type && space && needed <= capacity(id.get());
     const bool is_real = plausible && H5Tget_class(type.get()) == H5T_FLOAT;
     std::vector<double> reals(is_real ? static_cast<std::size_t>(count) : 0);

@@ -1,4 +1,5 @@
-// What a transfer conserved and lost: one row per region and quantity, stored in the particle file.
+// What a transfer conserved and lost: one row per region and quantity. transfer_tool computes it
+// from mesh and points and stores it in the particle file, beside the numbers that it is about.
 #pragma once
 
 #include <string>

@@ -1,3 +1,6 @@
+// A snapshot's file has two parts. What ParaView shows is in /VTKHDF: nodal fields in full, Gauss
+// fields as averages. What the transfer needs beyond that is in /breachline: undeformed nodes and
+// every Gauss point. Reading takes each quantity from the part that has it exactly.
 #include "core/exchange/mesh_snapshot.hpp"
 
 #include <algorithm>
@@ -14,6 +17,7 @@ using mechanics::Voigt;
 
 const Kind mesh_kind{"mesh_snapshot", 1};
 
+/// A programming error of the FEM, not of a user: reading has checks of its own.
 void check_sizes(const MeshSnapshot& s) {
     const std::size_t nodes = s.position_0.size();
     const std::size_t elements = s.quads.size();
@@ -49,6 +53,7 @@ std::vector<double> averages(std::span<const double> values, std::size_t n, std:
 }
 
 /// 1 if a corner of the deformed element is inside out, else 0.
+/// For people who look at a failing mesh in ParaView. The FEM ends a run by a measure of its own.
 std::vector<std::int32_t> inverted_elements(const MeshSnapshot& s) {
     std::vector<std::int32_t> inverted;
     const auto is_there = [&](std::int32_t node) {
@@ -91,6 +96,8 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     if (!s.excess_pressure_max.empty())
         image.array(nodal + "excess_pressure_max", s.excess_pressure_max, 0, "Pa");
 
+    // Averages are for the eye: mean_stress is averaged from the points, not taken from the
+    // average.
     const std::string cell = "/VTKHDF/CellData/";
     const auto gauss = static_cast<std::size_t>(s.gauss_per_element);
     std::vector<double> mean_stress(s.stress.size());
@@ -110,6 +117,7 @@ void write_visible(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(cell + "inverted", std::span<const std::int32_t>(inverted));
 }
 
+/// What only Breachline reads. Counts are attributes so that a reader can size its arrays first.
 void write_exact(Hdf5Image& image, const MeshSnapshot& s) {
     const std::string here = "/breachline";
     image.attribute(here, "time", s.time);
@@ -119,6 +127,8 @@ void write_exact(Hdf5Image& image, const MeshSnapshot& s) {
              {"nodes", s.position_0.size()},
              {"elements", s.quads.size()},
              {"gauss_per_element", s.gauss_positions.size()},
+             // Said apart from the datasets: a wet snapshot that lost its pressures is a fault, not
+             // a dry one.
              {"has_pore_pressure", s.pore_pressure.empty() ? 0 : 1}}) {
         const auto value = static_cast<std::int64_t>(number);
         image.attribute(here, name, std::span(&value, 1));
@@ -140,6 +150,8 @@ void write_exact(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(here + "/gauss/instability_ratio", s.instability_ratio, 0, "1");
 }
 
+/// Fields that not every scene has are read where they exist. sigma_v0 and pore_pressure_0 come
+/// together, and the maximum only with them.
 void read_nodes(Hdf5Reader& reader, MeshSnapshot& s, std::size_t nodes, bool has_pore_pressure) {
     for (auto* field : {&s.position_0, &s.displacement, &s.velocity, &s.acceleration})
         field->resize(nodes);
@@ -187,6 +199,8 @@ void read_elements(Hdf5Reader& reader, MeshSnapshot& s, std::size_t elements, st
     reader.array(at_gauss + "instability_ratio", s.instability_ratio, 0);
 }
 
+/// Called after refuse_if_faulty(), when every array has its expected length: an index may then be
+/// compared with a length without another fault behind it.
 void check_meaning(Hdf5Reader& reader, const MeshSnapshot& s) {
     if (s.thickness <= 0.0) reader.fault("/breachline@thickness", "must be positive");
     check_region_indices(reader, "/VTKHDF/CellData/region", s.region_of_element, s.regions.size());
@@ -216,6 +230,8 @@ void write_mesh_snapshot(const std::filesystem::path& path, const MeshSnapshot& 
     std::move(image).save(path);
 }
 
+/// Faults are collected in three rounds, each thrown before the next one relies on it: the counts,
+/// the arrays, then what the arrays mean.
 MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
     Hdf5Reader reader(path, {mesh_kind}, "give a whole FEM snapshot as fem_solver wrote it");
     const std::string here = "/breachline";
@@ -228,6 +244,7 @@ MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
     const std::size_t elements = reader.count_attribute(here, "elements");
     const std::size_t gauss = reader.count_attribute(here, "gauss_per_element");
     const bool has_pore_pressure = reader.integer_attribute(here, "has_pore_pressure") != 0;
+    // 64: any bound will do that keeps elements x gauss from being absurd in a damaged file.
     if (nodes == 0 || elements == 0 || gauss == 0 || gauss > 64)
         reader.fault(here, "has no nodes, no elements or no Gauss points");
     reader.refuse_if_faulty();
@@ -238,6 +255,7 @@ MeshSnapshotFile read_mesh_snapshot(const std::filesystem::path& path) {
     read_elements(reader, s, elements, gauss);
     s.base_motion = read_base_motion(reader);
     file.provenance = read_provenance(reader);
+    // After the last read: what is read above need not be read twice.
     reader.check_rest();
     reader.refuse_if_faulty();
     check_meaning(reader, s);

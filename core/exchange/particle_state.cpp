@@ -1,3 +1,6 @@
+// Whole states in double precision, which a runout starts from or ends with, and frames in single
+// precision, which are looked at. for_each_field is the one list of fields for writing, reading and
+// checking, so that no field is in only some of them.
 #include "core/exchange/particle_state.hpp"
 
 #include <algorithm>
@@ -17,11 +20,13 @@ const Kind frame_kind{"particle_frame", 1};
 const std::string at_points = "/VTKHDF/PointData/";
 const std::string stress_of_regions = "/breachline/stress_of_regions";
 
+/// The four arrays of strength are all there or none: the first one, cohesion, decides.
 void check_sizes(const ParticleState& s) {
     const std::size_t n = s.size();
     bool agree = s.region.size() == n && s.regions.size() == s.materials_of_regions.size() &&
                  (s.stress_of_regions.empty() || s.stress_of_regions.size() == s.regions.size());
     for_each_field(s, [&](auto, auto, Given given, const auto& values) {
+        // Both kinds of optional arrays are empty in a scene that has nothing for them.
         const std::size_t due = given == Given::with_cohesion ? s.strength.c.size() : n;
         agree &= values.size() == due || (given == Given::maybe && values.empty());
     });
@@ -80,6 +85,7 @@ void write_points(Hdf5Image& image, const ParticleState& s,
     });
 }
 
+/// Of states and frames alike: what a number at a point means without the fields.
 void write_state(Hdf5Image& image, const ParticleState& state) {
     const std::string here = "/breachline";
     const auto points = static_cast<std::int64_t>(state.size());
@@ -98,6 +104,7 @@ void write_stress_measures(Hdf5Image& image, const std::vector<StressMeasure>& m
     image.strings(stress_of_regions, names);
 }
 
+/// Files without this list have effective stresses throughout.
 std::vector<StressMeasure> read_stress_measures(Hdf5Reader& reader, std::size_t regions) {
     std::vector<StressMeasure> measures;
     if (!reader.exists(stress_of_regions)) return measures;
@@ -204,6 +211,7 @@ void read_points(Hdf5Reader& reader, ParticleState& s, std::size_t n, Wanted wan
     const bool has_cohesion = reader.exists(at_points + "cohesion");
     for_each_field(s, [&](const char* name, auto, Given given, auto& values) {
         const std::string path = at_points + name;
+        // An optional field that exists is read in full: too short, it is a fault like any other.
         const bool must_be = (given == Given::always && wanted == Wanted::state) ||
                              (given == Given::with_cohesion && has_cohesion);
         if (!must_be && !reader.exists(path)) return;
@@ -223,6 +231,7 @@ ParticleState read_state(Hdf5Reader& reader, Wanted wanted) {
     reader.refuse_if_faulty();
     if (points <= 0) reader.fault(here + "@points", "no particles");
     const std::size_t n = reader.rows("/VTKHDF/Points");
+    // Two sources of one number: a truncated array may still be a valid dataset.
     if (n != 0 && points > 0 && n != static_cast<std::size_t>(points))
         reader.fault("/VTKHDF/Points", std::to_string(n) + " rows, but /breachline@points is " +
                                            std::to_string(points));
@@ -242,6 +251,7 @@ void check_meaning(Hdf5Reader& reader, const ParticleState& s) {
 
 }  // namespace
 
+/// For a caller that fills a state point by point; arrays that only some scenes have stay empty.
 void ParticleState::resize(std::size_t n) {
     position.resize(n, mechanics::Vec2::Zero());
     region.resize(n);
@@ -255,6 +265,8 @@ void ParticleState::resize(std::size_t n) {
     });
 }
 
+/// Only effective stress has u beside it: a total stress contains it, and adding it would count it
+/// twice.
 double ParticleState::pressure_beside(std::size_t p) const {
     const bool is_effective =
         stress_of_regions.empty() || stress_of_regions[region[p]] == StressMeasure::effective;
@@ -298,6 +310,7 @@ void write_particle_frame(const std::filesystem::path& path, const ParticleState
                           std::span<const std::string_view> fields, const Provenance& provenance) {
     check_sizes(state);
     for (const std::string_view name : fields) {
+        // A misspelt name would silently write a frame without the field.
         bool known = false;
         for_each_field(state,
                        [&](std::string_view each, auto, auto, auto&) { known |= each == name; });
@@ -312,6 +325,7 @@ void write_particle_frame(const std::filesystem::path& path, const ParticleState
     std::move(image).save(path);
 }
 
+/// For the dashboard's pictures, which take a final state as their last frame.
 ParticleState read_particle_frame(const std::filesystem::path& path) {
     Hdf5Reader reader(path, {frame_kind, particle_kind}, "give particles that mpm_solver wrote");
     ParticleState s = read_state(reader, Wanted::what_is_there);

@@ -1,5 +1,6 @@
 // All material points at one time, as structure of arrays. File: VTKHDF UnstructuredGrid 1.0 of
-// vertices.
+// vertices. The transfer writes the first state, the MPM its frames and the final one; frames are
+// for display, a runout starts from whole states only.
 #pragma once
 
 #include <cstdint>
@@ -54,6 +55,8 @@ struct PointFields {
     StrengthOfPoints strength;  ///< empty if no material has a strength profile
 };
 
+/// Presence of a field in a whole state. maybe: absent in a scene without water or profiles.
+/// with_cohesion: exactly where "cohesion" is.
 enum class Given { always, maybe, with_cohesion };
 
 /// Calls visit(name, unit, presence, array) for each field, in the order of the files.
@@ -77,6 +80,8 @@ constexpr void for_each_field(Fields& of, Visit&& visit) {
     visit("tan_phi_residual", "1", with_cohesion, of.strength.tan_phi_residual);
 }
 
+// A field that is added to PointFields but not to the list above would silently be missing from the
+// files.
 static_assert(
     [] {
         const PointFields none;

@@ -1,4 +1,5 @@
-// Provenance of a file: stored in every output to trace a number to its inputs.
+// Provenance of a file: stored in every output to trace a number to its inputs. A session collects
+// it (Session::provenance); a resumed run compares scene and inputs with its checkpoint's.
 #pragma once
 
 #include <filesystem>

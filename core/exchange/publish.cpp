@@ -1,3 +1,6 @@
+// How phases and service put a finished file under its final name. The order matters: data to the
+// disk, then the name, then the folder that has the name. After a power failure the name leads to
+// the whole file or to none.
 #include "core/exchange/publish.hpp"
 
 #include <fcntl.h>
@@ -88,6 +91,7 @@ void publish(const fs::path& path, const std::function<void(const fs::path&)>& w
     // killed attempt.
     std::string name = ".";
     name.append(path.filename().string()).append(".partial");
+    // In the same folder, because a rename is atomic within one file system only.
     Temporary temporary(folder / name);
     write(temporary.path());
     sync(temporary.path(), O_RDONLY | O_CLOEXEC, path);

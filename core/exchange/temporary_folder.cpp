@@ -1,3 +1,4 @@
+// Made by mkdtemp: a name that no other process has, readable by this user only.
 #include "core/exchange/temporary_folder.hpp"
 
 #include <cstdlib>
@@ -13,6 +14,7 @@ TemporaryFolder::TemporaryFolder(const std::string& prefix, const std::filesyste
 }
 
 TemporaryFolder::~TemporaryFolder() {
+    // A destructor may not throw, and may run because of another exception.
     std::error_code ignored;  // what is left lies below the temporary folder
     std::filesystem::remove_all(path_, ignored);
 }

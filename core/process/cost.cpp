@@ -1,3 +1,5 @@
+// Text below the plan of --plan --measure, for people who weigh a feature or a resolution. The
+// service does not read it: its estimates come from rates (services/estimate).
 #include "core/process/cost.hpp"
 
 #include <algorithm>
@@ -23,6 +25,7 @@ std::string as_text(const Cost& cost) {
         text += line("memory: " + what, "cost      %-34s%14.0f bytes\n", bytes);
     double all = 0.0;
     for (const auto& [kind, spent] : cost.seconds) all += spent;
+    // A FEM without a dynamic stage has counts and memory, but no step to divide by.
     if (cost.steps == 0 || all <= 0.0) return text + "cost      no step was taken\n";
     const auto steps = static_cast<double>(cost.steps);
     text += line("one step, of " + std::to_string(cost.steps) + " tried",

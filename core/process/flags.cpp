@@ -1,5 +1,6 @@
-// Flags as result.json, checkpoints and the service store them. Written by the phase at its end, read
-// back when it resumes, so that a flag raised before a kill is not lost.
+// Flags as result.json and the FEM's checkpoints hold them. The FEM reads them back when it
+// resumes, so that a flag raised before a kill is not lost. The service has a reader of its own
+// (findings/flags.hpp), which also takes flags without a pointer.
 #include "core/process/flags.hpp"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
-// Everything that the four programs share: arguments, the questions --plan and --check, provenance,
-// result.json or fault.json, exit codes. Each main() calls run_phase once; the physics begins in
-// Phase::run.
+// What the phases' programs share, with their further commands (fem_solver mesh, transfer_tool
+// advise, the element tests): arguments, the questions --plan and --check, provenance, result.json
+// or fault.json, exit codes. A main() calls run_phase once; the physics begins in Phase::run.
 //
 // Order at a start: the scene is read and reduced, then planned, then compared with the checkpoint,
 // and only then is the output folder touched. So a refused scene leaves an earlier result whole.
@@ -131,6 +131,8 @@ json as_json(const Plan& plan) {
     return lines;
 }
 
+/// Keys of result.json and fault.json. The service takes a phase's inputs from here when it adopts
+/// folders of phases that were run by hand (phase_folders.cpp).
 json as_json(const exchange::Provenance& p) {
     json inputs = json::array();
     for (const auto& each : p.inputs)
@@ -156,6 +158,7 @@ std::optional<std::string> short_text(const json& value) {
 
 fault::Fault changed_entry(const json& change, const json& before) {
     const std::string pointer = change.at("path");
+    // An entry short enough to show comes with the --set that restores it.
     const std::string afresh = ", or start afresh without --resume";
     if (change.at("op") != "replace")
         return {
@@ -218,6 +221,8 @@ json known_of(Session& session, const Plan& plan) {
     return known;
 }
 
+/// The run itself, from the first write into the output folder on. `known` leaves by reference
+/// because guarded() needs it after the exception has unwound the session.
 ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, json& known) {
     const Plan plan = phase.plan(scene);
     spdlog::info("plan\n{}", as_text(plan));
@@ -241,6 +246,8 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     json result = known_of(session, plan);
     exchange::publish_text(session.output(phases::files::result), result.dump(2) + "\n");
     if (session.settings().progress == ProgressStyle::json) {
+        // Left out of the event's one line because of their length; both are in result.json. The
+        // service ignores this event: it reads lines of progress only (dispatch/attempts.cpp).
         result.erase("provenance");
         result.erase("plan");
         std::cout << json{{"event", "result"}, {"result", result}}.dump() << std::endl;
@@ -248,6 +255,8 @@ ExitCode simulate(const Phase& phase, Arguments& arguments, scene::Scene scene, 
     return ExitCode::done;
 }
 
+/// A trial in a folder of its own: --plan --measure leaves nothing behind and needs no --output. A
+/// measure() that wants switches sets its own (the FEM's trial_switch).
 Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene& scene) {
     const exchange::TemporaryFolder folder("breach_");
     SessionSettings settings = arguments.settings;
@@ -306,6 +315,8 @@ ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     } else {
         std::cout << arguments.scene.string() << ": no faults\n";
     }
+    // Of the whole scene: a person who checks it asks about every part, not only about this
+    // phase's.
     for (const fault::Flag& each : whole.warnings)
         std::cout << "warning   " << each.pointer << ": " << each.message << "\n";
     return ExitCode::done;
@@ -339,8 +350,8 @@ ExitCode report(const Arguments& arguments, const json& known, ExitCode code,
     return code;
 }
 
-/// The one place where exceptions become exit codes: 65 for input, 70 for the numerics, 74 for files,
-/// 75 where another try may succeed. The service decides by them whether to retry
+/// The one place where exceptions become exit codes: 65 for input, 70 for the numerics, 74 for
+/// files, 75 where another try may succeed. The service decides by them whether to retry
 /// (dispatch/ending.cpp).
 ExitCode guarded(const Phase& phase, Arguments& arguments) {
     json known = json::object();

@@ -1,4 +1,6 @@
-// The plan: for each feature whether it is on, why, and the scene entry that decides it.
+// The plan: for each feature whether it is on, why, and the scene entry that decides it. A phase
+// makes it before its first step from the reduced scene; --plan prints it, the log and result.json
+// keep it.
 #pragma once
 
 #include <string>

@@ -14,7 +14,8 @@ class Series {
     /// Starts empty: frames of an earlier run in the folder are not included.
     explicit Series(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// For a resumed run: includes its frames up to `time` [s].
+    /// For a resumed run: includes its frames before `time` [s], that of the frame which is about
+    /// to be added. Frames of the killed attempt after it stay on the disk, but out of the list.
     static Series going_on(std::filesystem::path folder, const std::string& prefix, double time);
 
     /// Adds a frame, or replaces that of the same name, and publishes phases::files::series. Throws

@@ -78,7 +78,8 @@ class Session {
     nlohmann::json& result() { return result_; }
 
     /// Adds a flag to result.json and the log. The scene's warnings about this phase's parts are
-    /// included from the start; a flag with the same code is replaced.
+    /// included from the start. A flag with the same code and pointer replaces the earlier one: a
+    /// step that judges again must not list its flag twice.
     void flag(fault::Flag flag);
     const std::vector<fault::Flag>& flags() const { return flags_; }
 

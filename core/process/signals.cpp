@@ -1,3 +1,6 @@
+// Called once, by run_phase before it reads anything. Loops look at the flag after each step
+// through Session::stop_requested, save a checkpoint and return. There is no SA_RESTART: an
+// interrupted system call returns EINTR, and publish.cpp goes on writing then.
 #include "core/process/signals.hpp"
 
 #include <csignal>

@@ -1,4 +1,5 @@
-// A panel with its drawing, and its legend. Private to the section's drawing.
+// A panel with its drawing, and its legend. Private to the section's drawing: each feature draws
+// its marks and adds their keys in one go, so that neither is there without the other.
 #pragma once
 
 #include <sstream>

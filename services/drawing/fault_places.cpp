@@ -1,3 +1,6 @@
+// Says where in the section a fault is, from text and pointer alone: the many checks that raise
+// faults know nothing of drawings. A fault whose place cannot be found is only listed below the
+// picture.
 #include "services/drawing/fault_places.hpp"
 
 #include <algorithm>
@@ -19,7 +22,8 @@ using Pointer = json::json_pointer;
 
 namespace {
 
-// Entries of a scene with pairs of numbers that are points, and entries that are abscissae.
+// Entries of a scene with pairs of numbers that are points, and entries that are abscissae. A new
+// entry with coordinates belongs here, or its faults get no mark.
 constexpr std::array<std::string_view, 11> points{"polygon", "corners", "from", "to",
                                                   "crest",   "toe",     "line", "phreatic_line",
                                                   "terrain", "floor",   "given"};
@@ -40,6 +44,7 @@ bool is_pair(const json& value) {
 
 Vec2 point_of(const json& pair) { return {pair.at(0).get<double>(), pair.at(1).get<double>()}; }
 
+/// A vertical face has two levels at one x; without soil there, the mark goes to the lower edge.
 double ground_at(const scene::Section& section, double x) {
     const double aside = 1e-6 * std::max(1.0, std::abs(x));  // offset from a vertical face
     for (const double each : {x + aside, x - aside})
@@ -56,7 +61,7 @@ std::optional<double> number_at(const char* text, const char** end) {
     return after != text && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-/// Places in a text: "(3, -4.5)", else "x = 3", which is on the ground there.
+/// These two forms are what checks write; a point counts before an abscissa.
 std::vector<Trace> told_in(const std::string& text, const scene::Scene& scene) {
     std::vector<Trace> told;
     const char* end = nullptr;
@@ -80,6 +85,7 @@ class Collector {
     /// Collects the places of the entry with this name and of all entries below it.
     void collect(const std::string& name, const json& value) {
         if (value.is_object()) {
+            // Supports and pressure boundaries: one line, not two points.
             if (is_segment(value)) {
                 traces.push_back({point_of(value.at("from")), point_of(value.at("to"))});
                 return;
@@ -140,6 +146,8 @@ std::size_t depth_of(const Pointer& pointer) {
     return static_cast<std::size_t>(std::ranges::count(pointer.to_string(), '/'));
 }
 
+/// From the entry upwards to the first one with a place: a fault of a number inside a region is
+/// shown at the region. Never up to a whole part such as /fem, which would mark everything.
 std::vector<Trace> of_entry(const std::string& text, const json& document,
                             const scene::Scene& scene) {
     for (Pointer pointer(text); depth_of(pointer) >= 2; pointer.pop_back()) {
@@ -180,6 +188,7 @@ std::vector<Trace> places_of(const fault::Fault& fault, const json& document,
     const Pointer pointer(fault.pointer);
     if (fault.pointer.rfind("/materials/", 0) == 0) {
         Pointer material = pointer;
+        // /materials/NAME/...
         while (depth_of(material) > 2) material.pop_back();
         return of_material(material.back(), document, scene);
     }

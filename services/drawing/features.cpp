@@ -47,6 +47,7 @@ void draw_support(Canvas& canvas, const scene::Scene& scene, const scene::Suppor
     const Vec2 probe = canvas.panel.back(0.5 * (a + b) + 6.0 * out);
     if (geometry::in_soil(scene.section, probe)) out = -out;
     std::string signs;
+    // Signs at a constant distance in pixels, so that long sides are not crowded.
     const int count = std::max(1, static_cast<int>(length / 26.0));
     for (int i = 0; i < count; ++i)
         signs += sign_of(support, a + (b - a) * ((i + 0.5) / count), out);
@@ -62,6 +63,8 @@ void draw_free_field(Canvas& canvas, const scene::Scene& scene) {
     const auto column = [&](double edge, double direction) {
         const auto strata = geometry::strata_at(scene.section, edge - direction * 1e-6);
         if (strata.empty()) return;
+        // Columns may be wider than the dam: drawn as wide as they are, they would leave no room
+        // for it.
         const double far = edge + direction * std::min(columns.width, 24.0 / canvas.panel.scale());
         const Line ring{{edge, strata.back().bottom},
                         {far, strata.back().bottom},
@@ -90,6 +93,7 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
     for (const scene::Support& each : fem.supports) {
         draw_support(canvas, scene, each);
         const Held held = held_by(each);
+        // One key for each kind of support.
         if (std::ranges::find(told, held.name) != told.end()) continue;
         told.push_back(held.name);
         canvas.keys.push_back({shape(sign_of(each, {12.0, 1.0}, {0.0, 1.0}),
@@ -98,6 +102,7 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
     }
     if (fem.base) {
         const geometry::Box soil = geometry::extent(scene.section);
+        // The half-space has no lower edge: a line below the soil stands for it.
         const double below = 14.0 / canvas.panel.scale();
         canvas.svg << shape(path_of(canvas.panel, {{soil.low.x(), soil.low.y() - below},
                                                    {soil.high.x(), soil.low.y() - below}}),
@@ -110,6 +115,8 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
     draw_loads(canvas, scene, fem.surcharge, "FEM");
     canvas.keys.push_back({"<path d=\"M12 11l-6 -10h12z\" fill=\"" + std::string(green) + "\"/>\n",
                            "FEM: monitored crest " + place(fem.crest)});
+    // The key stays, with the coordinates: a person sees by them why the crest is not in the
+    // picture.
     if (!canvas.panel.shows(fem.crest)) return;
     const Vec2 crest = canvas.panel.at(fem.crest);
     canvas.over << "<path class=\"crest\" d=\"M" << px(crest.x()) << " " << px(crest.y())
@@ -120,6 +127,7 @@ void draw_supports(Canvas& canvas, const scene::Scene& scene) {
 
 namespace {
 
+/// Points up from below, the crest down from above: both may lie on one vertical line.
 void draw_toe(Canvas& canvas, const Vec2& place) {
     if (!canvas.panel.shows(place)) return;
     const Vec2 toe = canvas.panel.at(place);
@@ -143,6 +151,7 @@ void draw_runout_marks(Canvas& canvas, const scene::Scene& scene) {
     for (const scene::Gauge& each : mpm.gauges) {
         list += (list.empty() ? "" : ", ") + each.name + " (x = " + words::text_of(each.x) + ")";
         const double x = canvas.panel.at({each.x, 0.0}).x();
+        // A gauge beyond the section is in the list, and on the runout's panel if that reaches it.
         if (x < room.left || x > room.right) continue;
         canvas.svg << shape("M" + px(x) + " " + px(room.bottom) + "V" + px(room.top + 18),
                             stroke(green, 1.3, "class=\"gauge\" stroke-dasharray=\"5 3\""));
@@ -165,6 +174,7 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
                                        words::text_of(cells_y) + " cells of " +
                                        words::text_of(mpm.cell_size) + " m",
                                    " stroke-dasharray=\"7 3\""));
+    // A terrain is the ground of the runout then, and the floor's level would only mislead.
     if (!mpm.terrain.empty()) {
         draw_line(canvas, "terrain", across(canvas.panel, mpm.terrain, geometry::straight_level_at),
                   brown);
@@ -182,6 +192,7 @@ void draw_grid(Canvas& canvas, const scene::Scene& scene) {
                                                 : "MPM: friction of the ground " + friction});
 }
 
+/// The motion as it is applied, scaled: the user compares it with the intended earthquake.
 std::optional<std::string> motion_line(const scene::Scene& scene) {
     if (!scene.fem || !scene.fem->motion) return std::nullopt;
     try {

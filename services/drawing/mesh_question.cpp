@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Everything that a mesh depends on: its geometry and sizes, and the mesher.
-/// With the program's time, as another version may mesh differently.
+/// Everything that a mesh depends on: its geometry and sizes, and the mesher with its time, as
+/// another version may mesh differently.
 std::string key_of(const Draft& draft, const fs::path& program) {
     const json completed = json::parse(draft.scene.completed);
     const auto& file = draft.scene.fem->mesh.msh_file;
@@ -48,6 +48,7 @@ constexpr auto longest_meshing = std::chrono::hours(1);
                                              : std::string("fem_solver mesh does not answer")));
 }
 
+/// Two requests for one mesh may make it twice; each moves its own file to the same name.
 void make(const Draft& draft, const Mesher& mesher, const fs::path& file) {
     // Inside the cache, so that the mesh can be moved within one disk.
     const exchange::TemporaryFolder scratch("meshing-", mesher.cache);

@@ -1,5 +1,6 @@
 // Colours for materials. They differ in lightness, so that they can be distinguished in
-// black-and-white print and with colour blindness. Independent of scenes.
+// black-and-white print and with colour blindness. Independent of scenes: a material's colour is
+// its place in the order in which regions name them.
 #pragma once
 
 #include <array>

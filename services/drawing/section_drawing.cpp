@@ -1,3 +1,6 @@
+// One page from top to bottom: title, the section with everything that the scene says of it, the
+// runout's grid if there is one, the legend, motion and cost, then faults and warnings in words.
+// Each draw_ function returns where the next one begins.
 #include "services/drawing/section_drawing.hpp"
 
 #include <algorithm>
@@ -25,6 +28,7 @@ struct MarkedFault {
     std::vector<Trace> places;
 };
 
+/// Numbered in the order of the list below the picture.
 std::vector<MarkedFault> marked(const Draft& draft) {
     std::vector<MarkedFault> marks;
     for (const Fault& each : draft.faults)
@@ -56,7 +60,10 @@ geometry::Box world_of(const scene::Scene& scene, const std::vector<MarkedFault>
     for (const MarkedFault& each : marks)
         for (const Trace& trace : each.places) places.push_back(&trace);
     std::optional<geometry::Box> box = box_around(polygons);
+    // There is a place: can_be_drawn() was asked first.
     if (!box) return box_around(places).value();
+    // A coordinate in the wrong unit must not shrink the section to a dot: its mark is put at the
+    // edge.
     const Vec2 near = Vec2::Constant(0.25 * (box->high - box->low).maxCoeff());
     const geometry::Box limit{box->low - near, box->high + near};
     for (const Trace* trace : places)
@@ -102,6 +109,7 @@ void draw_hatch_patterns(std::ostream& svg) {
            "</defs>\n";
 }
 
+/// A material after the twelfth repeats a colour and gets a hatching on top.
 std::string filled(const std::string& shape, std::size_t colour, const std::string& more) {
     std::string svg = shape + " fill=\"" + fill_of(colour).colour + "\" " + more + "/>\n";
     if (const std::size_t hatch = hatchings_of(colour); hatch > 0)
@@ -109,6 +117,7 @@ std::string filled(const std::string& shape, std::size_t colour, const std::stri
     return svg;
 }
 
+/// outlined: on the runout's panel, where names are in the way.
 enum class Regions { named, outlined };
 
 void draw_regions(Canvas& canvas, const scene::Scene& scene, Regions how) {
@@ -141,6 +150,7 @@ void add_material_keys(Canvas& canvas, const scene::Scene& scene) {
 }
 
 /// Whether the whole label is inside the polygon.
+/// A lattice of 15 places is enough for a text of one line.
 bool holds(const geometry::Polygon& polygon, const Panel& panel, const Room& room) {
     for (const double across : {0.0, 0.25, 0.5, 0.75, 1.0})
         for (const double y : {room.top, 0.5 * (room.top + room.bottom), room.bottom})
@@ -169,6 +179,7 @@ std::vector<Vec2> places_inside(const geometry::Polygon& polygon, const Panel& p
             const Vec2 place = box.low + (box.high - box.low).cwiseProduct(share);
             const double depth = depth_inside(polygon, place);
             if (depth <= 0.0) continue;
+            // Deeper than a label needs is no better: then the middle counts.
             const double enough = std::min(depth * panel.scale(), 24.0);  // px
             const double off = (share - Vec2(0.5, 0.5)).norm();
             places.emplace_back(enough - off, panel.at(place));
@@ -188,6 +199,7 @@ void name_outside(Canvas& canvas, const scene::Scene& scene, const std::string& 
                 if (geometry::in_soil(scene.section, canvas.panel.back({x, y}))) return true;
         return false;
     };
+    // The nearest free place first.
     for (const double away : {26.0, 42.0, 60.0, 80.0, 110.0, 150.0})
         for (const double aside : {0.0, 40.0, -40.0, 90.0, -90.0, 150.0, -150.0})
             for (const double side : {-1.0, 1.0}) {
@@ -225,6 +237,7 @@ void name_regions(Canvas& canvas, const scene::Scene& scene) {
 
 // ---------------------------------------------------------------- mesh, faults
 
+/// Each edge once, as neighbours share theirs: half the size, and no line drawn twice as dark.
 void draw_mesh(Canvas& canvas, const DrawnMesh& mesh) {
     std::vector<std::pair<std::int32_t, std::int32_t>> edges;
     for (const auto& quad : mesh.quads)
@@ -257,6 +270,7 @@ void draw_mark(Canvas& canvas, std::size_t number, const std::string& pointer, c
         canvas.over << "<path d=\"" << path_of(panel, seen) << "\" fill=\"none\" stroke=\"" << red
                     << "\" stroke-width=\"2.5\" stroke-dasharray=\"6 3\"/>\n";
     }
+    // The number stands at the first point that can be shown.
     const Vec2 at = panel.at(seen.front());
     if (const Vec2 out = panel.at(trace.front()) - at; out.norm() > 1.0 && out.allFinite()) {
         const Vec2 end = at + 18.0 * out.normalized();  // the place is farther away
@@ -309,6 +323,7 @@ double draw_keys(std::ostream& svg, const std::vector<Key>& keys, double y) {
             if (i > 0) y += 16;
             svg << line_at(x + 32, y + 10, lines[i]);
         }
+        // A key of several lines has its row for itself.
         x = lines.size() > 1 ? left + text_width : x + 32 + widest + 18;
     }
     svg << "</g>\n";
@@ -330,6 +345,7 @@ struct Remark {
     std::string text;
 };
 
+/// At most twenty, or the list would hide the picture.
 double list_remarks(std::ostream& svg, const std::vector<Remark>& remarks, const std::string& kind,
                     const std::string& colour, double y) {
     if (remarks.empty()) return y;
@@ -354,6 +370,7 @@ std::string attribute(const char* name, const std::string& value) {
     return std::string(" data-") + name + "=\"" + escaped(value) + "\"";
 }
 
+/// The attributes are for the page, which leads from a fault to its entry (live_drawing.js).
 double list_faults(std::ostream& svg, const Draft& draft, const std::vector<Fault>& of_study,
                    double y) {
     std::vector<Remark> remarks;
@@ -395,6 +412,7 @@ Canvas canvas_of(const geometry::Box& world, double top, double most_height) {
     return {panel, Labels({room.left + 2, room.top + 2, room.right - 2, room.bottom - 2})};
 }
 
+/// Drawn from below to above: soil, mesh, water, what acts, names, and faults over all of them.
 Canvas section_of(const Draft& draft, const Additions& additions,
                   const std::vector<MarkedFault>& marks, double top) {
     const scene::Scene& scene = draft.scene;
@@ -420,6 +438,7 @@ Canvas runout_of(const scene::Scene& scene, double top) {
     Canvas canvas = canvas_of(world, top, 280);
     draw_regions(canvas, scene, Regions::outlined);
     draw_grid(canvas, scene);
+    // Kept aside while the marks are drawn, which add keys of their own.
     std::vector<Key> keys = std::move(canvas.keys);
     draw_runout_marks(canvas, scene);
     canvas.keys = std::move(keys);  // toe and gauges are listed beside the section
@@ -428,6 +447,7 @@ Canvas runout_of(const scene::Scene& scene, double top) {
 
 }  // namespace
 
+/// Variants are not drawn: the picture is of what all of them share.
 BaseScene base_scene_of(const json& document) {
     if (!document.is_object() || !document.contains("scene")) return {document, {}, ""};
     if (!document.at("scene").is_object())
@@ -440,6 +460,8 @@ BaseScene base_scene_of(const json& document) {
     return base;
 }
 
+/// The checked scene has the overrides already; the document gets them too, because places of
+/// faults are looked up in it.
 Draft draft_of(BaseScene base, check::Checked checked) {
     for (const std::string& each : base.overrides) scene::apply_override(base.scene, each);
     return {std::move(base), std::move(checked.scene), std::move(checked.faults)};
@@ -479,6 +501,7 @@ std::string as_svg(const Draft& draft, const Additions& additions) {
     y = draw_foot(svg, foot, y);
     y = list_faults(svg, draft, additions.faults, y);
     y = list_warnings(svg, additions.warnings, y);
+    // Last, because the height is known only now.
     const std::string size = px(page_width) + "\" height=\"" + px(y + 20);
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + px(page_width) + " " +
            px(y + 20) + "\" width=\"" + size +

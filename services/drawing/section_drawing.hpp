@@ -1,6 +1,6 @@
 // Draws a scene's cross-section before any run: regions and materials, water, supports, loads, the
-// motion, the search of the LEM, the MPM's grid and terrain, and the places of faults. figures/
-// draws the results of runs.
+// motion, the search of the LEM, the MPM's grid and terrain, and the places of faults. Results of
+// runs are drawn by the report, the Python module and the page.
 #pragma once
 
 #include <array>

@@ -17,6 +17,7 @@ constexpr double page_left = 60, most_width = 960, least_width = 420;
 constexpr double beside = 28, above = 46, below = 24;  // free border [px]
 
 /// Multiples of 1, 2 or 5 times a power of ten from low to high, about `wanted` of them.
+/// +0.0 below turns -0 into 0, which would be written as "-0".
 std::vector<double> ticks(double low, double high, double wanted) {
     const double rough = (high - low) / wanted;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
@@ -38,6 +39,7 @@ Panel::Panel(const geometry::Box& world, double top, double most_height)
     const Vec2 size = (world.high - world.low).cwiseMax(1e-6);
     scale_ =
         std::min((most_width - 2 * beside) / size.x(), (most_height - above - below) / size.y());
+    // A high and narrow section still gets room for its legend and axis.
     width_ = std::max(size.x() * scale_ + 2 * beside, least_width);
     height_ = size.y() * scale_ + above + below;
     const double free = 0.5 * (width_ - size.x() * scale_);
@@ -84,6 +86,7 @@ std::string text_at(double x, double y, const std::string& text, const std::stri
     return svg.str();
 }
 
+/// A tenth of a pixel is invisible, and whole files of them are small.
 std::string px(double value) { return words::text_of(std::round(10.0 * value) / 10.0); }
 
 std::string path_of(const Panel& panel, const std::vector<Vec2>& line) {
@@ -95,6 +98,7 @@ std::string path_of(const Panel& panel, const std::vector<Vec2>& line) {
     return path;
 }
 
+/// One tick per 80 pixels or so, at most ten: the vertical axis is short and gets them closer.
 void draw_axes(std::ostream& svg, const Panel& panel) {
     const Room room = panel.room();
     const geometry::Box world = panel.world();
@@ -121,6 +125,8 @@ void draw_axes(std::ostream& svg, const Panel& panel) {
         << "</g>\n";
 }
 
+/// Estimated: no font is loaded here, and the reader's is not known. In UTF-8, bytes that continue
+/// a letter do not count.
 double Labels::width_of(const std::string& text) {
     const auto begins_letter = [](char c) {
         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;
@@ -158,6 +164,7 @@ bool Labels::beside(std::ostream& svg, const Vec2& point, const std::string& tex
                     const std::string& colour) {
     const double aside = 0.5 * width_of(text) + 8;
     for (const double far : {0.0, 14.0, 28.0}) {
+        // Above first, then to the sides, then below.
         const std::array<Vec2, 6> around_it{Vec2(0, -14 - far),      Vec2(aside, -10 - far),
                                             Vec2(-aside, -10 - far), Vec2(aside, far),
                                             Vec2(-aside, far),       Vec2(0, 16 + far)};

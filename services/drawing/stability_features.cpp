@@ -1,3 +1,5 @@
+// What the stability analysis will do: which soil it lets liquefy in which stage, where its
+// surfaces may begin and end, and what bounds them. Called by section_drawing for scenes with /lem.
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,7 @@ namespace breach::drawing {
 
 namespace {
 
+/// On the ground, raised by its own width: search ranges lie along the border of the soil.
 void draw_range(Canvas& canvas, const scene::Scene& scene, const std::array<double, 2>& range,
                 const std::string& name, const std::string& colour) {
     const double lift = 5.0 / canvas.panel.scale();
@@ -31,9 +34,11 @@ void draw_liquefaction(Canvas& canvas, const scene::Scene& scene) {
         geometry::Polygon part = scene.section.regions[layers[i].region].polygon;
         if (layers[i].levels) {
             const auto [low, high] = *layers[i].levels;
+            // Left of a line to the right is above it.
             part = geometry::clipped_left(part, {0.0, low}, {1.0, low});
             part = geometry::clipped_left(part, {1.0, high}, {0.0, high});
         }
+        // Levels outside of the region leave nothing.
         if (part.empty()) continue;
         canvas.svg << shape(path_of(canvas.panel, part) + "Z",
                             stroke(dark_red, 1.3, "class=\"liquefaction\"" + dash));

@@ -33,6 +33,7 @@ std::string place(const Vec2& at) {
     return "(" + words::text_of(at.x()) + ", " + words::text_of(at.y()) + ")";
 }
 
+/// `level` decides what a line means beyond its ends, level or straight on.
 Line across(const Panel& panel, const Line& line, geometry::Level level) {
     const geometry::Box world = panel.world();
     Line whole{{world.low.x(), level(line, world.low.x())}};

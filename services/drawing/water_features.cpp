@@ -1,3 +1,5 @@
+// All water of a scene, drawn once for each different line with the names of the phases that use
+// it: two lines where one was meant are seen at once.
 #include <algorithm>
 
 #include "core/words/number.hpp"
@@ -11,6 +13,9 @@ namespace {
 bool same(const Line& a, const Line& b) { return a == b; }
 
 /// Draws standing water where a line is above the ground.
+/// Of the LEM's line only; each stretch of ground by itself, as a section may have gaps. The
+/// surface follows the line where that is higher than the ground, else the ground, so the area has
+/// no width there.
 void draw_standing(Canvas& canvas, const scene::Scene& scene, const Line& line) {
     const geometry::Box world = canvas.panel.world();
     for (const Line& ground :
@@ -76,6 +81,7 @@ void draw_water(Canvas& canvas, const scene::Scene& scene) {
         for (const scene::Stage& stage : scene.fem->stages)
             if (stage.phreatic_line) add(*stage.phreatic_line, "FEM, stage " + stage.name);
     if (scene.transfer) add(scene.transfer->phreatic_line, "transfer");
+    // The third and all further lines look alike; the legend names them.
     const std::vector<std::string> dashes{"", " stroke-dasharray=\"9 4\"",
                                           " stroke-dasharray=\"3 3\""};
     for (std::size_t i = 0; i < found.size(); ++i) {

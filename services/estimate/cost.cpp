@@ -127,6 +127,7 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
 }
 
 /// Two significant digits, with thousands separators: "5,500".
+/// Two digits: more would promise what a factor of two in the range denies.
 std::string number(double value) {
     const double size = std::abs(value);
     const double unit = size > 0.0 ? std::pow(10.0, std::floor(std::log10(size)) - 1.0) : 1.0;
@@ -164,6 +165,8 @@ std::string disk_of(const Range& bytes) {
 
 /// How often a study runs the phase: least and most, because shared tasks are computed once.
 Range times_of(const std::string& phase, const Repeats& repeats) {
+    // The server has planned the study: shared and cached tasks are known, nothing is to be
+    // guessed.
     if (!repeats.tasks.empty()) {
         const auto planned = repeats.tasks.find(phase);
         const double count = planned == repeats.tasks.end() ? 0.0 : planned->second;
@@ -177,6 +180,8 @@ Range times_of(const std::string& phase, const Repeats& repeats) {
 struct Sum {
     Range cpu_seconds{0.0, 0.0}, bytes{0.0, 0.0};
 };
+/// A phase that runs many times gets the range of the mean: single runs scatter, their sum less so.
+/// Lows and highs are added: the error of a rate is the same in all runs and does not average out.
 Sum sum_of(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
     Sum sum;
     for (const PhaseCost& each : costs) {
@@ -192,6 +197,7 @@ Sum sum_of(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
     return sum;
 }
 
+/// Of "transfer_times" as the author wrote them, checked or not: anything unreadable counts as one.
 double length_of(const json& times) {
     if (times.is_array()) return static_cast<double>(times.size());
     if (!times.is_object()) return 1.0;
@@ -208,6 +214,8 @@ double length_of(const json& times) {
 
 double Range::middle() const { return std::sqrt(low * high); }
 
+/// The transfer exists only between a FEM and a runout; a scene without a FEM is filled with
+/// points.
 std::vector<PhaseCost> cost_of(const scene::Scene& scene, const std::optional<MeshCounts>& mesh) {
     const MeshCounts meshed = mesh ? *mesh : mesh_of(scene);
     const double points = points_of(scene, meshed.elements);
@@ -224,6 +232,7 @@ std::vector<PhaseCost> cost_of(const scene::Scene& scene, const std::optional<Me
     return costs;
 }
 
+/// Ratios, not times, so that a run of another size of the same scene teaches as well.
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier) {
     for (PhaseCost& cost : costs) {
@@ -251,6 +260,7 @@ void learn(std::vector<PhaseCost>& costs, const std::string& scene,
         };
         cost.mean_cpu_seconds = mean(cost.cpu_seconds, &Earlier::cpu_ratio);
         cost.cpu_seconds = moved(cost.cpu_seconds, &Earlier::cpu_ratio);
+        // A run without stored files still teaches its time.
         const bool sized =
             std::ranges::all_of(used, [](const Earlier* each) { return each->bytes_ratio > 0.0; });
         if (sized) {
@@ -263,6 +273,7 @@ void learn(std::vector<PhaseCost>& costs, const std::string& scene,
     }
 }
 
+/// Reads a document that may still have faults, as the page shows a cost while it is written.
 Repeats repeats_of(const json& document) {
     Repeats repeats;
     if (!document.is_object() || !document.contains("scene")) return repeats;

@@ -1,5 +1,6 @@
 // Estimates the cost of a scene before a run: problem size, CPU seconds and bytes of each phase, as
-// ranges. Uses the scene, its mesh if there is one, and earlier runs if there are any.
+// ranges. Uses the scene, its mesh if there is one, and earlier runs if there are any. Called for
+// previews and by `breach draw`; the dispatcher does not ask it.
 #pragma once
 
 #include <map>
@@ -40,7 +41,8 @@ struct PhaseCost {
 std::vector<PhaseCost> cost_of(const scene::Scene& scene,
                                const std::optional<MeshCounts>& mesh = {});
 
-/// Cost of an earlier run of a phase, relative to cost_of for its own scene.
+/// Cost of an earlier run of a phase, relative to cost_of for its own scene. The service's
+/// EarlierCosts makes them; the CLI, which has no store, does without.
 struct Earlier {
     std::string phase;
     std::string scene;  ///< its name

@@ -1,3 +1,6 @@
+// Counts what phases will mesh, fill and search, from the scene alone: a form that is typed into
+// gets its cost at once, and no program is started. Constants marked as measured are of runs on one
+// machine; counts do not depend on the machine.
 #include "services/estimate/counts.hpp"
 
 #include <algorithm>
@@ -64,6 +67,7 @@ double elements_of(const scene::Region& region) {
     return std::max(1.0, elements);
 }
 
+/// Time scale of a fall, sqrt(H / g) [s]: durations of runouts of very different size agree in it.
 double T_of(const scene::Scene& scene) {
     const scene::Mpm& mpm = *scene.mpm;
     double H = scene::mobile_height(scene, mpm);
@@ -71,6 +75,7 @@ double T_of(const scene::Scene& scene) {
     return std::sqrt(H / (scene.gravity > 0.0 ? scene.gravity : 9.81));
 }
 
+/// As the transfer decides: within the zone's regions, and with layers only their materials.
 bool can_liquefy(const scene::LiquefiedZone& zone, const scene::Soil& soil) {
     const bool is_layer = std::ranges::any_of(zone.layers, [&](const scene::LiquefiedLayer& each) {
         return each.material == soil.material;

@@ -10,7 +10,8 @@
 
 namespace breach::findings {
 
-/// The flags of a list as result.json, the API and the database have it.
+/// The flags of a list as result.json, the API and the database have it. A missing pointer is read
+/// as empty.
 std::vector<fault::Flag> flags_in(const nlohmann::json& list);
 /// Such a list: [{"code", "severity", "message", "pointer"}]
 nlohmann::json as_json(const std::vector<fault::Flag>& flags);
@@ -21,7 +22,8 @@ std::string worded(std::string code);
 /// Whether this quantity of a runout can only grow while soil moves.
 bool grows(std::string_view quantity);
 
-/// Whether soil still moved at the end, so that growing quantities are lower bounds.
+/// Whether soil still moved at the end, so that growing quantities are lower bounds. Views mark
+/// these with "at least"; they never leave them out.
 bool still_moves(const nlohmann::json& at_rest, const nlohmann::json& flags);
 bool still_moves(const nlohmann::json& result);
 

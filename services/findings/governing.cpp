@@ -1,5 +1,5 @@
-// The farthest runout governs, by the mean of its repeats where there are any: a single repeat
-// may be far by chance. Without a runout the least factor of safety does. The first of equal ones
+// The farthest runout governs, by the mean of its repeats where there are any: a single repeat may
+// be far by chance. Without a runout the least factor of safety does. The first of equal ones
 // stays, so that the choice does not depend on later rows.
 #include "services/findings/governing.hpp"
 

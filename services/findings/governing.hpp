@@ -1,4 +1,5 @@
-// Selects the governing result of a run, for headlines, pictures and comparisons.
+// Selects the governing result of a run, for headlines, pictures and comparisons. The store asks it
+// when it gathers a run's facts, so that all views show the same one.
 #pragma once
 
 #include <cstddef>

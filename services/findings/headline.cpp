@@ -23,10 +23,14 @@ namespace {
 
 constexpr int digits = 3;
 
+/// The error is given with two digits, the distance with three. The worst of many samples has no
+/// error of its own, so that its absence is not remarked on.
 Headline of_soil(const Soil& soil) {
     const std::string where =
         soil.worst_of > 1 ? " in the worst of " + std::to_string(soil.worst_of) + " samples" : "";
     if (soil.stood) return {Outcome::stands, "stands" + where};
+    // Short of the toe, "at least" would say the wrong thing: soil that still moves comes nearer to
+    // it.
     const bool bound = soil.lower_bound && soil.farthest > 0.0;
     const std::string error = soil.error ? " \u00b1 " + words::text_of(*soil.error, 2) : "";
     const std::string distance =
@@ -38,6 +42,7 @@ Headline of_soil(const Soil& soil) {
                                 distance + "short of the toe" + unknown + where};
 }
 
+/// Only of runs that analyse stability alone: where a FEM or a runout exists, they decide.
 Headline of_factors(double as_built, const std::optional<double>& liquefied) {
     if (as_built < 1.0) return {Outcome::fails, "fails"};
     if (liquefied && *liquefied < 1.0)
@@ -47,6 +52,8 @@ Headline of_factors(double as_built, const std::optional<double>& liquefied) {
 
 }  // namespace
 
+/// A runout that never passes the toe has 0 beyond it; runout_largest then says how far upstream it
+/// ended (negative).
 std::optional<Soil> soil_of(const json& result) {
     const auto number = [&](const char* key) {
         const json value = result.is_object() ? result.value(key, json()) : json();
@@ -68,6 +75,7 @@ Headline headline_of(const HeadlineFacts& facts) {
     else if (facts.lem_alone && facts.factor_of_safety)
         headline = of_factors(*facts.factor_of_safety, facts.factor_of_safety_liquefied);
     if (!facts.factor_of_safety) return headline;
+    // Factors of safety come after the runout and never change the outcome that it has.
     headline.text += (headline.text.empty() ? "FS " : "; FS ") +
                      words::text_of(*facts.factor_of_safety, digits) + " as built";
     if (facts.factor_of_safety_liquefied)

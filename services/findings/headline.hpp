@@ -1,4 +1,5 @@
-// What happens to the section, in one line: the first thing that every view of a run says.
+// What happens to the section, in one line: the first thing that every view of a run says. From the
+// governing result; whether it can be relied on is the verdict's part.
 #pragma once
 
 #include <cstdint>

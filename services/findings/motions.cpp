@@ -1,3 +1,6 @@
+// For studies with one FEM per earthquake record: which measure of a record goes with liquefaction
+// and runout. http_motions.cpp collects the FEMs for each request. Sentences are made here so that
+// every view says the same.
 #include "services/findings/motions.hpp"
 
 #include <algorithm>
@@ -28,6 +31,8 @@ json correlation(const Values& measure, const Values& result) {
 }
 
 /// Motions with a runout.
+/// A motion without a runout counts for the liquefied depth, not for the rest: its transfer never
+/// came, or has not ended.
 std::vector<Shaken> followed(const std::vector<Shaken>& shaken) {
     std::vector<Shaken> known;
     std::ranges::copy_if(shaken, std::back_inserter(known),
@@ -42,6 +47,7 @@ Values values_of(const std::vector<Shaken>& shaken, const Of& of) {
     return values;
 }
 
+/// 0 is a dam that stood, or soil that stayed short of the toe.
 bool passed(const Shaken& each) { return *each.runout > 0.0; }
 
 struct Probit {
@@ -58,6 +64,7 @@ std::optional<Probit> probit(const Values& logs, const std::vector<bool>& yes) {
         double waa = 0.0, wab = 0.0, wbb = 0.0, ga = 0.0, gb = 0.0;
         for (std::size_t k = 0; k < logs.size(); ++k) {
             const double z = fit.a + fit.b * logs[k];
+            // Keeps the weights finite where a motion is far from the fitted curve.
             const double p = std::clamp(statistics::normal_cdf(z), 1e-12, 1.0 - 1e-12);
             const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::acos(-1.0));
             const double slope = ((yes[k] ? 1.0 : 0.0) - p) * density / (p * (1.0 - p));
@@ -66,10 +73,13 @@ std::optional<Probit> probit(const Values& logs, const std::vector<bool>& yes) {
             waa += weight, wab += weight * logs[k], wbb += weight * logs[k] * logs[k];
         }
         const double determinant = waa * wbb - wab * wab;
+        // All motions have nearly the same value: no slope can be found.
         if (!(determinant > 1e-12 * waa * wbb)) return std::nullopt;
         const double da = (wbb * ga - wab * gb) / determinant;
         const double db = (waa * gb - wab * ga) / determinant;
         fit = {fit.a + da, fit.b + db, wbb / determinant, -wab / determinant, waa / determinant};
+        // The slope grows without end when a value separates the motions; 40 standard deviations
+        // over the range are that case.
         if (std::abs(fit.b) * (most - least) > 40.0) return std::nullopt;
         if (std::abs(da) + std::abs(db) < 1e-9) return fit;
     }
@@ -77,6 +87,7 @@ std::optional<Probit> probit(const Values& logs, const std::vector<bool>& yes) {
 }
 
 /// median: half of the motions send soil past the toe; beta: standard deviation of ln x.
+/// "refused" with the reason instead of a curve that the data do not support.
 json fragility(const Values& measure, const std::vector<Shaken>& known) {
     const auto of = static_cast<std::size_t>(std::ranges::count_if(known, passed));
     const auto refused = [&](const char* why) { return json{{"refused", why}}; };
@@ -98,6 +109,7 @@ json fragility(const Values& measure, const std::vector<Shaken>& known) {
     const double variance =
         (fit->aa + 2.0 * median * fit->ab + median * median * fit->bb) / (fit->b * fit->b);
     const double half = statistics::normal_quantile_of_95 * std::sqrt(std::max(variance, 0.0));
+    // beta = 1 / b, because P = Phi((ln x - ln median) / beta).
     return {{"median", std::exp(median)},
             {"low", std::exp(median - half)},
             {"high", std::exp(median + half)},
@@ -111,6 +123,8 @@ json onset_of(std::vector<Shaken> known) {
     if (wrong == 0 || wrong == std::ssize(known)) return nullptr;
     json best;
     for (std::size_t k = 0; k + 1 < known.size(); ++k) {
+        // At the start, the depth is above no motion: every motion that did not pass is wrong. Each
+        // step moves one motion to the other side.
         wrong += passed(known[k]) ? 1 : -1;  // now below the depth
         const double low = known[k].liquefaction_depth, high = known[k + 1].liquefaction_depth;
         if (low == high || (!best.is_null() && wrong >= best.at("wrong"))) continue;
@@ -151,6 +165,7 @@ std::string interval(const json& found) {
            three_digits_of(found.at("high")) + ")";
 }
 
+/// -1 sorts a measure without a correlation behind all others.
 double strength(const json& measure, const char* with) {
     return measure.at(with).is_null() ? -1.0 : std::abs(measure.at(with).at("value").get<double>());
 }
@@ -160,6 +175,7 @@ std::string best_two(const json& measures, const char* with, const std::string& 
     std::vector<json> sorted = measures;
     std::ranges::stable_sort(sorted, std::greater(),
                              [&](const json& each) { return strength(each, with); });
+    // The sentence names two; a single correlation is no comparison.
     if (strength(sorted[1], with) < 0.0) return "";
     const auto named = [&](const json& each) {
         return each.at("title").get<std::string>() + ", " + interval(each.at(with));
@@ -233,6 +249,7 @@ json motions_of(const std::vector<Shaken>& shaken) {
         }
         found["measures"].push_back(entry);
     }
+    // By liquefaction, not by runout: every motion has a depth, only some have a runout.
     const auto best = std::ranges::max_element(
         found["measures"], {}, [](const json& each) { return strength(each, "with_depth"); });
     if (strength(*best, "with_depth") >= 0.0) found["best"] = best->at("name");

@@ -1,5 +1,6 @@
 // Findings of a study of several motions: the measure that correlates best with liquefaction and
 // runout, the least liquefied depth with soil past the toe, and its probability for a given motion.
+// All are of the motions that were chosen, not of the site's hazard.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -9,7 +10,7 @@
 
 namespace breach::findings {
 
-/// A FEM and its results.
+/// A FEM and its results; without a runout it counts for the liquefied depth only.
 struct Shaken {
     std::string variant;
     std::vector<double> measures;  ///< of the input, in the order of motion::named_measures

@@ -1,5 +1,6 @@
 // Sentences and cautions from the document of uncertainty/answer.cpp, which calls it. Words are
-// made on the server, so that page, CLI and report say the same.
+// made on the server, so that page, CLI and report say the same. Sentences say what was found;
+// cautions say why a number may be wrong and what to do about it.
 #include "services/findings/uncertainty.hpp"
 
 #include <algorithm>
@@ -39,6 +40,7 @@ std::string counts_in_words(const json& samples) {
     return words;
 }
 
+/// Nothing where percentiles are refused, or where this one has too few samples.
 const json* percentile_in(const json& statistics, double p) {
     const json& list = statistics.at("percentiles");
     if (!list.is_array()) return nullptr;
@@ -47,6 +49,7 @@ const json* percentile_in(const json& statistics, double p) {
     return nullptr;
 }
 
+/// Only percentiles at or above the least lower bound are lower bounds themselves.
 std::string interval_in_words(const json& found, const json& statistics) {
     const json& bound = statistics.at("bound_from");
     const bool at_least = bound.is_number() && found.at("value") >= bound;
@@ -68,6 +71,8 @@ std::string percentiles_in_words(const std::string& quantity, const json& statis
     return words + rests;
 }
 
+/// Names one parameter, and only when its interval excludes 0: with few samples the largest of many
+/// estimates is often noise.
 std::string importance_in_words(const json& statistics) {
     const json* first = nullptr;
     for (const json& each : statistics.at("importance"))
@@ -117,6 +122,7 @@ std::string probability_in_words(const json& stability, const std::string& when)
            counted(stability.at("count"), "sample") + ".";
 }
 
+/// Whether failed samples would run far is not known, so the caution says which way the error goes.
 std::string failed_caution(const json& samples) {
     if (samples.at("failed") == 0) return "";
     return counted(samples.at("failed"), "sample") + " of " + samples.at("planned").dump() +
@@ -133,6 +139,7 @@ std::string standing_caution(const json& samples) {
            "number here is of the samples with a transfer.";
 }
 
+/// one_value: an inverse study, which has no percentiles.
 std::string moving_caution(const json& samples, bool one_value) {
     if (samples.at("moving") == 0) return "";
     std::string text =
@@ -165,6 +172,8 @@ std::string few_caution(const json& answer) {
            " have a result.";
 }
 
+/// Bounds of a parameter cut its distribution: a result that needs a value beyond them has no
+/// probability here.
 std::string cut_caution(const json& parameters) {
     std::string cut;
     for (const json& each : parameters)
@@ -197,6 +206,7 @@ std::string open_caution(const json& samples) {
 
 std::vector<std::string> sentences_of(const json& answer) {
     std::vector<std::string> sentences{counts_in_words(answer.at("samples"))};
+    // An inverse study's values are chosen by the search: statistics over them would mean nothing.
     if (answer.at("inverse").is_object()) {
         sentences.push_back(inverse_in_words(answer.at("inverse")));
         return sentences;
@@ -249,6 +259,7 @@ std::vector<std::string> cautions_of(const json& answer) {
                                   cut_caution(answer.at("parameters")),
                                   until_caution(answer.at("until")),
                                   open_caution(samples)};
+    // The order of cautions is that of their weight: missing samples first, what will change last.
     std::erase(said, "");
     return said;
 }

@@ -39,6 +39,7 @@ bool is_over(const std::string& state) {
 }
 
 /// Flags in words, for lines that count them.
+// Each follows a count and its results: "3 of 8 runouts still moving: lower bounds".
 constexpr std::array<std::pair<const char*, const char*>, 8> briefs{{
     {"still_moving", "still moving: lower bounds"},
     {"numerical_share", "with much energy made or lost by the numerics"},
@@ -62,6 +63,7 @@ std::string results_of(const std::string& phase) {
 }
 
 /// "12 of 51 runouts", "the FEM".
+/// A single analysis has an article ("the FEM"), never "1 of 1".
 std::string whose(const std::string& phase, std::int64_t count, std::int64_t all) {
     const phases::Phase* known = phases::named(phase);
     if (all == 1) return known ? known->one : phase;
@@ -87,6 +89,7 @@ void add_flags(std::vector<Raised> raised, std::vector<Reason>& reasons) {
     const auto place = [](const Raised& each) {
         return std::ranges::find(phases::all, each.phase, &phases::Phase::program);
     };
+    // In the order of the chain, so that the phase where a fault begins comes first.
     std::ranges::stable_sort(raised, {}, place);
     std::vector<bool> told(raised.size(), false);
     for (std::size_t i = 0; i < raised.size(); ++i) {
@@ -101,6 +104,7 @@ void add_flags(std::vector<Raised> raised, std::vector<Reason>& reasons) {
             if (!same) continue;
             told[k] = true;
             of += (of.empty() ? "" : ", ") + whose(other.phase, other.results, other.of_results);
+            // The phase with most of such results gives the short line its numbers.
             if (other.results > most->results) most = &other;
         }
         std::string text =
@@ -131,6 +135,8 @@ void add_submitted(const Facts& facts, std::vector<Reason>& reasons) {
     }
 }
 
+/// Unusable only where every analysis fails: of several variants, one that does not stand may be
+/// what the study is about.
 Reason reason_of(const Unstable& unstable) {
     const bool all = unstable.analyses == unstable.of_analyses;
     const std::string of = unstable.of_analyses == 1 ? ""
@@ -150,6 +156,8 @@ Reason reason_of(const Unstable& unstable) {
         unstable.analyses};
 }
 
+/// An early transfer leaves soil unliquefied that would have flowed: the runout errs on the unsafe
+/// side.
 Reason reason_of(const Early& early) {
     const bool all = early.transfers == early.of_transfers;
     const std::string of = whose(phases::transfer.program, early.transfers, early.of_transfers);
@@ -193,6 +201,7 @@ void add_without_transfer(const Facts& facts, std::vector<Reason>& reasons) {
     }
 }
 
+/// The same gap is weighed by the run's state: a run that goes on may still fill it.
 void add_broken(const Facts& facts, std::vector<Reason>& reasons) {
     const Usable worth = is_over(facts.state) ? Usable::in_part : Usable::not_finished;
     for (const Broken& each : facts.broken)
@@ -205,6 +214,7 @@ void add_broken(const Facts& facts, std::vector<Reason>& reasons) {
                            each.results});
 }
 
+/// A remark only: the numbers are right, but a reader would expect the entries to matter.
 void add_same_results(const std::vector<std::vector<std::string>>& groups,
                       std::vector<Reason>& reasons) {
     for (const auto& group : groups) {
@@ -246,6 +256,7 @@ Verdict verdict_of(const Facts& facts) {
     if (!is_over(facts.state))
         reasons.push_back({Usable::not_finished, "not_finished", "",
                            "The run is " + facts.state + ": this is not all of it."});
+    // The order of these calls is of no account: reasons are sorted below.
     if (facts.unstable) reasons.push_back(reason_of(*facts.unstable));
     add_without_transfer(facts, reasons);
     if (facts.early) reasons.push_back(reason_of(*facts.early));
@@ -253,6 +264,7 @@ Verdict verdict_of(const Facts& facts) {
     add_flags(facts.raised, reasons);
     add_submitted(facts, reasons);
     add_same_results(facts.same_results, reasons);
+    // By code within one weight, so that two calls list the same order.
     std::ranges::stable_sort(reasons, [](const Reason& a, const Reason& b) {
         return a.usable != b.usable ? a.usable > b.usable : a.code < b.code;
     });
@@ -263,6 +275,7 @@ Verdict verdict_of(const Facts& facts) {
 std::string line_of(const Verdict& verdict) {
     std::string line;
     for (const Reason& each : verdict.reasons)
+        // Remarks leave a run usable, so they are no reason for this line.
         if (each.usable > Usable::with_remarks && !each.brief.empty())
             line += (line.empty() ? "" : "; ") + each.brief;
     return line;

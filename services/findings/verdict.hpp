@@ -1,5 +1,5 @@
-// Judges whether the results of a run can be used, with reasons in sentences, the worst first.
-// Store and report collect the facts.
+// Judges whether the results of a run can be used, with reasons in sentences, the worst first. The
+// store collects the facts (store/run_facts.cpp), also for folders of phases that were run by hand.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,8 @@ struct Facts {
     std::vector<std::vector<std::string>> same_results = {};  ///< groups of variants
 };
 
-/// From the best to the worst.
+/// From the best to the worst; a verdict is the worst that any of its reasons allows. not_finished
+/// and in_part may still improve: the run goes on, or a retry repeats its failed tasks.
 enum class Usable { yes, with_remarks, not_known, not_finished, in_part, questionable, no };
 /// "yes", "with_remarks", ...
 const char* name_of(Usable usable);

@@ -1,4 +1,6 @@
-// breachline serve | check | token | findings | conditions | inputs | supervise
+// breachline serve | check | token | findings | conditions | inputs | supervise.
+// serve is the service; supervise is started by it, once per attempt. check and token work on files
+// and need no service. The report's program asks findings, conditions and inputs of a folder.
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -18,6 +20,8 @@ using namespace breach::orchestrator;
 
 namespace {
 
+/// Wrong options (2) are a person's to correct; of a question's input (65) the report shows the
+/// text to its user.
 int guarded(const std::function<int()>& work, ExitCode of_bad_input = ExitCode::usage) {
     spdlog::set_default_logger(spdlog::stderr_color_mt("breachline"));
     spdlog::set_pattern("%H:%M:%S %n %l: %v");
@@ -38,6 +42,7 @@ int main(int argc, char** argv) {
     CLI::App app("Runs studies: FEM, transfers, MPM, and what connects them", "breachline");
     app.set_version_flag("--version", std::string("breachline ") + breach::version());
     app.require_subcommand(1);
+    // An option that is given twice: the last one counts.
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     ServeOptions options(std::filesystem::canonical("/proc/self/exe"));
     CLI::App* serving = options.add_to(app);
@@ -74,6 +79,7 @@ int main(int argc, char** argv) {
             },
             ExitCode::bad_input);
     }
+    // No guard: a supervisor has its own log and exit record, which the service reads.
     if (ending) {
         end_strays(attempt);
         return 0;

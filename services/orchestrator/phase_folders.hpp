@@ -1,4 +1,5 @@
 // Finds the outputs of phases that were run by hand, for runs that no service knows.
+// report_questions.cpp alone uses it.
 #pragma once
 
 #include <filesystem>
@@ -17,9 +18,10 @@ struct PhaseFolder {
     std::string fault;      ///< why there is none
 };
 
-/// A folder is a phase when it holds a completed scene and its name begins with lem, fem, transfer or
-/// mpm, or its result names the phase. Looks in the folder and three levels below; parents first.
-/// Throws IoError if the folder cannot be read, BadInput if it has no phase or two of one name.
+/// A folder is a phase when it holds a completed scene and its name begins with lem, fem, transfer
+/// or mpm, or its result names the phase. Looks in the folder and three levels below; parents
+/// first. Throws IoError if the folder cannot be read, BadInput if it has no phase or two of one
+/// name.
 std::vector<PhaseFolder> phases_in(const std::filesystem::path& folder);
 
 /// Null: there is no such file. Throws BadInput for a file that is not JSON.

@@ -1,3 +1,6 @@
+// The program `report` is in Python and must say what the service would say. So it asks the
+// service's own code: a run that no service knows is stored in a temporary database, and every
+// sentence, verdict and error comes from there as for any other run.
 #include "services/orchestrator/report_questions.hpp"
 
 #include <algorithm>
@@ -26,7 +29,8 @@ namespace {
 
 // ---------------------------------------------------------------- findings
 
-/// As its service would have stored it: the study beside the phases, or the scene of the first alone.
+/// As its service would have stored it: the study beside the phases, or the scene of the first
+/// alone.
 NewRun run_of(const fs::path& folder, const std::vector<PhaseFolder>& phases) {
     const json study = read_if_there(folder / "study.json");
     const json own = study.is_object() ? study.value("scene", json()) : json();
@@ -43,6 +47,7 @@ NewRun run_of(const fs::path& folder, const std::vector<PhaseFolder>& phases) {
     return run;
 }
 
+/// Moves each task through the states that a service would: claimed, then ended.
 void store_results(Transaction& transaction, const NewRun& run,
                    const std::vector<PhaseFolder>& phases) {
     transaction.add_run(run);
@@ -66,10 +71,12 @@ json findings_in(const fs::path& folder) {
     Store store(data.database());
     const NewRun stored = run_of(folder, phases);
     store.write([&](Transaction& transaction) { store_results(transaction, stored, phases); });
+    // Empty: nothing runs here.
     const ProgressBoard board;
     Run run = unless_removed(store.run(stored.id));
     std::vector<ResultRow> rows = store.results(run.id), means = store.means(run.id);
     const AllRows all_rows = [&]() -> const std::vector<ResultRow>& { return rows; };
+    // As http_runs.cpp does for a request: errors are computed when asked, not stored.
     tell_runout_errors(store, data, run.id, rows, means, all_rows);
     tell_governing_error(store, data, run);
     json answer{{"run", as_json(run, store, board)},
@@ -91,7 +98,7 @@ criteria::Expression condition(const json& text) {
     return criteria::parse(text.get<std::string>(), criteria::Kind::condition, "/conditions");
 }
 
-/// When the condition is first true [s]; null: never.
+/// The evaluation keeps samples for its windows, so the lines must go through it in their order.
 json first_time(const criteria::Expression& condition, const std::vector<telemetry::Line>& lines,
                 const std::map<std::string, double>& constants) {
     criteria::Evaluation evaluation(condition);
@@ -111,11 +118,14 @@ json edges_of(const json& spec, const std::vector<telemetry::Line>& lines,
         return line ? json(line->time) : json();
     };
     const bool developed = window.lower().state() == criteria::Criterion::State::met;
+    // A lower edge counts only when its condition also held for hold_s.
     return {{"lower", developed ? time_of(window.lower().crossing()) : json()},
             {"upper", time_of(window.shut_since() ? window.shut_since() : window.upper_edge())}};
 }
 
 /// {"field", "value"} for every comparison of a field with a number.
+/// For the lines that the report draws into its charts: `field < number` and `number < field`. Time
+/// is the axis itself and gets none.
 json thresholds_in(const criteria::Expression& condition) {
     using Code = criteria::Instruction::Code;
     json found = json::array();
@@ -124,6 +134,7 @@ json thresholds_in(const criteria::Expression& condition) {
         const Code what = steps[k + 2].code;
         if (what < Code::less || what > Code::greater_equal) continue;
         std::size_t field = k, number = k + 1;
+        // The program is in reverse Polish order: two operands, then the comparison.
         if (steps[field].code != Code::field) std::swap(field, number);
         if (steps[field].code != Code::field || steps[number].code != Code::constant) continue;
         if (const std::string& name = condition.fields[steps[field].index]; name != "time")
@@ -132,8 +143,8 @@ json thresholds_in(const criteria::Expression& condition) {
     return found;
 }
 
-/// asked: {"constants": {name: number}, "first": [condition], "window": {"lower", "upper", "hold_s"},
-/// "thresholds": [condition]}, each optional.
+/// asked: {"constants": {name: number}, "first": [condition], "window": {"lower", "upper",
+/// "hold_s"}, "thresholds": [condition]}, each optional.
 json conditions_over(const fs::path& file, const json& asked) {
     const auto lines = telemetry::read(file);
     const std::map<std::string, double> constants = asked.value("constants", json::object());
@@ -161,6 +172,7 @@ json inputs_of(const fs::path& folder, const json& asked) {
                            {"default", each.is_default}});
     drawing::BaseScene base{asked.at("scene"), {}, ""};
     check::Checked checked = check::checked_document(base.scene, "scene", folder, {});
+    // A drawing lists the faults of its scene.
     checked.faults.clear();
     const drawing::Draft draft = drawing::draft_of(std::move(base), std::move(checked));
     return {{"entries", std::move(entries)},
@@ -191,6 +203,7 @@ void ReportQuestions::answer() const {
                  : *conditions_ ? conditions_over(place_, json::parse(std::cin))
                                 : inputs_of(place_, json::parse(std::cin));
     } catch (const json::exception& error) {
+        // Files of another version may lack keys that are read here.
         throw fault::BadInput(place_.string(),
                               {{"", error.what(), "run its phases again with this version"}});
     }

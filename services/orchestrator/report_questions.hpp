@@ -1,5 +1,5 @@
-// breachline findings | conditions | inputs: what the program `report` asks of a run, so that it judges
-// nothing itself. Each prints one JSON document.
+// breachline findings | conditions | inputs: what the program `report` asks of a run, so that it
+// judges nothing itself. Each prints one JSON document.
 #pragma once
 
 #include <CLI/CLI.hpp>

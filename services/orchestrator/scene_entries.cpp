@@ -1,3 +1,6 @@
+// A completed scene has every default written into it. To show a reader what the author chose, each
+// entry is compared with the schema's default; what is derived from other entries counts as a
+// default too.
 #include "services/orchestrator/scene_entries.hpp"
 
 #include <algorithm>
@@ -20,6 +23,7 @@ const json& resolved(const json& schema) {
     return scene::scene_schema().at(json::json_pointer(to.substr(1)));
 }
 
+/// By "type" where the alternatives have one, else by the JSON type; the first that fits counts.
 bool is_meant(const json& value, const json& alternative) {
     const json& type = alternative.value("/properties/type/const"_json_pointer, json());
     if (!type.is_null()) return value.is_object() && value.value("type", json()) == type;
@@ -49,6 +53,7 @@ class Lister {
 
     void visit(const json& value, const json& property, const std::string& pointer) {
         const json& schema = schema_for(value, property);
+        // A list of numbers, such as a polygon, is one entry: its members mean nothing alone.
         if (value.is_object() && !value.empty()) {
             for (const auto& [key, member] : value.items())
                 visit(member, schema_of_member(schema, key), pointer + "/" + key);
@@ -58,6 +63,7 @@ class Lister {
                 visit(value[i], items, pointer + "/" + std::to_string(i));
         } else {
             const std::string unit = schema.value("unit", "");
+            // The default stands beside the oneOf, not in its alternatives.
             const json& written = resolved(property);
             const bool is_default = written.contains("default") && written.at("default") == value;
             found.push_back(
@@ -85,7 +91,8 @@ class Lister {
     const std::vector<std::string>& set_;
 };
 
-/// Whether the completed scene derives this entry from a sand's relative density.
+/// D_R and G_0 are given by the author; the other parameters of PM4Sand follow from them unless
+/// given. Found by completing the law again without the entry.
 bool follows_from_density(const json& scene, const std::string& pointer) {
     const std::size_t law = pointer.find("/law/");
     if (!pointer.starts_with("/materials/") || law == std::string::npos) return false;

@@ -1,3 +1,6 @@
+// The order of construction is the order of dependence, and the reverse one that of the end: the
+// HTTP server goes first, the store last. Phases are asked for their numerics before the data
+// folder is touched, so that a wrong --bin leaves nothing behind.
 #include "services/orchestrator/serve.hpp"
 
 #include <pthread.h>
@@ -31,6 +34,8 @@ std::unique_ptr<Executor> executor_of(const ServeSettings& settings) {
     return std::make_unique<LocalExecutor>(settings.self);
 }
 
+/// On stdout for programs that start the service (with --port 0 they need the port), in the log for
+/// people.
 void announce(const ServeSettings& settings, int port) {
     const std::string url = "http://" + settings.http.host + ":" + std::to_string(port);
     std::cout << nlohmann::json{{"event", "listening"}, {"url", url}, {"port", port}}.dump()
@@ -44,6 +49,7 @@ void announce(const ServeSettings& settings, int port) {
 
 int serve(const ServeSettings& settings) {
     const sigset_t stop_signals = blocked_stop_signals();
+    // A client that leaves during an answer must not end the service.
     std::signal(SIGPIPE, SIG_IGN);
 
     const Numerics numerics = numerics_of_phases(settings.dispatch.bin);
@@ -74,9 +80,11 @@ int serve(const ServeSettings& settings) {
                     settings.allowed_folders};
     HttpServer server(service, settings.http);
 
+    // The dispatcher has a thread of its own; this one only waits for the signal.
     std::jthread answering([&] { server.serve(); });
     announce(settings, server.port());
     int signal = 0;
+    // Not a handler: after sigwait any code may run, as on any other thread.
     sigwait(&stop_signals, &signal);
     spdlog::info(executor->at_stop() == AtStop::ends_them
                      ? "stopping: running phases save their checkpoints"

@@ -1,4 +1,5 @@
-// `breachline serve`: assembles the service and runs until SIGINT or SIGTERM.
+// `breachline serve`: assembles the service and runs until SIGINT or SIGTERM. The only place that
+// knows all of its parts.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +11,7 @@
 
 namespace breach::orchestrator {
 
-/// Where phases run.
+/// local: on this machine, ended when the service stops; slurm: as jobs, which go on without it.
 enum class Place { local, slurm };
 
 struct ServeSettings {

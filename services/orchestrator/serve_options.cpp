@@ -1,3 +1,6 @@
+// One description of each option for command line, settings file and --help; docs/reference/cli.md
+// is written from it. Checks that need only the text are here; what needs the disk or a program is
+// found at the start of serve().
 #include "services/orchestrator/serve_options.hpp"
 
 #include <charconv>
@@ -12,6 +15,7 @@ namespace breach::orchestrator {
 
 namespace {
 
+/// Shorter ones could be guessed: requests are not slowed down after a wrong token.
 std::string token_in(const std::filesystem::path& file) {
     std::ifstream stream(file);
     std::string token;
@@ -49,6 +53,7 @@ std::pair<std::string, std::size_t> limit_in(const std::string& text) {
 ServeOptions::ServeOptions(const std::filesystem::path& self) {
     settings_.self = self;
     settings_.dispatch.bin = self.parent_path();
+    // hardware_concurrency() may be 0: unknown.
     settings_.dispatch.slots = std::max(1U, std::thread::hardware_concurrency());
     settings_.web = shared_folder(self, "web", BREACH_WEB);
     settings_.workflows = shared_folder(self, "studies/..", BREACH_WORKFLOWS);
@@ -76,6 +81,8 @@ CLI::App* ServeOptions::add_to(CLI::App& program) {
     return serving;
 }
 
+/// CLI11 names the key but not its line. The line is found by reading the file again: the first
+/// that begins with the key.
 std::string ServeOptions::explained(const CLI::ConfigError& error, const CLI::App& program,
                                     const CLI::App& serving) {
     const std::string said = error.what();
@@ -211,6 +218,8 @@ ServeSettings ServeOptions::settings() const {
         std::chrono::milliseconds(static_cast<int>(1000 * retry_seconds_));
     for (const std::string& each : limits_) wanted.dispatch.limits.insert(limit_in(each));
     if (!token_file_.empty()) wanted.http.token = token_in(token_file_);
+    // With tokens, several people use the service: a scene of one must not read any file that the
+    // service can read. Nothing in allowed_folders means everywhere.
     const bool tokens = !wanted.http.token.empty() || !wanted.http.tokens.empty();
     if (tokens || !allowed_folders_.empty()) wanted.allowed_folders = allowed();
     return wanted;

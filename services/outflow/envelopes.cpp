@@ -79,6 +79,8 @@ double value_at(const std::vector<double>& x, const std::vector<double>& values,
     return a + (b - a) * (at - x[right - 1]) / (x[right] - x[right - 1]);
 }
 
+/// Not core/statistics' percentile, which refuses few samples and gives intervals: a band has no
+/// room for either.
 double percentile(const std::vector<double>& ascending, double share) {
     const double place = share * static_cast<double>(ascending.size() - 1);
     const auto below = static_cast<std::size_t>(place);
@@ -88,6 +90,7 @@ double percentile(const std::vector<double>& ascending, double share) {
     return std::isfinite(value) ? value : unknown;
 }
 
+/// A finer grid would show steps of the coarser ones as if they were results.
 const std::vector<double>& coarsest_x(std::span<const Envelope> samples) {
     const auto spacing = [](const Envelope& each) {
         return (each.x.back() - each.x.front()) / static_cast<double>(each.x.size() - 1);
@@ -138,6 +141,7 @@ Ensemble ensemble_of(std::span<const Envelope> samples) {
     for_each_quantity(samples.front(), [&](const char* name, const char* unit, const auto&) {
         ensemble.bands.push_back({name, unit, {}, {}, {}, {}});
     });
+    // The same vector for all places: one value per sample, sorted anew for each quantity.
     std::vector<double> drawn(samples.size());
     for (std::size_t k = 0; k < ensemble.x.size(); ++k) {
         for (std::size_t b = 0; b < ensemble.bands.size(); ++b) {
@@ -156,6 +160,8 @@ Ensemble ensemble_of(std::span<const Envelope> samples) {
             band.p50.push_back(percentile(drawn, 0.5));
             band.p90.push_back(percentile(drawn, 0.9));
             band.rests_on.push_back(finite);
+            // Depths are finite everywhere, also where nothing came; only an arrival says that it
+            // did.
             if (band.quantity == "arrival") ensemble.reached[k] = finite;
         }
     }

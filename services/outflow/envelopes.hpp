@@ -1,4 +1,5 @@
-// Reads the envelopes of runouts (envelope.csv), and combines them over an ensemble.
+// Reads the envelopes of runouts (envelope.csv, one line per column of the grid), and combines them
+// over an ensemble. Called for each request: a study's bands change with every sample.
 #pragma once
 
 #include <filesystem>
@@ -34,7 +35,7 @@ void for_each_quantity(AnyEnvelope& envelope, Visit&& visit) {
 Envelope read_envelope(const std::filesystem::path& file);
 
 /// One quantity over the samples; NaN where so few samples were reached that the percentile falls
-/// among the others.
+/// among the others. Percentiles are at each x by itself: a band is no runout that could happen.
 struct Band {
     std::string quantity;
     std::string unit;

@@ -55,6 +55,7 @@ double between(const std::vector<double>& time, const std::vector<double>& value
     return values[right - 1] + share * (values[right] - values[right - 1]);
 }
 
+/// Time since the start, not a time of day: hours go on beyond 24.
 std::string clock_of(double seconds) {
     const auto whole = static_cast<std::int64_t>(std::llround(seconds));
     char text[64];
@@ -110,6 +111,7 @@ Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interv
                      .peak_before = width * std::ranges::max(hydrograph.discharge),
                      .peak_after = 0.0};
     double before = 0.0;
+    // The last interval ends after the runout, so that the flows carry all of its volume.
     const auto count = static_cast<std::int64_t>(std::ceil(whole + 0.5)) + 1;
     for (std::int64_t k = 0; k < count; ++k) {
         const double at = hydrograph.time.front() + (static_cast<double>(k) + 0.5) * interval;

@@ -1,5 +1,6 @@
 // Writes hydrographs in the formats of other programs: CSV, HEC-RAS's flow hydrograph, FLO-2D's
-// INFLOW.DAT. Sources and tests: docs/how-to/hydrographs.md.
+// INFLOW.DAT. Called by http_outflow.cpp alone; clients save its answer as it is. Sources and
+// tests: docs/how-to/hydrographs.md.
 #pragma once
 
 #include <optional>

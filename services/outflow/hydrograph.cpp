@@ -1,3 +1,6 @@
+// A runout's history has one column per section and quantity, "section.toe.discharge".
+// http_outflow.cpp reads it when a user exports; the file is the MPM's, and only ended runouts have
+// it.
 #include "services/outflow/hydrograph.hpp"
 
 #include <nlohmann/json.hpp>
@@ -10,6 +13,7 @@ namespace breach::outflow {
 namespace {
 
 constexpr std::string_view prefix = "section.";
+// A name may contain points, so it is cut off from both ends.
 constexpr std::string_view last_column = ".discharge";
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -49,6 +53,7 @@ Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& se
     return found;
 }
 
+/// The version that mpm_solver/results.cpp writes.
 exchange::Archive history_of(const std::filesystem::path& output) {
     return exchange::read_archive(output / phases::files::history, "mpm_history", 1);
 }
@@ -56,6 +61,7 @@ exchange::Archive history_of(const std::filesystem::path& output) {
 BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
                               const std::string& pointer) {
     const auto sound = [](const nlohmann::json& each) {
+        // Above 5 km: more likely a slip than a breach.
         return each.is_number() && each.get<double>() > 0.0 && each.get<double>() <= 5e3;
     };
     if (sound(entry)) return {entry, entry, entry};

@@ -1,3 +1,10 @@
+// From an outline to a whole scene, the same for all templates. A template decides shapes and
+// water; here every soil gets a material, every layer below the water a residual strength, and
+// every phase its part. What was not given by the user is a note "assumed" in the scene, because
+// the author must find it again.
+//
+// Two kinds of scene: at rest, with the layers liquefied from the start (LEM and runout), or
+// shaken, where the FEM finds what liquefies (with_fem).
 #include "services/templates/assembly.hpp"
 
 #include <algorithm>
@@ -33,7 +40,6 @@ const Soil rockfill{"rockfill", 2100, 0.4, 1e-3, 0.75, 890, 0.63, 0, 42, 0, 42, 
 
 // ---------------------------------------------------------------- the section
 
-/// "tailings_2", "tailings_2_2" for its second piece, "tailings" above the line.
 std::string name_of(const std::string& whole, int layer, int piece) {
     const std::string number = layer > 0 ? "_" + std::to_string(layer) : "";
     return whole + (piece > 0 && layer == 0 ? "_0" : number) +
@@ -46,6 +52,8 @@ double base_of(const Values& values) {
            values["foundation_depth"];
 }
 
+/// share_vertices() makes neighbours meet in common vertices, as the mesh needs; stresses come
+/// last, because they are means over the finished layers.
 std::vector<Region> regions_of(const Values& values, const Outline& outline, const Soil& wet) {
     std::vector<Part> parts;
     std::vector<int> layers;
@@ -53,8 +61,11 @@ std::vector<Region> regions_of(const Values& values, const Outline& outline, con
         const double right = values["foundation_extent"];
         const Terrain terrain(values);
         // From right to left, at this depth below the ground.
+        // A line parallel to the ground, from right to left: the upper side of a ring that runs
+        // counter-clockwise.
         const auto below_ground = [&](double depth) {
             Line line{{right, terrain.at(right) - depth}};
+            // The ground has its kink at the toe.
             if (!terrain.is_level()) line.push_back({0.0, -depth});
             line.push_back({outline.left, terrain.at(outline.left) - depth});
             return line;
@@ -79,6 +90,8 @@ std::vector<Region> regions_of(const Values& values, const Outline& outline, con
             layers.push_back(0);
             continue;
         }
+        // Thin pieces are joined to others: the reader of scenes refuses cells too coarse for the
+        // thinnest part (check_made in templates.cpp).
         const Cut cut{values["layer_thickness"],
                       std::min(0.25 * values["cell_size"], 0.1 * values["layer_thickness"]),
                       2.2 * values["cell_size"]};
@@ -123,6 +136,7 @@ std::string breaking_note(const Soil& soil) {
            " kPa, phi' = " + words::text_of(soil.phi_residual_deg) + " deg";
 }
 
+/// What every part of the scene is made from; lives as long as scene_of().
 struct Context {
     const Values& values;
     const Outline& outline;
@@ -149,11 +163,13 @@ double residual_kPa(const Context& all, const Region& layer) {
 }
 
 /// Without a FEM, each layer below the phreatic line has its own material of constant strength.
+/// With a FEM the transfer decides what has liquefied, so the layers share one material.
 std::string material_of(const Context& all, const Region& region) {
     const bool liquefied = region.layer > 0 && !all.with_fem;
     return region.material + (liquefied ? "_" + std::to_string(region.layer) : "");
 }
 
+/// The same in every phase: undrained, with the strength that the option gives.
 Json weak_layer(const Context& all) {
     const double s_u = all.values["clay_strength"];
     Json material = undrained(clay, s_u,
@@ -166,6 +182,8 @@ Json weak_layer(const Context& all) {
 }
 
 /// Phases that support profiles get the strength by stress; the FEM gets its mean.
+/// In elements: one strength per region, because the FEM has no profiles. It is the mean over the
+/// whole region by area.
 Json slimes_of(const Context& all, bool in_elements) {
     Json material{
         {"notes",
@@ -194,6 +212,7 @@ Json slimes_of(const Context& all, bool in_elements) {
     return material;
 }
 
+/// Dry soil keeps its drained strength; only layers below the line are weakened.
 Json materials_at_rest(const Context& all) {
     Json materials;
     if (has(all, "clay")) materials["clay"] = weak_layer(all);
@@ -215,12 +234,14 @@ Json materials_at_rest(const Context& all) {
     return materials;
 }
 
+/// Each soil twice: for the FEM a law that can liquefy, for the runout one that can flow far.
 Json materials_shaken(const Context& all) {
     Json materials;
     const auto both = [&](const Soil& soil) {
         materials[soil.name] = sand(soil, strength_note(soil));
         materials[soil.name + "_runout"] =
             frictional(soil, "of " + soil.name + " in the runout, drained; " + strength_note(soil));
+        // Of these soils only the embankment's fill has a lower strength once it has broken.
         if (soil.c_residual_kPa != soil.c_kPa)
             materials[soil.name + "_runout"]["notes"].push_back(breaking_note(soil));
     };
@@ -259,12 +280,14 @@ Json section_of(const Context& all) {
     return section;
 }
 
+/// The same section in the terms of services/earthquake, which imported sections use as well.
 earthquake::Section shaken_of(const Context& all) {
     const Values& values = all.values;
     std::map<std::string, std::string> runouts;
     const Overburden above{all.outline.ground, all.outline.phreatic, all.wet.density};
     double largest = 0.0;
     for (const Region& each : all.regions) {
+        // Named as materials_shaken() names them.
         runouts[each.material] = each.material + "_runout";
         if (each.layer > 0)
             largest = std::max(largest, earthquake::largest_sigma_v0(each.polygon, above));
@@ -286,6 +309,7 @@ earthquake::Section shaken_of(const Context& all) {
             .residual_ratio = values["residual_ratio"]};
 }
 
+/// The search enters behind the crest and leaves near the toe; with a foundation also beyond it.
 Json stability_of(const Context& all) {
     const Outline& outline = all.outline;
     const double H = all.values["height"],
@@ -309,6 +333,7 @@ Json stability_of(const Context& all) {
                      {"minimum_depth", millimetres(0.25 * H)}};
     lem["water"] = {{"line", points(outline.phreatic)}};
     if (all.with_fem) {
+        // By stress: with a FEM the layers have no strength of their own.
         if (const auto layers = liquefaction_of(shaken_of(all))) lem["liquefaction"] = *layers;
         return lem;
     }
@@ -324,10 +349,12 @@ Json runout_of(const Context& all) {
     const double h = values["cell_size"], H = values["height"], depth = values["foundation_depth"];
     const Terrain terrain(values);
     const double from = nanometres(all.outline.left);
+    // At rest nothing sways: the wall is the model's end.
     const double left = all.with_fem ? earthquake::wall_beside(from, h) : from;
     const double columns = std::ceil((values["runout_extent"] - left) / h);
     const double lowest =
         std::min(depth > 0.0 ? base_of(values) : 0.0, terrain.at(left + columns * h));
+    // The floor lies at least a cell below the lowest ground.
     const double below = lowest < 0.0 ? std::ceil((h - lowest) / h) : 0.0;
     const double above = std::ceil(1.15 * H / h);
     const double right = left + columns * h, floor = -below * h;
@@ -356,11 +383,13 @@ Json runout_of(const Context& all) {
     mpm["overlap_correction"] = {{"rate", 5}};
     mpm["softening_length"] = rounded(H / 15.0);
     mpm["duration"] = "until_rest";
+    // Twice the likely duration of a flow without friction (75 sqrt(H / g) in services/estimate).
     mpm["longest_duration"] = rounded(150.0 * all.unit);
     mpm["snapshot_interval"] = rounded(all.unit);
     mpm["telemetry_interval"] = rounded(0.15 * all.unit);
     Json mobile = Json::array();
     for (const Region& each : all.regions)
+        // Foundation and clay lie beyond the toe from the start: they must not count as runout.
         if (each.material != "foundation" && each.material != "clay") mobile.push_back(each.name);
     mpm["runout"] = {{"toe", {0, 0}}, {"regions", mobile}};
     mpm["gauges"] = {{{"name", "toe"}, {"x", 0}}};
@@ -391,6 +420,8 @@ Json scene_of(const Values& values, const Outline& outline, const std::string& n
     scene["materials"] = all.with_fem ? materials_shaken(all) : materials_at_rest(all);
     for (Json& material : scene["materials"])
         if (material.at("law").contains("softening") || material.contains("strength"))
+            // Softening needs a length, or its bands get as thin as the cells and the result
+            // follows the grid.
             material["nonlocal_length"] = 2.0 * values["cell_size"];
     scene["section"] = section_of(all);
     scene["lem"] = stability_of(all);
@@ -400,10 +431,14 @@ Json scene_of(const Values& values, const Outline& outline, const std::string& n
         scene["transfer"] = transfer_of(shaken);
     }
     scene["mpm"] = runout_of(all);
+    // Last: it reads the finished scene.
     reduce_friction_of_wet_fill(scene);
     return scene;
 }
 
+/// At rest the study has two variants of one scene: all layers liquefied, and the same with the
+/// undrained strength before liquefaction. If the second one stands, the first shows what
+/// liquefaction adds.
 Json study_of(const Values& values, const Json& scene) {
     Json study{{"format", "breachline-study/1"},
                {"name", scene.at("name")},
@@ -417,16 +452,19 @@ Json study_of(const Values& values, const Json& scene) {
     for (const Json& each : scene.at("section").at("regions")) {
         const std::string material = each.at("material");
         const Json& law = scene.at("materials").at(material).at("law");
+        // Liquefied layers are the materials without friction; clay is weak in both variants.
         if (law.value("phi_deg", 1.0) != 0.0 || material == "clay") continue;
         const double peak = rounded(law.at("c_kPa").get<double>() * values["peak_ratio"] /
                                     values["residual_ratio"]);
         const std::string override =
             "/materials/" + material + "/law/c_kPa=" + words::text_of(peak);
+        // Pieces of one layer share their material.
         if (std::ranges::find(overrides, Json(override)) == overrides.end())
             overrides.push_back(override);
         undrained_regions.push_back({{"region", each.at("name")}, {"strength_kPa", peak}});
     }
     if (overrides.empty()) return study;
+    // Only in the variant that stands and would sway: a flow must not be damped.
     for (const auto& [name, material] : scene.at("materials").items())
         overrides.push_back("/materials/" + name + "/viscosity=" + words::text_of(damping));
     // A stable dam releases hardly any energy to compare its oscillation with.

@@ -1,4 +1,5 @@
-// Builds a scene from an outline: layers, materials with assumptions, and each phase's part.
+// Builds a scene from an outline: layers, materials with assumptions, and each phase's part. Called
+// by templates.cpp, after the options were checked against each other.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

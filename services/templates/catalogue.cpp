@@ -1,3 +1,9 @@
+// All that a form, --help and the API say about options is from here, and so are the limits. Limits
+// of one option only: what does not fit together is refused where the geometry is known
+// (templates.cpp and each template's file).
+//
+// Lengths follow the height by default, so that one number makes a whole dam; rates and ratios do
+// not.
 #include "services/templates/catalogue.hpp"
 
 #include <algorithm>
@@ -51,6 +57,7 @@ Option of_type(Option option, const char* unit) {
     return option;
 }
 
+/// Of every template.
 Options foundation_options() {
     return {
         sized("foundation_depth", 1.0 / 6, 0, 100,
@@ -126,6 +133,7 @@ Options joined(std::initializer_list<Options> all) {
     return joined;
 }
 
+/// beach: length of the dry beach, heights: of the pond, both over the dam's height.
 Options pond(double beach, double heights) {
     return {
         sized("freeboard", 1.0 / 20, 0.1, 50,
@@ -235,6 +243,8 @@ Template leach_heap() {
 }
 
 /// Computes defaults that follow another option from that option's default.
+/// A follower's own default is shown where the leader has its default; completed() computes it anew
+/// for another leader.
 Template with_values(Template made) {
     for (Option& each : made.options) {
         if (each.follows.empty()) continue;
@@ -257,6 +267,7 @@ const char* type_of(Kind kind) {
 }
 
 /// The group of an option in a form: "section" unless it is listed here.
+/// The topics are those of the page that draws a new scene.
 const char* topic_of(const std::string& name) {
     static const std::map<std::string, const char*> topics{
         {"layer_thickness", "soils"}, {"residual_ratio", "soils"},
@@ -281,6 +292,7 @@ json as_json(const Option& option) {
         described["default"] = option.value > 0.5;
         return described;
     }
+    // Without a decimal point, so that a form shows 4 and not 4.0.
     if (option.kind == Kind::whole) {
         described["default"] = static_cast<int>(option.value);
         described["minimum"] = static_cast<int>(option.least);
@@ -299,6 +311,7 @@ json as_json(const Option& option) {
 
 }  // namespace
 
+/// Made once; templates are constant while the program runs.
 const std::vector<Template>& catalogue() {
     static const std::vector<Template> all{with_values(upstream()), with_values(downstream()),
                                            with_values(plain_slope()), with_values(leach_heap())};
@@ -318,6 +331,7 @@ const Template& named(const std::string& name) {
 std::string rule_of(const Option& option) {
     if (option.follows.empty()) return "";
     const double part = 1.0 / option.share;
+    // "height / 6" reads better than "0.1667 height".
     const bool divides = option.share < 1.0 && std::abs(part - std::round(part)) < 1e-9;
     if (option.share == 1.0) return option.follows;
     return divides ? option.follows + " / " + std::to_string(std::lround(part))

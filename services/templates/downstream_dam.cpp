@@ -1,4 +1,6 @@
-// Starter dam on the foundation; each raise covers the downstream face of the previous stage.
+// Starter dam on the foundation; each raise covers the downstream face of the previous stage. The
+// upstream face is one line from heel to crest, so each stage is given by three places along x. The
+// last stage's toe is the origin, and all else lies at negative x.
 #include <algorithm>
 
 #include "services/templates/layers.hpp"
@@ -13,6 +15,7 @@ struct Stage {
     double upstream_edge, downstream_edge, toe;  ///< x
 };
 
+/// In terms of options, before any polygon exists: a person corrects numbers, not rings.
 void check(const Values& values, double at_end, double heel_level, double starter) {
     Refusal refusal(values);
     if (values.whole("raises") > 0)
@@ -39,6 +42,7 @@ Outline downstream_dam(const Values& values) {
     const double starter = raises == 0 ? H : values["starter_height"];
     const Terrain terrain(values);
     const double level_heel = -(up * H + width + down * H);
+    // On rising ground the face ends where it meets the ground, not on the level of the toe.
     const double heel = level_heel / (1.0 + up * terrain.rise);
     std::vector<Stage> stages;
     for (int k = 0; k <= raises; ++k) {
@@ -47,12 +51,15 @@ Outline downstream_dam(const Values& values) {
         const double foot = edge + width + down * height;  // on level ground
         stages.push_back({height, edge, edge + width, foot / (1.0 - down * terrain.rise)});
     }
+    // Exactly, without the rounding of the sum: the toe is a vertex of ground and terrain.
     stages.back().toe = 0.0;
     const Stage& last = stages.back();
     const double fall = values["beach_slope"];
+    // Where the beach meets the dam.
     const Vec2 contact{last.upstream_edge - up * values["freeboard"], H - values["freeboard"]};
     const auto surface = [&](double x) { return contact.y() - fall * (contact.x() - x); };
     const double edge = contact.x() - values["beach_length"];
+    // The model must contain the whole dam, however short the pond is.
     const double left = std::min(edge - values["pond_length"], heel - 0.1 * H);
     check(values, surface(left) - terrain.at(left), terrain.at(heel), starter);
 
@@ -88,6 +95,7 @@ Outline downstream_dam(const Values& values) {
     outline.crest = {last.downstream_edge, H};
     outline.crest_from = last.upstream_edge;
     outline.left = left;
+    // A drain below the crest's middle keeps the downstream half of the dam dry.
     const double axis = last.upstream_edge + 0.5 * width;
     part_slimes(values, contact, heel, outline);
     add_water(values, {edge, surface(edge)}, values.is_on("drain") ? axis : 0.0, outline);

@@ -1,4 +1,5 @@
-// Half of a heap: the axis is the model's left end, the toe is at (0, 0).
+// Half of a heap: the axis is the model's left end, the toe is at (0, 0). Water stands highest at
+// the axis, by symmetry, and leaves at the toe.
 #include <algorithm>
 
 #include "services/templates/outline.hpp"
@@ -17,6 +18,7 @@ Outline heap(const Values& values) {
     double x = 0.0;
     for (int k = 1; k <= lifts; ++k) {
         x -= values["lift_slope"] * step;
+        // The last level is the height itself, not a sum that misses it by rounding.
         const double level = k == lifts ? H : k * step;
         ring.push_back({x, level});
         if (k == lifts || values["bench_width"] == 0.0) continue;
@@ -26,6 +28,7 @@ Outline heap(const Values& values) {
     const double left = x - values["top_width"];
     Outline outline;
     outline.crest = ring.back();
+    // A heap has no upstream edge: a place just inside the model's end stands for it.
     outline.crest_from = left + 0.02 * values["top_width"];
     outline.left = left;
     ring.push_back({left, H});

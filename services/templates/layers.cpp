@@ -1,3 +1,6 @@
+// Layers below the water liquefy one after the other, so their borders follow the phreatic line,
+// not the level. A cut may split a part into several pieces and leave slivers; vertices near a cut
+// are moved to it and thin pieces absorbed, because each border becomes a line of the mesh.
 #include "services/templates/layers.hpp"
 
 #include <algorithm>
@@ -16,6 +19,7 @@ namespace {
 std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
     const double little = 1e-12;
     const Vec2 u = b - a, v = d - c;
+    // A cut along a side makes no piece.
     if (std::abs(geometry::cross(u, v)) <= little * u.norm() * v.norm()) return std::nullopt;
     const auto [at, s, t] = *geometry::crossing(a, b, c, d);
     if (s < -little || s > 1 + little || t < -little || t > 1 + little) return std::nullopt;
@@ -23,6 +27,7 @@ std::optional<Vec2> meeting(const Vec2& a, const Vec2& b, const Vec2& c, const V
 }
 
 /// The line extended beyond both sides of the polygon.
+/// A part that reaches beyond the line is cut by its level continuation.
 Line across(const Line& line, const Polygon& polygon) {
     const geometry::Box box = geometry::bounding_box(polygon);
     const double margin = 1.0 + (box.high - box.low).norm();
@@ -34,6 +39,8 @@ Line across(const Line& line, const Polygon& polygon) {
 
 /// Inserts the intersections with the line as vertices of the polygon; returns them from left to
 /// right.
+/// Points closer than `nearest` to a vertex use that vertex: a cut then ends in it, instead of
+/// leaving a side that no element fits.
 Line mark_meetings(Polygon& polygon, const Line& line, double nearest) {
     Polygon marked;
     Line meetings;
@@ -60,6 +67,7 @@ Line mark_meetings(Polygon& polygon, const Line& line, double nearest) {
     std::ranges::sort(meetings, [](const Vec2& p, const Vec2& q) {
         return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y());
     });
+    // A vertex belongs to two sides and is met twice.
     const auto repeated = std::ranges::unique(meetings);
     meetings.erase(repeated.begin(), repeated.end());
     return meetings;
@@ -85,6 +93,8 @@ double distance_to_border(const Polygon& polygon, const Vec2& place) {
 }
 
 /// Whether the path is inside except for its ends.
+/// Between two neighbouring meetings the line may also run outside a part with a bay, or along its
+/// border.
 bool runs_inside(const Polygon& polygon, const Line& way, double little) {
     for (std::size_t k = 1; k < way.size(); ++k) {
         const Vec2 middle = 0.5 * (way[k - 1] + way[k]);
@@ -95,6 +105,7 @@ bool runs_inside(const Polygon& polygon, const Line& way, double little) {
     return true;
 }
 
+/// Exact comparison is right here: places are copied, never computed a second time.
 std::optional<std::size_t> vertex_at(const Polygon& polygon, const Vec2& place) {
     const auto found = std::ranges::find(polygon, place);
     if (found == polygon.end()) return std::nullopt;
@@ -128,6 +139,7 @@ double depth_of(const Polygon& polygon, const Line& line) {
             levels.push_back(a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x()));
         }
         std::ranges::sort(levels);
+        // A vertical line goes in and out by turns.
         for (std::size_t i = 0; i + 1 < levels.size(); i += 2) {
             if (levels[i + 1] - levels[i] <= widest) continue;
             widest = levels[i + 1] - levels[i];
@@ -138,6 +150,7 @@ double depth_of(const Polygon& polygon, const Line& line) {
 }
 
 /// Whether side i of a ring, reversed, is a side of the other ring.
+/// Rings are counter-clockwise, so neighbours run along a common side in opposite directions.
 bool is_shared(const Polygon& ring, std::size_t i, const Polygon& other) {
     const Vec2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
     for (std::size_t k = 0; k < other.size(); ++k)
@@ -151,6 +164,7 @@ struct Seam {
     double length = 0.0;
 };
 
+/// Two seams would enclose a hole when united.
 std::optional<Seam> seam_between(const Polygon& one, const Polygon& other) {
     std::vector<Seam> seams;
     for (std::size_t i = 0; i < one.size(); ++i) {
@@ -202,6 +216,8 @@ bool absorb_one(std::vector<Layer>& all, double thinnest) {
             best_is_alike = alike;
             neighbour = k;
         }
+        // No neighbour has a single seam: the thin piece stays, and the scene's check may refuse
+        // it.
         if (!best) continue;
         all[neighbour] = joined(all[i], all[neighbour], *best);
         all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
@@ -225,6 +241,7 @@ std::vector<Polygon> divided(const Polygon& polygon, const Line& line, double ne
     std::vector<Polygon> pieces{ring};
     for (std::size_t m = 1; m < meetings.size(); ++m) {
         const Line way = way_between(meetings[m - 1], meetings[m], all, nearest);
+        // Each way splits the one piece that has both of its ends and the way inside.
         for (std::size_t p = 0; p < pieces.size(); ++p) {
             const auto from = vertex_at(pieces[p], way.front()),
                        to = vertex_at(pieces[p], way.back());
@@ -257,12 +274,15 @@ std::vector<Layer> cut_by_depth(const Polygon& polygon, const Line& phreatic, co
         const int below = 1 + static_cast<int>(std::floor(depth / cut.thickness));
         all.push_back({depth <= 0.0 ? 0 : std::min(below, layers), std::move(each)});
     }
+    // Again from the start after each union: a united piece may be thick enough, or still too thin.
     while (absorb_one(all, cut.thinnest)) {
     }
     std::ranges::stable_sort(all, {}, &Layer::number);
     return all;
 }
 
+/// Neighbours may be made with different vertices on a common side; the mesh needs the same ones on
+/// both. Vertices are copied, so that equal places are equal numbers.
 void share_vertices(std::vector<Part>& parts) {
     for (Part& part : parts) {
         Polygon shared;

@@ -1,4 +1,5 @@
-// Cuts a part along the phreatic line and along lines of equal depth below it.
+// Cuts a part along the phreatic line and along lines of equal depth below it. assembly.cpp does it
+// to the part that can liquefy, once it has the water.
 #pragma once
 
 #include "services/templates/outline.hpp"

@@ -1,4 +1,5 @@
-// All faults are collected, as a form shows them beside their fields.
+// All faults are collected, as a form shows them beside their fields. Values are kept as numbers by
+// name, whole numbers and yes or no as well: the geometry uses them in formulas.
 #include "services/templates/options.hpp"
 
 #include <algorithm>
@@ -79,6 +80,7 @@ Values completed(const Template& of, const json& given) {
     std::string known;
     for (const Option& each : of.options) known += (known.empty() ? "" : ", ") + each.name;
     for (const auto& [key, value] : given.items())
+        // The name is of the scene, not of the geometry (templates.cpp).
         if (key != name_entry &&
             std::ranges::find(of.options, key, &Option::name) == of.options.end())
             faults.push_back(
@@ -87,6 +89,8 @@ Values completed(const Template& of, const json& given) {
     for (const Option& each : of.options) {
         double value = each.value;
         if (!each.follows.empty() && values.has(each.follows))
+            // Within the option's limits: a very high dam would else have a default that its own
+            // check refuses.
             value = std::clamp(each.share * values[each.follows], each.least, each.most);
         if (given.contains(each.name)) {
             const json& wanted = given.at(each.name);
@@ -97,6 +101,7 @@ Values completed(const Template& of, const json& given) {
             else
                 value = number_in(wanted);
         }
+        // Also after a fault, so that options which follow this one are still checked.
         values.set(each.name, value);
     }
     if (!faults.empty()) throw fault::BadInput(what, std::move(faults));

@@ -35,7 +35,8 @@ class Values {
 /// Faults point at "/height" and the like. Throws BadInput with all of them.
 Values completed(const Template& of, const nlohmann::json& given);
 
-/// Collects options that do not fit together.
+/// Collects options that do not fit together. A check says all that it finds before it throws; a
+/// later check may rely on what an earlier one has refused.
 class Refusal {
   public:
     explicit Refusal(const Values& values) : values_(&values) {}

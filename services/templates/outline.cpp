@@ -34,6 +34,7 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     };
     if (measured) add(measured->x());
     for (int i = 1; i < pieces && !measured; ++i) {
+        // Equal steps of the level, so that the points lie close where the parabola falls steeply.
         const double share = 1.0 - static_cast<double>(i) / pieces;  // of the remaining height
         add(exit.x() - span * share * share);
     }
@@ -44,10 +45,12 @@ Line phreatic_line(const Seepage& flow, double left, double right, const Line& g
     };
     Line line{{left, from.y()}, from};
     for (const double x : xs)
+        // Water above the ground would be a pond on the face.
         line.push_back({x, std::min(level(x), geometry::level_at(ground, x))});
     line.push_back(exit);
     if (exit.x() < -same && !terrain.is_level()) line.push_back({0.0, 0.0});
     if (right > exit.x() + same) line.push_back({right, terrain.at(right)});
+    // The level stretch is too short for a side of its own.
     if (from.x() - left < same) line.erase(line.begin());
     line.front().x() = left;
     return line;
@@ -112,6 +115,7 @@ void check_heel(Refusal& refusal, double heel_level, double starter) {
                    "the ground rises to the upper half of the starter dam", "make it flatter");
 }
 
+/// An upright border: the option gives one distance for all depths.
 void part_slimes(const Values& values, const Vec2& contact, double heel, Outline& outline) {
     const double distance = values["slimes_distance"];
     if (distance == 0.0) return;
@@ -130,6 +134,7 @@ void part_slimes(const Values& values, const Vec2& contact, double heel, Outline
         Polygon beach;
         for (std::size_t i = 0; i < part.polygon.size(); ++i) {
             const Vec2 &a = part.polygon[i], &b = part.polygon[(i + 1) % part.polygon.size()];
+            // One pass around the ring; where it crosses the border both pieces get the place.
             (a.x() < border ? slimes.polygon : beach).push_back(a);
             if ((a.x() < border) == (b.x() < border)) continue;
             const Vec2 place{border, a.y() + (b.y() - a.y()) * (border - a.x()) / (b.x() - a.x())};

@@ -1,4 +1,5 @@
-// A plain slope with its toe at (0, 0).
+// A plain slope with its toe at (0, 0). The model ends at the level ground behind the crest; the
+// water stands there and falls to the toe.
 #include "services/templates/outline.hpp"
 
 namespace breach::templates {
@@ -16,6 +17,7 @@ Outline slope(const Values& values) {
     outline.ground = {{left, H}, {crest, H}, {0.0, 0.0}};
     outline.wet = "slope";
     outline.crest = {crest, H};
+    // As of a heap: there is no upstream edge (heap.cpp).
     outline.crest_from = left + 0.02 * (crest - left);
     outline.left = left;
     add_water(values, {left, H - depth}, 0.0, outline);

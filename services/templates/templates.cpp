@@ -1,4 +1,6 @@
-// From options to a scene and its study.
+// From options to a scene and its study, for `breach new` and POST /v1/templates/{name}. Defaults
+// are fitted to each other first, then refused or accepted together, and only then is geometry
+// made.
 #include "services/templates/templates.hpp"
 
 #include <cmath>
@@ -36,6 +38,7 @@ void round_sizes(Values& values) {
 void fit_weak_layer(Values& values, const json& given) {
     const double clay = values["clay_thickness"], cell = values["cell_size"];
     if (clay == 0.0) return;
+    // What the user gave stays: check_sizes() refuses it if it does not resolve the layer.
     if (!given.contains("cell_size"))
         values.set("cell_size", std::clamp(0.5 * clay, cell / 3, cell));
     if (!given.contains("foundation_depth"))
@@ -43,6 +46,7 @@ void fit_weak_layer(Values& values, const json& given) {
                    std::max(values["foundation_depth"], clay + values["cell_size"]));
 }
 
+/// Checks that need no geometry and are the same for all templates.
 void check_sizes(const Values& values) {
     const double H = values["height"];
     Refusal refusal(values);
@@ -78,6 +82,7 @@ void check_sizes(const Values& values) {
     refusal.speak();
 }
 
+/// The pattern of names in the schema of studies.
 std::string name_in(const Template& of, const json& options) {
     if (!options.is_object() || !options.contains("name")) return of.name;
     const json& name = options.at("name");
@@ -89,7 +94,8 @@ std::string name_in(const Template& of, const json& options) {
           "give lower-case letters, digits, _ and -, at most 64, a letter or digit first"}});
 }
 
-/// Adds faults from the reader of scenes: cells too coarse for the thinnest part.
+/// A fault that remains is ours, unless it is the cells': the user gets its text, but no pointer
+/// into a scene that no one has seen yet.
 void check_made(const Values& values, const Json& scene) {
     std::vector<fault::Fault> faults = scene::read_text(scene.dump(), "scene", ".", {}).faults;
     if (faults.empty()) return;
@@ -104,6 +110,7 @@ void check_made(const Values& values, const Json& scene) {
     throw fault::BadInput("template " + values.of().name, std::move(faults));
 }
 
+/// JSON's library would write 30.0 and one number per line; a person edits these files.
 std::string on_a_line(const Json& value) {
     const double number = value.is_number_float() ? value.get<double>() : 0.5;
     if (std::abs(number) < 1e9 && number == std::round(number))
@@ -146,6 +153,7 @@ Made make(const std::string& name, const json& options) {
     round_sizes(values);
     check_sizes(values);
     Made made;
+    // After fitting and rounding, so that sending them again makes the same scene.
     made.options = values.as_json();
     made.scene = scene_of(values, outline_of(values), scene_name);
     check_made(values, made.scene);

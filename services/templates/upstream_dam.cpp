@@ -1,4 +1,5 @@
-// Starter dam on the foundation; raises on the tailings upstream of it.
+// Starter dam on the foundation; raises on the tailings upstream of it. From the toe upwards, each
+// dyke begins on the crest below and stands mostly on tailings.
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +30,7 @@ Dyke dyke_at(double toe, double base, double top, double face, const Values& val
     return dyke;
 }
 
+/// Every dyke is built from its toe, so that the first one's toe is exactly the origin.
 std::vector<Dyke> dykes_of(const Values& values) {
     const int raises = values.whole("raises");
     const double height = values["height"];
@@ -40,6 +42,7 @@ std::vector<Dyke> dykes_of(const Values& values) {
     dykes[0].heel_level = -rise * dykes[0].heel;
     for (int k = 1; k <= raises; ++k) {
         const double base = dykes.back().top;
+        // Equal steps; the last one ends exactly at the height.
         const double top = k == raises ? height : starter + k * (height - starter) / raises;
         const double toe = dykes.back().downstream_edge - values["bench_width"];
         const double share = raises > 1 ? (k - 1.0) / (raises - 1.0) : 0.0;
@@ -78,6 +81,7 @@ void check_beach(const Values& values, const Dyke& last, double at_heel, double 
     refusal.speak();
 }
 
+/// On a steep valley floor a raise would leave the tailings and stand on the ground.
 void check_ground(const Values& values, const std::vector<Dyke>& dykes) {
     Refusal refusal(values);
     const Terrain terrain(values);
@@ -90,6 +94,7 @@ void check_ground(const Values& values, const std::vector<Dyke>& dykes) {
     refusal.speak();
 }
 
+/// The phreatic line needs a length to fall over between the pond and a drain.
 void check_drain(const Values& values, double span, double level) {
     Refusal refusal(values);
     refusal.unless(
@@ -113,6 +118,7 @@ Outline upstream_dam(const Values& values) {
     const auto surface = [&](double x) { return contact.y() - fall * (contact.x() - x); };
     const double edge = contact.x() - values["beach_length"];
     double left = edge - values["pond_length"];
+    // A dyke's heel may lie further upstream than the end of a short pond.
     for (const Dyke& each : dykes) left = std::min(left, each.heel - 0.1 * values["height"]);
     check_beach(values, last, surface(last.heel), surface(left) - terrain.at(left));
     const double exit = values.is_on("drain") ? dykes.front().heel : 0.0;
@@ -127,12 +133,15 @@ Outline upstream_dam(const Values& values) {
         if (k > 0) ring.push_back({dykes[k - 1].upstream_edge, each.base});
         ring.push_back({each.toe, each.base});
         ring.push_back({each.downstream_edge, each.top});
+        // With a bench, the next toe lies on this crest; without, both points are the same.
         if (k + 1 < dykes.size() && dykes[k + 1].toe < each.downstream_edge)
             ring.push_back({dykes[k + 1].toe, each.top});
         ring.push_back({each.upstream_edge, each.top});
         if (k + 1 == dykes.size()) ring.push_back(contact);
         outline.parts.push_back({k == 0 ? "starter_dam" : "raise_" + std::to_string(k),
                                  k == 0 ? starter_fill(values) : "embankment", ring});
+        // The tailings' border runs up the dam: along each dyke's upstream face and the base of the
+        // next.
         tailings.push_back({each.heel, each.heel_level});
         tailings.push_back(k + 1 == dykes.size() ? contact : Vec2{each.upstream_edge, each.top});
     }

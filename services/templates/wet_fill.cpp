@@ -1,5 +1,6 @@
 // Called after the scene is whole, because it needs the water and the regions as the solver reads
-// them. The material points of the runout carry no pore pressure.
+// them. The material points of the runout carry no pore pressure, so wet fill would have its full
+// friction; what liquefies is left out, because its strength is residual already.
 #include "services/templates/wet_fill.hpp"
 
 #include <algorithm>
@@ -27,10 +28,12 @@ double reduced(double phi_deg, double r_u) {
     return std::floor(10.0 * phi) / 10.0;
 }
 
+/// A profile has its own rule below water, and soil without friction has nothing to reduce.
 bool is_drained(const Json& material) {
     return !material.contains("strength") && material.at("law").value("phi_deg", 0.0) > 0.0;
 }
 
+/// A material that nothing names any more would only confuse the scene's author.
 void drop_unused(Json& scene, const std::string& material) {
     const auto names = [&](const Json& list, const char* entry) {
         return std::ranges::any_of(list, [&](const Json& each) { return each[entry] == material; });
@@ -44,6 +47,7 @@ void drop_unused(Json& scene, const std::string& material) {
 
 void reduce_friction_of_wet_fill(Json& scene) {
     const scene::Reading reading = scene::read_text(scene.dump(), "scene", ".", {});
+    // check_made() reports them next.
     if (!reading.faults.empty()) return;
     if (reading.scene.mpm->water) return;  // its pressure acts: friction is on the effective stress
     const scene::Scene& read = reading.scene;
@@ -69,6 +73,7 @@ void reduce_friction_of_wet_fill(Json& scene) {
             words::text_of(r_u, 2) + " on the base of " + regions[r].name +
             " (Bishop & Morgenstern 1960): material points carry no pore pressure; fill that "
             "dilates gets no credit for suction (Duncan, Wright & Brandon 2014)");
+        // Of the region, not of the soil: r_u differs from place to place.
         const std::string after = regions[r].name + (read.fem ? "_runout" : "");
         scene["materials"][after] = wet;
         if (read.fem) {

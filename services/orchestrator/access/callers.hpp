@@ -1,4 +1,5 @@
-// Identifies the caller of a request by its secret among the known tokens.
+// Identifies the caller of a request by its secret among the known tokens. The HTTP server asks
+// before each request's handler, from many threads at once.
 #pragma once
 
 #include <chrono>

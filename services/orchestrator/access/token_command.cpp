@@ -30,6 +30,7 @@ CLI::App* TokenCommand::add_to(CLI::App& program) {
 int TokenCommand::run() const {
     if (*make_) {
         const std::string secret = add_token(file_, name_, right_named(rights_));
+        // The secret alone on stdout, so that a script can write it into a file.
         std::cout << secret << "\n";
         std::cerr
             << "kept nowhere else: hand it over now; a client reads it from the file named by "

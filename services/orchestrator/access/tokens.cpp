@@ -62,6 +62,7 @@ std::string text_at(const json& entry, const char* key) {
     return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// "none" is no entry of a file: it is the right of a caller without a token.
 Token token_from(const json& entry, const std::string& pointer, const std::string& file) {
     const auto refuse = [&](const char* key, const char* cause) {
         throw BadInput(
@@ -89,6 +90,7 @@ void save(const std::vector<Token>& tokens, const std::filesystem::path& file) {
         { const std::ofstream empty(temporary); }
         if (::chmod(temporary.c_str(), existed ? before.st_mode & 07777 : 0600) != 0)
             throw fault::IoError(file.string() + ": " + std::strerror(errno));
+        // Run by root (sudo), the new file would else be root's and the service could not read it.
         if (existed && ::chown(temporary.c_str(), before.st_uid, before.st_gid) != 0)
             throw fault::IoError(file.string() + ": cannot stay its owner's (" +
                                  std::strerror(errno) + "); run this as its owner");
@@ -109,6 +111,7 @@ Right right_named(const std::string& name) {
 }
 
 std::vector<Token> read_tokens(const std::filesystem::path& file) {
+    // Before reading: a file that anyone could have changed gives no rights.
     need_private(file);
     std::ifstream stream(file);
     std::ostringstream text;
@@ -133,6 +136,7 @@ std::vector<Token> read_tokens(const std::filesystem::path& file) {
     return tokens;
 }
 
+/// The secret leaves here and is kept nowhere: who loses it gets a new token.
 std::string add_token(const std::filesystem::path& file, const std::string& name, Right right) {
     std::vector<Token> tokens;
     if (std::filesystem::exists(file)) tokens = read_tokens(file);
@@ -144,6 +148,7 @@ std::string add_token(const std::filesystem::path& file, const std::string& name
         throw BadInput(file.string(),
                        {{"NAME", name + " has a token already",
                          "take another name, or first: breachline token rm " + name}});
+    // From the system's source of random numbers; a secret of 256 bits cannot be guessed.
     std::array<unsigned char, 32> random{};
     if (RAND_bytes(random.data(), static_cast<int>(random.size())) != 1)
         throw fault::IoError("the machine gives no random numbers");

@@ -10,7 +10,7 @@
 namespace breach::orchestrator {
 
 /// Each right includes those before it. read: all GET requests. submit: also requests that compute
-/// or change a run. admin: also removal and protection from removal.
+/// or change a run. admin: also removal. http_router.hpp gives each method's requests their right.
 enum class Right { none, read, submit, admin };
 std::string_view name_of(Right right);
 /// Throws BadInput.

@@ -1,5 +1,6 @@
 // The table of an accuracy study as plain data (value, error and cost of each rung, error of each
-// ladder, recommended setting).
+// ladder, recommended setting). accuracy_table.cpp fills it; sentences.cpp and runout_error.cpp
+// read it.
 #pragma once
 
 #include <optional>

@@ -22,6 +22,7 @@ void add_reason(AccuracyRow& row, const std::string& more) {
     row.reason += (row.reason.empty() ? "" : "; ") + more;
 }
 
+/// The first one found: a row has room for one reason.
 std::string worst_reason(const std::vector<Measured>& draws) {
     for (const Measured& each : draws)
         if (!each.reason.empty()) return each.reason;
@@ -41,12 +42,14 @@ std::optional<Cost> mean_cost(const std::vector<Measured>& draws) {
         for (const auto& [phase, seconds] : each.cost.cpu_seconds_by_phase)
             mean.cpu_seconds_by_phase[phase] += seconds / n;
         if (each.cost.peak_memory_MB)
+            // The largest, not the mean: a user plans memory by it.
             mean.peak_memory_MB =
                 std::max(mean.peak_memory_MB.value_or(0.0), *each.cost.peak_memory_MB);
     }
     return mean;
 }
 
+/// A rung that is not computed yet has its row, without value: the table grows into place.
 AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
                    const std::map<std::string, Measured>& measured) {
     AccuracyRow row{.setting = setting};
@@ -59,6 +62,7 @@ AccuracyRow row_of(const AccuracyPlan& plan, const Setting& setting,
         draws.push_back(found == measured.end() ? Measured{.reason = "its task is not there"}
                                                 : found->second);
         if (draws.back().value) values.push_back(*draws.back().value);
+        // One questionable repeat is enough, since the mean has it in it.
         row.questionable |= draws.back().questionable;
         row.softens |= draws.back().softens;
         row.has_length |= draws.back().has_length;
@@ -81,6 +85,7 @@ statistics::Convergence convergence_of_ladder(const std::vector<const AccuracyRo
     }
     statistics::Convergence found = statistics::convergence_of(rungs);
     if (!sized) {
+        // All of these depend on the assumed ratio; that the values converge at all does not.
         found.order = found.limit = found.gci = std::nullopt;
         found.order_by_noise = std::nullopt;
         if (statistics::rests_on_sizes(found.course)) found.error_of_finest = std::nullopt;
@@ -102,6 +107,8 @@ std::optional<double> reference_of(const Reference& reference,
     return finest.value ? std::optional(finest.value->mean) : std::nullopt;
 }
 
+/// Relative to the reference, rung by rung. The reference rung itself has no such error: what it is
+/// off by comes from how the ladder converges (share_of).
 void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
                  const std::vector<AccuracyRow*>& rows) {
     for (AccuracyRow* row : rows) {
@@ -123,6 +130,7 @@ void tell_errors(const AccuracyPlan& plan, const LadderSummary& ladder,
             const double off = std::abs(row->value->mean - *ladder.reference);
             row->error = off / std::abs(*ladder.reference);
             const auto& noise = ladder.convergence.noise;
+            // An error within the noise is shown with this mark, not left out.
             row->below_noise =
                 noise && off < statistics::smallest_told_difference(*noise, row->value->count);
         }
@@ -137,6 +145,7 @@ std::optional<statistics::Share> share_of(const AccuracyRow& row, const LadderSu
                                           ReferenceKind reference) {
     const std::optional<double>& of_finest = ladder.convergence.error_of_finest;
     const bool finest_is_told = ladder.convergence.course != statistics::Course::below_noise;
+    // A share that exceeds the noise is "told": sentences mark the others.
     if (row.is_reference && of_finest) return statistics::Share{*of_finest, finest_is_told};
     if (!row.error) return std::nullopt;
     if (reference != ReferenceKind::finest) return statistics::Share{*row.error, !row.below_noise};
@@ -161,6 +170,8 @@ void tell_errors_of_runs(AccuracyTable& table) {
     const ReferenceKind reference = table.plan.reference.kind;
     const bool in_it = reference == ReferenceKind::given;
     for (const AccuracyRow& row : table.rows) {
+        // A ladder with the base on it knows the base's error there; rows of all other ladders
+        // share it.
         if (!row.setting.is_base || in_it) continue;
         LadderSummary& ladder = table.ladders[row.setting.ladder];
         ladder.of_base = share_of(row, ladder, reference);
@@ -191,6 +202,7 @@ MeanOfDraws mean_of(const AccuracyRow& row, Redrawn drawn, double reference, std
             shared + static_cast<double>(draws) * own};
 }
 
+/// Repeats reduce the scatter, not the bias: a row whose bias is too large gets no number of them.
 void tell_means(AccuracyTable& table) {
     for (AccuracyRow& row : table.rows) {
         if (!row.bias || !row.cost) continue;
@@ -201,6 +213,8 @@ void tell_means(AccuracyTable& table) {
     }
 }
 
+/// Two questions: which rows are worth their cost for one run (the front), and which mean is the
+/// cheapest within the requested error (the recommendation).
 void choose(AccuracyTable& table) {
     std::vector<statistics::Offer> offers;
     std::vector<std::size_t> rows;
@@ -246,6 +260,8 @@ std::string softening_in_words(const AccuracyPlan& plan, const Ladder& ladder,
                  "two errors that cancel";
 }
 
+/// The order matters: ladders by themselves, then what rows take over from other ladders, then
+/// means, then the choice.
 void judge(AccuracyTable& table) {
     for (std::size_t i = 0; i < table.plan.ladders.size(); ++i) {
         std::vector<AccuracyRow*> rows;
@@ -351,6 +367,7 @@ std::optional<AccuracyTable> accuracy_table(const Store& store, const DataFolder
     std::vector<Fault> none;  // the study was checked when it was accepted
     AccuracyTable table;
     table.plan = read_accuracy(study->at("accuracy"), scene, none);
+    // A reader may ask for another error without a new study: only the choice changes.
     if (asked_error) table.plan.asked_error = *asked_error;
     const std::vector<Task> tasks = store.tasks_of(run);
     for (const Task& each : tasks)

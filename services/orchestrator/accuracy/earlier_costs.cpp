@@ -1,4 +1,5 @@
-// Ratios of measured to estimated cost, by phase. Requests for a cost ask for them.
+// Ratios of measured to estimated cost, by phase. Requests for a cost ask for them, on their
+// threads. A run is read again only when more of its tasks are done.
 #include "services/orchestrator/accuracy/earlier_costs.hpp"
 
 #include <algorithm>
@@ -27,6 +28,7 @@ Found earlier_of(const Store& store, const Task& task, const std::string& run_sc
     if (!task.result || !task.result->is_object()) return std::nullopt;
     const auto cpu = task.result->find("cpu_seconds");
     if (cpu == task.result->end() || !cpu->is_number()) return std::nullopt;
+    // With the task's overrides: a variant may have another size than the study's scene.
     const scene::Reading reading = scene::read_text(run_scene, "scene", "/", task.overrides);
     if (!reading.faults.empty()) return std::nullopt;
     for (const estimate::PhaseCost& each : estimate::cost_of(reading.scene))
@@ -59,6 +61,7 @@ std::vector<Earlier> EarlierCosts::of_run(const Store& store, const Run& run) {
         if (known != runs_.end() && known->second.tasks_done == run.tasks_done)
             return known->second.earlier;
     }
+    // Without the lock: reading takes long, and two threads that read the same run get the same.
     std::vector<Earlier> earlier = read(store, run.id);
     const std::lock_guard lock(mutex_);
     runs_[run.id] = {run.tasks_done, earlier};

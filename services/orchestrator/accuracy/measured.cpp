@@ -1,3 +1,6 @@
+// What one variant of an accuracy study gives: the value asked for and what it cost. A variant is
+// the chain of tasks that ends with the phase of the quantity; its cost is that of the whole chain,
+// also where tasks are shared with other variants.
 #include "services/orchestrator/accuracy/measured.hpp"
 
 #include <algorithm>
@@ -36,6 +39,7 @@ void add(Cost& cost, const Task& task) {
 }
 
 /// Why the last task of the chain has no value.
+/// The fault may be of an earlier phase: then the last one was skipped.
 std::string reason_of(const std::vector<const Task*>& chain) {
     for (const Task* each : chain)
         if (each->fault) return each->phase + ": " + each->fault->summary;
@@ -70,6 +74,7 @@ Measured measured(const Task& last, const TasksById& tasks, const Quantity& quan
         found.questionable |= caution.is_boolean() && caution.get<bool>();
         if (const json& soft = each->result->value("softening", json()); soft.is_object()) {
             found.softens = true;
+            // The phase says both itself ("softening" in result.json), so no law is read here.
             found.has_length |= soft.at("has_length").get<bool>();
         }
     }
@@ -88,6 +93,7 @@ std::optional<double> value_at(const json& lines, const std::string& field, doub
         if (!line.contains("time") || !line.contains(field) || !line[field].is_number()) continue;
         const double here = line["time"];
         const double value = line[field];
+        // The first line at or after the time: between it and the one before lies the value.
         if (here >= time - same_time) {
             if (before == nullptr || here <= time + same_time)
                 return here <= time + same_time ? std::optional(value) : std::nullopt;

@@ -1,4 +1,5 @@
-// Result and cost of each variant of an accuracy study, from its tasks.
+// Result and cost of each variant of an accuracy study, from its tasks and, for a quantity at a
+// given time, from the FEM's telemetry.
 #pragma once
 
 #include <map>

@@ -1,3 +1,9 @@
+// Every runout that is shown gets an error, or the reason why none is known. Three sources, the
+// best first: an accuracy study that computed the same at the same setting; the repeats of this
+// sweep; neighbours in transfer time. Only the first one knows the bias; texts of the others say
+// that they are noise.
+// Computed for each request, not stored: a later accuracy study improves the errors of earlier
+// runs.
 #include "services/orchestrator/accuracy/runout_error.hpp"
 
 #include <algorithm>
@@ -54,6 +60,8 @@ class Questions {
     std::string without_snapshots(const std::string& recipe) const {
         const auto found = store_.recipe(recipe);
         json part = json::parse(found->part);
+        // A FEM computes the same at all snapshot times; a sweep and a study rarely have the same
+        // ones.
         part["fem"].erase("snapshot_times");
         part["fem"].erase("snapshot_interval");
         return std::to_string(found->cache_version) + " " + part.dump();
@@ -63,6 +71,7 @@ class Questions {
     std::map<std::string, std::string> fems_;  ///< by recipe
 };
 
+/// Only distances: an error of an area or a velocity cannot be used for a runout.
 bool is_runout(const Quantity& quantity) {
     return has_lattice(quantity.reach) && quantity.name.starts_with("runout") &&
            quantity.unit == "m";
@@ -118,11 +127,13 @@ class Studies {
     /// Nothing: no study has this rung.
     std::optional<Estimate> estimate(const Task& mpm) {
         if (!mpm.recipe) return std::nullopt;
+        // The cheap comparison first; the whole chain is read only for rungs with this recipe.
         const auto [first, last] = rungs_.equal_range(*mpm.recipe);
         if (first == last) return std::nullopt;
         const auto question = question_of(mpm);
         if (!question) return std::nullopt;
         std::optional<Estimate> best;
+        // A study without an error may be followed by an older one that has it.
         for (auto each = first; each != last && !(best && best->error); ++each) {
             const AccuracyRung& rung = each->second;
             const auto rung_task = store_.task(rung.mpm_task);
@@ -162,11 +173,13 @@ Place place_at(const std::string& variant, const json& transfer_time) {
 }
 
 /// The repeats of each variant at each transfer time.
+/// From all rows of the run, not only those that a filter shows.
 class Scatter {
   public:
     Scatter(const Store& store, const std::string& run, const AllRows& all_rows) {
         const json study = store.study_of(run).value_or(json::object());
         if (study.value("draws", 1) < 2) return;
+        // Then each repeat has its own FEM, whose scatter is in the numbers as well.
         if (redrawn_named(study.value("draws_of", "")) == Redrawn::fem) noise_ = noise_of_fem;
         for (const json& each : study.at("variants"))
             repeated_.emplace(each.at("name"), repeated_variant(each));
@@ -226,7 +239,8 @@ class Scatter {
     std::map<Place, std::string> tasks_;
 };
 
-/// Scatter of a variant's runouts over the transfer time.
+/// Only for runs with several transfer times: how far a runout is off its neighbours'
+/// (core/statistics/neighbours.hpp).
 class OverTransferTime {
   public:
     explicit OverTransferTime(const std::vector<ResultRow>& rows) {
@@ -267,6 +281,7 @@ std::optional<double> cell_size_of(const Store& store, const ResultRow& row) {
 
 /// Runouts at neighbouring transfer times begin with nearly equal points on one lattice. Their
 /// scatter shrinks with the spacing of the times, and does not include other lattices.
+/// An error that is too small is worse than none, so the usual scatter is the least.
 Estimate at_least_lattices(Estimate beside, double runout, const std::optional<double>& draws,
                            const std::optional<double>& cell) {
     const double usual =
@@ -301,6 +316,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
     for (ResultRow& row : rows) {
         if (!value_of(row, "runout").is_number()) continue;
         const std::string variant = value_of(row, "variant");
+        // Once per variant: an accuracy study's error is used at every transfer time.
         auto known = by_variant.find(variant);
         if (known == by_variant.end()) {
             std::optional<Estimate> found;
@@ -312,6 +328,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         std::optional<Estimate> estimate = known->second;
         if (!estimate || !estimate->error) {
             auto noise = scatter.estimate(row);
+            // Only now: it reads every row of the run.
             if (!over_time) over_time.emplace(all_rows());
             auto beside = over_time->estimate(row);
             if (noise && beside) {
@@ -331,6 +348,8 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         if (estimate->error) value_of(row, "runout_error") = *estimate->error;
         value_of(row, "runout_error_from") = estimate->from;
     }
+    // By the variant that is repeated: a mean has no MPM task, so one of its repeats stands for
+    // all.
     std::map<std::string, std::optional<Estimate>> by_repeated;
     for (ResultRow& mean : means) {
         const auto value = [&](const char* name) -> json& {

@@ -46,6 +46,7 @@ std::string order_in_words(const statistics::Convergence& convergence) {
     std::string words = "order " + shown(*convergence.order, "%.2g");
     if (!convergence.order_by_noise) return words;
     const auto [low, high] = *convergence.order_by_noise;
+    // A range within a factor of two is no news.
     if (high <= 2.0 * low) return words;
     return words + " (by the noise anything from " + shown(low, "%.2g") + " to " +
            shown(high, "%.2g") + "; use rungs farther apart or more repeats)";
@@ -82,6 +83,7 @@ std::string run_in_words(const AccuracyTable& table, const AccuracyRow& row) {
 }
 
 /// Contributions of the ladders to the error of a run, without small ones.
+/// For the setting that is nearest but not good enough: it says which ladder to refine.
 std::string shares_of(const AccuracyTable& table, const AccuracyRow& row) {
     if (table.plan.reference.kind == ReferenceKind::given) return "";
     constexpr double told = 0.05;  // of the whole
@@ -130,6 +132,7 @@ std::string recommended_in_words(const AccuracyTable& table, const AccuracyRow& 
     const std::string setting = setting_in_words(table, row);
     const std::string asked = percent(table.plan.asked_error);
     const std::string remedy = how_to_measure_noise(table.plan);
+    // Without repeats, nothing can be said of nine of ten runs.
     if (!row.value->deviation)
         return "The cheapest setting within " + asked + " is " + setting + " (" +
                run_in_words(table, row) + ")" +
@@ -206,6 +209,7 @@ std::string recommendation_in_words(const AccuracyTable& table) {
         words +=
             ", nor the mean of " + std::to_string(statistics::most_draws_of_a_mean) + " repeats";
     words += "; the nearest is " + setting_in_words(table, *best) + " (";
+    // More repeats cannot help: only a finer setting can.
     if (best->value->deviation && *best->bias > table.plan.asked_error)
         words += "its own error is " + percent(*best->bias) + ", for any number of repeats; ";
     else if (best->value->deviation)

@@ -1,3 +1,6 @@
+// `breachline check` reads everything that database and files say twice and compares them. It opens
+// the database read-only and takes one transaction, so it may run beside a service; only `mend`
+// changes anything, and needs the lock of the folder.
 #include "services/orchestrator/audit/audit.hpp"
 
 #include <algorithm>
@@ -14,11 +17,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// The rows are those of the moment at which the audit began: a younger file may have got its row
+// since, or be about to get it.
 constexpr auto young = std::chrono::minutes(1);
 
 const std::string from_backup =
     "restore it from a backup of the data folder; until then no equal question is answered with it";
 
+/// Each look_at compares one kind of statement. All findings are collected: a person who repairs a
+/// store wants the whole list.
 class Auditor {
   public:
     Auditor(const DataPaths& data, Look look, bool in_service)
@@ -29,6 +36,8 @@ class Auditor {
     }
 
     Audit audit() && {
+        // First: tables of another version may have other columns, and the rest would not find its
+        // own.
         look_at_database();
         if (refusal_of(audit_.version)) return std::move(audit_);
         look_at_counts();
@@ -62,6 +71,7 @@ class Auditor {
                 *counted = database_.integer(std::string("SELECT count(*) FROM ") + table).value();
     }
 
+    /// run_counts is kept by triggers of the schema so that lists of runs need no sums over tasks.
     void look_at_counts() {
         for (const std::string& run : database_.texts(R"(SELECT run
 FROM (SELECT run, count(*) AS total, count(finished) AS ended,
@@ -73,6 +83,8 @@ WHERE (now.total, now.ended, now.reached, now.cancelled) <>
                   "--repair counts them anew", true});
     }
 
+    /// Only of ended tasks: a running phase still writes. What the phase left beside its registered
+    /// outputs (checkpoints, logs) has no row and is not compared.
     void look_at_outputs() {
         database_.query(
             R"(SELECT run, label, name, bytes, sha256 FROM artifacts JOIN tasks ON tasks.id=task
@@ -95,6 +107,7 @@ WHERE finished IS NOT NULL)",
             });
     }
 
+    /// Before look_for_strays(), which needs the names that are collected here.
     void look_at_files() {
         database_.query("SELECT file, bytes, sha256, name FROM files", {}, [&](const Row& row) {
             ++audit_.files;
@@ -126,6 +139,8 @@ WHERE finished IS NOT NULL)",
 
     void look_for_strays() {
         std::map<std::string, std::set<std::string>> labels;
+        // A removal deletes the rows first and the folder later; what it has not reached yet is no
+        // stray.
         const std::vector<std::string> leaving = database_.texts("SELECT run FROM removals");
         for (const std::string& run : database_.texts("SELECT id FROM runs")) labels[run];
         database_.query("SELECT run, label FROM tasks", {},
@@ -135,6 +150,7 @@ WHERE finished IS NOT NULL)",
             if (std::ranges::find(leaving, run) != leaving.end()) return;
             if (!labels.contains(run)) return stray(folder, "belongs to no run");
             each_in(folder, [&](const fs::path& inside) {
+                // "files" holds links to uploads that the run's scene names.
                 if (fs::is_directory(inside) && inside.filename() != "files" &&
                     !labels.at(run).contains(inside.filename()))
                     stray(inside, "belongs to no task of its run");
@@ -164,6 +180,8 @@ Audit audited(const DataPaths& data, Look look) {
 
 Audit audited(const DataFolder& data, Look look) { return Auditor(data, look, false).audit(); }
 
+/// Strays are moved, never deleted: a file that the store does not know may be someone's only copy.
+/// Counts are derived, so counting again loses nothing. Everything else needs a person.
 void mend(const DataFolder& data, const std::vector<Inconsistency>& found) {
     const fs::path strays = data.root() / "strays";
     for (const Inconsistency& each : found) {

@@ -1,5 +1,5 @@
-// Checks that the database and the files agree. `audited` reads everything and changes
-// nothing; `mend` repairs faults that can be repaired without loss.
+// Checks that the database and the files agree, for `breachline check`. `audited` reads everything
+// and changes nothing; `mend` repairs faults that can be repaired without loss.
 #pragma once
 
 #include <cstdint>

@@ -1,3 +1,6 @@
+// The command runs without the service, on the data folder alone: after a crash, a restored backup,
+// or a disk that ran full, before the service is started again. The report of --repair is that of a
+// second look: it lists what is left.
 #include "services/orchestrator/audit/check_command.hpp"
 
 #include <algorithm>
@@ -27,6 +30,7 @@ void print(const Audit& audit, Look look) {
             << "a service works on this folder: what is younger than a minute was passed over\n";
 }
 
+/// For scripts: the same findings, with the word whether --repair would do.
 void print_json(const Audit& audit) {
     nlohmann::json inconsistencies = nlohmann::json::array();
     for (const Inconsistency& each : audit.inconsistencies)
@@ -62,10 +66,14 @@ CLI::App* CheckOptions::add_to(CLI::App& program) {
 }
 
 fault::ExitCode check(const CheckOptions& options) {
+    // To compare contents, every stored result is read once; --sizes answers at once.
     const Look look = options.sizes ? Look::at_sizes : Look::at_contents;
     const DataPaths paths(options.data);
     Audit audit = audited(paths, look);
     if (options.repair && std::ranges::any_of(audit.inconsistencies, &Inconsistency::mendable)) {
+        // Throws while a service has the folder. What was found before the lock may have changed
+        // since, so the owner looks again; sizes suffice, because nothing inside a file is
+        // repaired.
         const DataFolder owned(options.data);
         mend(owned, audited(owned, Look::at_sizes).inconsistencies);
         audit = audited(owned, look);

@@ -16,8 +16,8 @@ struct CheckOptions {
     CLI::App* add_to(CLI::App& program);
 };
 
-/// done: no inconsistencies; bad_input: some. Throws BadInput, IoError (a service runs and --repair was
-/// given) and StoreError.
+/// done: no inconsistencies; bad_input: some, also those that --repair left. Throws BadInput,
+/// IoError (a service runs and --repair was given) and StoreError.
 fault::ExitCode check(const CheckOptions& options);
 
 }  // namespace breach::orchestrator

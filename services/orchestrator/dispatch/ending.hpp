@@ -1,5 +1,5 @@
-// Maps the end of an attempt to a ending on its task, from the exit record and whether the attempt
-// resumed from a checkpoint.
+// What the end of an attempt means for its task: from the exit record, and from whether the attempt
+// resumed from a checkpoint. Attempts::note_exit moves the task by it.
 #pragma once
 
 #include <string>

@@ -1,3 +1,5 @@
+// For the page of one task (http_runs.cpp), on the request's thread. The reason is worked out
+// afterwards from recipes and rows; nothing about it is stored but a refusal of the cache.
 #include "services/orchestrator/dispatch/why.hpp"
 
 #include "services/orchestrator/study/recipe.hpp"
@@ -15,6 +17,7 @@ json because(const std::string& reason, const json& differs = json::array(),
     return {{"reason", reason}, {"differs", differs}, {"compared_with", compared_with}};
 }
 
+/// The recipe is equal, so only input, time or outcome can have kept the cache from answering.
 json beside_equal_recipe(const Task& task, const Task& earlier) {
     if (earlier.state == TaskState::failed || earlier.state == TaskState::cancelled ||
         earlier.state == TaskState::skipped)
@@ -49,6 +52,7 @@ json why_it_ran(const Store& store, const Task& task) {
     json best;
     for (const auto& [id, earlier] : store.earlier_recipes(task, most_compared)) {
         const auto differs = differences(json::parse(earlier.part), part);
+        // The nearest earlier recipe; of equally near ones the newest.
         if (!best.is_null() && best.at("differs").size() <= differs.size()) continue;
         const bool newer = earlier.cache_version != mine->cache_version;
         best = because(newer ? "cache version changed" : "scene part changed", differs, id);

@@ -15,7 +15,7 @@ namespace breach::orchestrator {
 ///     scene part changed             differs: pointers into the scene
 ///     cache version changed          the phase's numerics are newer
 ///     input changed                  same scene part, another input file
-///     earlier task did not succeed   results of failed and stopped tasks are never reused
+///     earlier task did not succeed   it failed, was stopped or skipped
 ///     earlier task had not ended     both were under way at the same time
 ///     stored outputs are damaged     detail: which file
 nlohmann::json why_it_ran(const Store& store, const Task& task);

@@ -1,7 +1,7 @@
 // A file that a client is sending. POST /v1/files creates it locked, and its handler appends and
-// then moves it into its place. A broken connection leaves a resumable file, which the next
-// request with the same hash takes up; the destructor removes those that are not kept, and every
-// new upload removes those that no client continued for a day. The lock keeps two requests from
+// then moves it into its place. A broken connection leaves a resumable file, which the next request
+// with the same hash takes up; the destructor removes those that are not kept, and every new upload
+// with a hash removes those that no client continued for a day. The lock keeps two requests from
 // writing one file.
 #include "services/orchestrator/files/arriving_file.hpp"
 

@@ -8,6 +8,10 @@
 //     <data>/runs/<run>/<label>/reused            names of files that the cache is placing there
 //     <data>/runs/<run>/files/         links to the files in <data>/files that its scene names
 //     <data>/files/<sha256>.<ending>   uploaded files, by their content
+//     <data>/arriving/                 uploads that may be resumed (arriving_file.hpp)
+//     <data>/scratch/                  of requests and meshes; emptied at each start
+//     <data>/strays/                   what `breachline check --repair` found without a row
+//     <data>/backup-under-way          while breachline-backup runs: nothing is removed
 //     <data>/runs/<run>/<label>/attempts/fence    held by the one attempt whose phase may run
 //     <data>/runs/<run>/<label>/attempts/<n>/     order.json lock heartbeat stdout.jsonl log.txt
 //                                      exit.json [stop] [slurm.json]

@@ -1,3 +1,5 @@
+// In the shipped program as well: what is tested is what runs. A pass costs the comparison of an
+// empty name when no variable is set. Read once, at the first pass of any point.
 #include "services/orchestrator/files/failpoint.hpp"
 
 #include <unistd.h>

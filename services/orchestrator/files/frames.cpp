@@ -1,3 +1,5 @@
+// Snapshots for the dashboard's canvas: single precision and flat, so that a browser uses the bytes
+// as they come. The list needs names only and no HDF5; TriggerWatch takes it, too.
 #include "services/orchestrator/files/frames.hpp"
 
 #include <algorithm>

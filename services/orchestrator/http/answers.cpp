@@ -28,10 +28,12 @@ json as_json(const Attempt& attempt) {
 }
 
 /// An entry of the task's result; null: no result, or no such entry.
+/// A few entries of result.json stand at the top of a task, where lists of tasks show them.
 json of_result(const Task& task, const char* key) {
     return task.result && task.result->is_object() ? task.result->value(key, json()) : json();
 }
 
+/// farthest differs from runout for a dam whose soil stays short of the toe: negative, upstream.
 json as_json(const GoverningResult& governing) {
     return {{"task", governing.task},
             {"variant", governing.variant},
@@ -50,6 +52,7 @@ json as_json(const LeastFactor& least) {
             {"factor_of_safety_liquefied", or_null(least.liquefied)}};
 }
 
+/// Only where no FEM of the run made a runout may "stood" be said of the dam.
 findings::Headline headline_of(const Run& run) {
     findings::HeadlineFacts facts{
         .stood_in_fem =
@@ -64,6 +67,7 @@ findings::Headline headline_of(const Run& run) {
     return findings::headline_of(facts);
 }
 
+/// Every column may be null: rows exist before their tasks have ended.
 json schema_of(ColumnKind kind) {
     switch (kind) {
         case ColumnKind::number:
@@ -82,12 +86,14 @@ json schema_of(ColumnKind kind) {
 }  // namespace
 
 json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
+    // Progress of running tasks is on the board only, never in the store: it changes too often.
     const double fractions = board.sum_of_run(run.id);
     double progress = 1.0;
     if (!run.finished && run.tasks_total > 0) {
         progress = (static_cast<double>(run.tasks_ended) + fractions) /
                    static_cast<double>(run.tasks_total);
     }
+    // A paused run has no time left to tell: it depends on when someone resumes it.
     const bool goes_on = run.started && !run.finished && !run.paused;
     std::optional<double> left;
     if (goes_on) left = time_left(store.left_of(run.id), fractions);
@@ -118,6 +124,7 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
 json as_json(const Task& task, const std::vector<Attempt>& attempts,
              const std::vector<Artifact>& artifacts, const ProgressBoard& board) {
     Progress progress = board.of(task.id);
+    // The board forgets a task that has ended.
     if (is_final(task.state)) progress.fraction = 1.0;
     json tried = json::array();
     for (const Attempt& each : attempts) tried.push_back(as_json(each));
@@ -126,6 +133,7 @@ json as_json(const Task& task, const std::vector<Attempt>& attempts,
         kept.push_back({{"name", each.name}, {"sha256", each.sha256}, {"bytes", each.bytes}});
     json fault = nullptr;
     if (task.fault)
+        // Without pointers and remedies: those are in the task's fault.json.
         fault = {{"exit_code", or_null(task.fault->exit_code)}, {"summary", task.fault->summary}};
     return {
         {"id", task.id},
@@ -161,7 +169,7 @@ json as_json(const Event& event) {
 
 namespace {
 
-/// The same text as json::dump, but much faster for plain values.
+/// A table of results may have thousands of rows, all of them in one answer.
 void append_value(std::string& text, const json& value) {
     const auto is_plain = [](unsigned char c) {
         return c >= 0x20 && c < 0x7f && c != '"' && c != '\\';
@@ -209,6 +217,7 @@ json described(Columns columns) {
 namespace {
 
 /// Among the study's own variants, without repeats.
+/// Repeats differ by noise alone and would never be equal, so only the author's variants count.
 json same_results_of(const Store& store, const std::string& run, const AllRows& all_rows) {
     std::vector<std::string> variants;
     for (const json& each : unless_removed(store.study_of(run)).value("variants", json::array()))
@@ -219,12 +228,14 @@ json same_results_of(const Store& store, const std::string& run, const AllRows& 
 
 }  // namespace
 
+/// For answers whose last entry is long and is written as text.
 std::string opened(const json& object) {
     std::string text = object.dump(-1, ' ', false, json::error_handler_t::replace);
     text.back() = ',';
     return text;
 }
 
+/// The verdict is made again here: equal results of variants are known only from the rows.
 std::string results_text(const Store& store, Run run, const std::vector<ResultRow>& rows,
                          const std::vector<ResultRow>& means, const AllRows& all_rows) {
     json without = json::array();
@@ -269,6 +280,7 @@ json as_json(const std::vector<fault::Fault>& faults) {
     return list;
 }
 
+/// CR LF, as RFC 4180 asks.
 std::string as_csv(const std::vector<ResultRow>& rows, Columns columns) {
     std::string text;
     for (const ResultColumn& each : columns) text.append(text.empty() ? "" : ",").append(each.name);

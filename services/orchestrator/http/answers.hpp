@@ -1,4 +1,5 @@
-// The answers of the API: records as JSON.
+// The answers of the API: records as JSON, as openapi.json describes them. Also used for folders
+// without a service (report_questions.cpp).
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 
 namespace breach::orchestrator {
 
+/// board: progress of running tasks, in memory; an empty board stands for a run that has ended.
 nlohmann::json as_json(const Run& run, const Store& store, const ProgressBoard& board);
 nlohmann::json as_json(const Task& task, const std::vector<Attempt>& attempts,
                        const std::vector<Artifact>& artifacts, const ProgressBoard& board);

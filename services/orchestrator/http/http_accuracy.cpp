@@ -1,3 +1,5 @@
+// The table of an accuracy study, computed for each request from the results so far. With
+// asked_error a reader tries another requested error without a new study.
 #include "services/orchestrator/accuracy/accuracy_table.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
@@ -8,6 +10,7 @@ using nlohmann::json;
 
 namespace {
 
+/// With the run's state, since the table of a running study is not the last one.
 void reply_of_run(Call& call, const Run& run, json body) {
     body["run"] = run.id;
     body["state"] = run.state;

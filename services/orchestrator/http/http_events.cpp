@@ -28,9 +28,13 @@ std::atomic<int> streams = 0;
 std::atomic<int> waiters = 0;
 
 /// One of a limited number of streams; released by the destructor.
+/// A thread that waits serves no one else, so waiting clients get a limit of their own, below the
+/// number of threads (most_connections in http_server.cpp).
 class Seat {
   public:
     Seat(std::atomic<int>& taken, int most, httplib::Response& response) : taken_(taken) {
+        // Taken first and given back if that was one too many: no two clients can get the last
+        // seat.
         if (taken_.fetch_add(1) < most) return;
         taken_.fetch_sub(1);
         response.set_header("Retry-After", "5");
@@ -46,6 +50,7 @@ class Seat {
 };
 
 /// Waits in slices, so that a stopping server ends soon.
+/// The store wakes waiters at each commit; the slices are for `stopping`, which wakes no one.
 bool wait_for_event(const Store& store, std::int64_t after, Clock::time_point until,
                     const std::atomic<bool>& stopping) {
     while (!stopping && Clock::now() < until) {
@@ -61,6 +66,8 @@ bool is_beyond_newest(const Store& store, std::int64_t after) {
            store.events_after(after - 1, 1).empty();  // not yet counted, but already readable
 }
 
+/// next: what the client sends as `after` in its next request; with `run` it may lie before the
+/// newest event, as others' events are left out.
 void long_poll(const Service& service, Call& call, const std::atomic<bool>& stopping) {
     const std::int64_t after = call.whole_number("after", 0, 0, largest_seq);
     if (is_beyond_newest(service.store, after))
@@ -85,6 +92,7 @@ void long_poll(const Service& service, Call& call, const std::atomic<bool>& stop
 }
 
 /// First event of a stream: after Last-Event-ID, else the next.
+/// A browser sends Last-Event-ID by itself when it reconnects.
 std::int64_t stream_start(const Service& service, const Call& call) {
     const std::string seen = call.request.get_header_value("Last-Event-ID");
     std::int64_t seq = 0;
@@ -97,6 +105,7 @@ struct Stream {
     Seat seat;
     std::int64_t after;
     std::optional<std::string> run;  ///< only its events; empty: of all runs
+    // The browser reconnects two seconds after the connection was lost.
     std::string greeting = "retry: 2000\n\n";
     Clock::time_point spoke = Clock::now();
 };
@@ -105,6 +114,8 @@ bool write(httplib::DataSink& sink, const std::string& text) {
     return sink.write(text.data(), text.size());
 }
 
+/// Called again and again by httplib until it returns false. Events of other runs move `after` on
+/// without being sent.
 bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& sink,
                      const std::atomic<bool>& stopping) {
     if (stopping || !sink.is_writable()) return false;  // release its place
@@ -124,6 +135,7 @@ bool continue_stream(const Service& service, Stream& stream, httplib::DataSink& 
     return write(sink, text);
 }
 
+/// The stream lives on after the handler: httplib keeps the provider, and with it the seat.
 void server_sent(const Service& service, Call& call, const std::atomic<bool>& stopping) {
     // An aggregate: its seat cannot be moved.
     auto stream =

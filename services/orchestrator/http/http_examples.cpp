@@ -1,3 +1,5 @@
+// The shipped studies as POST /v1/runs takes them: with the scene inside, and paths of motions
+// absolute, since a document that is sent has no folder. Read from the disk at each request.
 #include <algorithm>
 
 #include "core/scene/file_paths.hpp"
@@ -12,6 +14,7 @@ namespace {
 /// The study with its scene, as POST /v1/runs accepts it; nothing: the file is not a study.
 std::optional<json> example_in(const std::filesystem::path& file) {
     json study = json::parse(whole_text(file), nullptr, false);
+    // Other JSON files may lie beside the studies.
     if (!study.is_object() || !study.contains("name")) return std::nullopt;
     if (study.contains("scene") && study["scene"].is_string()) {
         const auto scene_file = file.parent_path() / study["scene"].get<std::string>();
@@ -31,6 +34,7 @@ std::vector<json> examples_in(const std::filesystem::path& folder) {
         if (entry.path().extension() != ".json") continue;
         if (auto study = example_in(entry.path())) found.push_back(std::move(*study));
     }
+    // The file system gives them in any order.
     std::ranges::sort(found, {}, [](const json& each) { return each.at("name").dump(); });
     return found;
 }
@@ -43,6 +47,7 @@ void list(const Service& service, Call& call) {
     reply(call.response, {{"examples", examples}});
 }
 
+/// By the study's name, not the file's: it is what the list gives.
 void show(const Service& service, Call& call) {
     call.allow_parameters({});
     for (const json& each : examples_in(service.workflows / "studies"))

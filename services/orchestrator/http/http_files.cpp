@@ -55,6 +55,8 @@ Problem disk_refused(const std::string& why) {
 }
 
 /// Appends the body to the file. `kept`: an interrupted upload may be resumed.
+/// Called by httplib's thread of this request, part by part. A fault of the disk is kept until the
+/// sender is done, so that the answer can be read.
 void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
     // Beyond this the connection is closed: a sender that ignores the limit must not occupy a
     // thread.
@@ -82,6 +84,8 @@ void take(const Call& call, ArrivingFile& file, std::size_t most, bool kept) {
 }
 
 /// sha256: announced by the sender; empty: not announced.
+/// from = 0 begins again, what has arrived or not. Any other `from` must fit, or bytes would be
+/// missing inside.
 ArrivingFile arriving_file(const Service& service, const std::string& sha256,
                            const std::string& ending, std::int64_t from) {
     if (sha256.empty()) {
@@ -103,6 +107,7 @@ ArrivingFile arriving_file(const Service& service, const std::string& sha256,
 
 /// Identifies the file with the reader for its type, and returns the reader's warnings. Throws
 /// BadInput with the sender's name of the file.
+/// A file that no phase could read is refused now, not when its FEM starts.
 std::vector<fault::Flag> recognise(const fs::path& path, StoredFile& file) {
     try {
         if (path.extension() == ".msh") {
@@ -128,6 +133,7 @@ std::vector<fault::Flag> recognise(const fs::path& path, StoredFile& file) {
 }
 
 /// Warnings of a stored motion, which the present reader may refuse.
+/// A file that was stored stays usable: faults become warnings.
 std::vector<fault::Flag> warnings_again(const fs::path& path) {
     try {
         return motion::warnings_about(motion::read_motion(path), "");
@@ -143,12 +149,16 @@ json as_json(const StoredFile& file) {
             {"created", file.created}, {"used", file.used}};
 }
 
+/// By size only: a hash of each motion at each request would take long. The audit compares
+/// contents.
 bool is_whole(const Service& service, const StoredFile& file) {
     std::error_code error;
     const auto size = fs::file_size(service.data.files() / file.file, error);
     return !error && static_cast<std::int64_t>(size) == file.bytes;
 }
 
+/// The rename runs inside the transaction (Transaction::keep_file): a row is never committed before
+/// its file is in place.
 void keep(Service& service, const ArrivingFile& arriving, const StoredFile& file) {
     pass_failpoint("upload_before");
     service.store.write([&](Transaction& transaction) {
@@ -175,12 +185,14 @@ void upload(Service& service, Call& call) {
     take(call, arriving, service.largest_file, !announced.empty());
     arriving.sync();
     file.bytes = arriving.bytes();
+    // From the disk, not from the stream: it is the stored bytes that count.
     file.sha256 = exchange::sha256_of_file(arriving.path());
     if (!announced.empty() && announced != file.sha256)
         throw Problem{422, "/problems/hash-mismatch", "Another file",
                       "what arrived has the SHA-256 " + file.sha256 + "; send it again"};
     const auto known = service.store.file(file.sha256);
     file.file = known ? known->file : file.sha256 + ending_of(file.name);
+    // A known file that has vanished or been cut is stored again.
     const bool is_here = known && is_whole(service, *known);
     std::vector<fault::Flag> warnings;
     if (!is_here)
@@ -194,6 +206,7 @@ void upload(Service& service, Call& call) {
     reply(call.response, answer, is_here ? 200 : 201);
 }
 
+/// With the runs that name each file, since only files without any can be removed.
 void list_files(const Service& service, Call& call) {
     call.allow_parameters({});
     json files = json::array();
@@ -204,6 +217,7 @@ void list_files(const Service& service, Call& call) {
     reply(call.response, {{"files", std::move(files)}});
 }
 
+/// A row whose file has been lost is "not found": the client then sends the file again.
 StoredFile wanted_file(const Service& service, const std::string& sha256) {
     auto file = service.store.file(sha256);
     if (!file || !is_whole(service, *file)) throw not_found("file " + sha256);
@@ -217,6 +231,7 @@ void show_file(Service& service, Call& call) {
     if (const auto bytes = arrived_bytes(service.data.arriving(), call.parts[0]); bytes > 0)
         call.response.set_header("X-Arrived-Bytes", std::to_string(bytes));
     const StoredFile file = wanted_file(service, call.parts[0]);
+    // A client asks before it submits: the file must not be removed as unused in between.
     if (call.request.method == "HEAD")
         service.store.write([&](Transaction& transaction) { transaction.touch_file(file.sha256); });
     call.response.set_header("X-File-Reference", scene::reference_to(file.file));
@@ -228,6 +243,7 @@ void remove_file(Service& service, Call& call) {
     const std::string& sha256 = call.parts[0];
     const auto file = service.store.file(sha256);
     if (!file) throw not_found("file " + sha256);
+    // Whether a run names the file is asked in the transaction that removes it.
     const Removal outcome = service.store.write([&](Transaction& transaction) {
         return transaction.forget_file(sha256,
                                        [&] { fs::remove(service.data.files() / file->file); });
@@ -241,6 +257,7 @@ void remove_file(Service& service, Call& call) {
 
 }  // namespace
 
+/// For motions that the service makes itself (templates, imports).
 std::string keep_motion(Service& service, const std::string& name, const std::string& text) {
     ArrivingFile arriving =
         ArrivingFile::of_one_request(service.data.scratch() / (new_run_id() + ending_of(name)));

@@ -1,3 +1,5 @@
+// For Prometheus: only what the store counts quickly or the process has in memory. Open without a
+// token like /healthz (http_router.cpp), so it names no run.
 #include <sstream>
 
 #include "services/orchestrator/http/http_routes.hpp"
@@ -17,6 +19,7 @@ std::string metrics(const Router& router, const Service& service) {
     std::ostringstream text;
     by_state(text, "breachline_tasks", "Tasks by state.", service.store.tasks_by_state());
     by_state(text, "breachline_attempts", "Attempts by state.", service.store.attempts_by_state());
+    // Counters of the process begin at 0 with each start; Prometheus expects that.
     text << "# HELP breachline_http_requests_total Answers by class of status.\n"
             "# TYPE breachline_http_requests_total counter\n";
     const auto answers = router.answers();

@@ -1,3 +1,5 @@
+// Gathers what findings/motions.cpp needs of a run: one entry per FEM, with the measures of its
+// record and the farthest of its runouts.
 #include <map>
 
 #include "core/motion/measures.hpp"
@@ -39,15 +41,19 @@ std::vector<findings::Shaken> shaken_in(const Store& store, const std::string& r
         const auto transfer = made_by.is_string() ? tasks.find(made_by) : tasks.end();
         if (!runout.is_number() || transfer == tasks.end()) continue;
         const auto fem = by_fem.find(transfer->second.parent.value_or(""));
+        // Several transfer times of one FEM: the largest runout counts. An absent one is less than
+        // any.
         if (fem == by_fem.end() || fem->second.runout >= runout.get<double>()) continue;
         fem->second.runout = runout;
         fem->second.lower_bound = value_of(row, "lower_bound") == true;
     }
     for (const WithoutTransfer& each : store.without_transfer(run))
         if (const auto fem = by_fem.find(each.fem_task); fem != by_fem.end() && each.stood)
+            // A dam that stood is a result, 0 m; a FEM whose transfer failed has none.
             fem->second.runout = fem->second.runout.value_or(0.0);
     std::vector<findings::Shaken> all;
     for (auto& [_, each] : by_fem) all.push_back(std::move(each));
+    // Task ids say nothing to a reader.
     std::ranges::sort(all, {}, &findings::Shaken::variant);
     return all;
 }

@@ -1,3 +1,5 @@
+// Hydrographs of one runout and bands over all runouts of a run. The files of the phases are read
+// at each request: an ended runout's files do not change.
 #include <fstream>
 
 #include "core/phases/files.hpp"
@@ -16,6 +18,7 @@ constexpr double default_interval = 1.0;  // of exports [s]
 constexpr std::int64_t largest_cell = 100'000'000;
 
 /// "72" or "60,72,90".
+/// A text that is no number becomes "discarded", which breach_width_from refuses with its remedy.
 json width_entry(const std::string& text) {
     if (text.find(',') == std::string::npos) return json::parse(text, nullptr, false);
     return json::parse("[" + text + "]", nullptr, false);
@@ -50,6 +53,7 @@ json body_of(const Task& task, const outflow::Hydrograph& hydrograph,
 }
 
 /// Flags of the runout's row of results.
+/// The export goes into other programs, where no one sees the run's flags.
 std::string caution_of(const Store& store, const Task& task) {
     for (const ResultRow& row : store.results(task.run)) {
         if (value_of(row, "mpm_task") != task.id) continue;
@@ -86,6 +90,7 @@ void hydrograph(Service& service, Call& call) {
         throw not_found("hydrograph of task " + task.id + " yet: it has not succeeded");
     const auto output = service.data.output(task);
     outflow::Hydrograph found;
+    // HDF5 is used by one thread at a time.
     service.frames.alone([&] {
         found = outflow::hydrograph_in(outflow::history_of(output),
                                        call.parameter("section").value_or(""), "runout");
@@ -114,6 +119,8 @@ void hydrograph(Service& service, Call& call) {
 }
 
 /// Percentiles of the envelopes of the run's runouts so far.
+/// A runout without an envelope is listed with the reason: percentiles of fewer samples than the
+/// reader thinks would mislead.
 void envelopes(const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_run(service, call.parts[0]);
@@ -137,6 +144,7 @@ void envelopes(const Service& service, Call& call) {
             leave_out("has no envelope.csv: made by an earlier version, or removed");
         }
     }
+    // Variants without a runout count as left out, too.
     for (const WithoutTransfer& each : service.store.without_transfer(run.id))
         left_out.push_back(
             {{"task", each.fem_task}, {"variant", each.variant}, {"reason", each.reason}});

@@ -1,3 +1,5 @@
+// What phases have written, also while they write it: logs, telemetry and frames are read from the
+// folder of the task, artifacts of ended tasks by their hash.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -22,6 +24,7 @@ Problem gone(const std::string& what) {
     return {410, "/problems/gone", "Gone", what + " is no longer on the disk as it was stored"};
 }
 
+/// By parts of at most 1 MiB; a client follows a running phase by asking from X-Next-Offset on.
 void log(const Service& service, Call& call) {
     call.allow_parameters({"offset"});
     const Task task = wanted_task(service, call.parts[0]);
@@ -34,6 +37,7 @@ void log(const Service& service, Call& call) {
     std::int64_t offset = call.whole_number("offset", 0, 0, largest_count);
     std::ifstream stream(service.data.attempt(task, attempt->number).log(), std::ios::binary);
     std::string text(static_cast<std::size_t>(largest_log_part), '\0');
+    // Beyond the end, read() finds nothing and the answer is empty: there is no more yet.
     stream.seekg(offset);
     stream.read(text.data(), largest_log_part);
     text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
@@ -44,6 +48,7 @@ void log(const Service& service, Call& call) {
 }
 
 /// Names in a comma-separated parameter.
+/// Unknown names are the reader's to refuse: it knows the file's columns.
 std::vector<std::string> names_in(const Call& call, const std::string& parameter) {
     std::vector<std::string> names;
     std::istringstream text(call.parameter(parameter).value_or(""));
@@ -64,6 +69,7 @@ void telemetry(const Service& service, Call& call) {
           read_telemetry(service.data.output(task) / phases::files::telemetry, query));
 }
 
+/// From the folder, so that frames of a running phase are there; their hashes come when it ends.
 void frames(const Service& service, Call& call) {
     call.allow_parameters({});
     const Task task = wanted_task(service, call.parts[0]);
@@ -85,6 +91,7 @@ void points(Service& service, Call& call) {
     const std::string& name = call.parts[1];
     const auto file = service.data.output(task) / name;
     std::error_code error;  // for example a name that is too long
+    // The name is from the request: only names that phases give, and no links, are opened.
     if (!is_frame_name(name) ||
         !std::filesystem::is_regular_file(std::filesystem::symlink_status(file, error)))
         throw not_found("frame " + name + " of task " + task.id);
@@ -101,6 +108,7 @@ void points(Service& service, Call& call) {
 }
 
 /// At most one range, inside the file; httplib does not check it.
+/// `first` below 0 is httplib's form of "the last `second` bytes".
 void keep_valid_range(const httplib::Request& request, std::int64_t size) {
     if (request.ranges.empty()) return;
     // The request is httplib's own mutable object, from which it writes the answer.
@@ -135,6 +143,7 @@ void artifact(const Service& service, Call& call) {
 
 }  // namespace
 
+/// Half a microsecond: transfer times are whole microseconds.
 Task meant_task(const Service& service, const std::string& run, const std::string& phase,
                 std::optional<double> transfer_time, const std::optional<std::string>& variant) {
     constexpr double same_time = 5e-7;
@@ -158,6 +167,7 @@ void send_content(Call& call, const std::filesystem::path& file, const std::stri
                   std::int64_t bytes, const std::string& name) {
     const std::string tag = '"' + sha256 + '"';
     call.response.set_header("ETag", tag);
+    // By its hash, a content never changes.
     call.response.set_header("Cache-Control", "private, max-age=31536000, immutable");
     if (call.request.get_header_value("If-None-Match") == tag) {
         call.response.status = 304;
@@ -166,6 +176,7 @@ void send_content(Call& call, const std::filesystem::path& file, const std::stri
     std::error_code error;
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
     auto stream = std::make_shared<std::ifstream>(file, std::ios::binary);
+    // Before the headers of a good answer are on their way: later a fault could not be said.
     if (error || !*stream || size != bytes) throw gone(name);
     keep_valid_range(call.request, size);
     call.response.set_header("Content-Disposition", "attachment; filename=\"" + name + '"');
@@ -173,6 +184,7 @@ void send_content(Call& call, const std::filesystem::path& file, const std::stri
     call.response.set_content_provider(
         static_cast<std::size_t>(size), "application/octet-stream",
         [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            // Part by part, as the reader takes it: files may be larger than the memory.
             std::vector<char> part(std::min<std::size_t>(length, 1 << 16));
             stream->seekg(static_cast<std::streamoff>(offset));
             stream->read(part.data(), static_cast<std::streamsize>(part.size()));

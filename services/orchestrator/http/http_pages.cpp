@@ -1,3 +1,6 @@
+// What needs no run: the dashboard's files, the description of the API, schemas, health, and the
+// plan of a scene. openapi.json describes only what cannot be derived; rights, columns and path
+// parameters are added from the code, so that they cannot differ from it.
 #include <algorithm>
 #include <fstream>
 #include <map>
@@ -20,9 +23,11 @@ using nlohmann::json;
 
 namespace {
 
+// Room for the database to commit and a run's documents.
 constexpr std::uintmax_t least_free_bytes = 16 << 20;
 
 /// The fields of telemetry, which conditions of triggers may use.
+/// Made from the columns that the phases write, so that forms and errors know the same names.
 json telemetry_table() {
     json fields = json::array();
     for (const auto& table : {telemetry::fem_columns(), telemetry::run_columns()})
@@ -53,6 +58,8 @@ bool is_plain(const std::string& path) {
            path.find("/.") == std::string::npos;
 }
 
+/// no-cache: a browser asks again each time, so that a new version of the service shows its own
+/// pages.
 void send_file(const Service& service, Call& call, const std::string& name) {
     if (!is_plain(name)) throw not_found("such page");
     const auto wanted = service.web / name;
@@ -72,7 +79,7 @@ void send_file(const Service& service, Call& call, const std::string& name) {
     call.response.set_content(whole_text(file), type->second);
 }
 
-/// openapi.json, completed with the columns of results and the rights of the routes.
+// openapi.json with its order of entries, which a reader of the page follows.
 using Description = nlohmann::ordered_json;
 
 /// "problems": statuses answered by a problem; other statuses are possible.
@@ -131,6 +138,7 @@ void add_examples(Description& paths) {
     }
 }
 
+/// openapi.json, completed with the columns of results and the rights of the routes.
 std::string api_description(const Router& router) {
     auto document = Description::parse(openapi_text());
     Description& schemas = document["components"]["schemas"];
@@ -147,6 +155,7 @@ std::string api_description(const Router& router) {
             const Right right = router.needed(name, path);
             operation["security"] = json::array();
             if (right == Right::none) continue;
+            // The empty object: a service without tokens on loopback needs none.
             operation["security"] = json::array({json::object(), {{"bearer", {name_of(right)}}}});
         }
     }
@@ -156,6 +165,7 @@ std::string api_description(const Router& router) {
     return document.dump(1);
 }
 
+/// Ready: there is room on the disk and the database answers.
 void ready(const Service& service, Call& call) {
     std::error_code error;
     const auto space = std::filesystem::space(service.data.scratch(), error);
@@ -175,6 +185,7 @@ void add_page_routes(Router& router, Service& service) {
     router.get("/readyz", [&](Call& call) { ready(service, call); });
     router.get("/openapi.json", [&router](Call& call) {
         call.allow_parameters({});
+        // At the first request, when all routes have been added.
         static const std::string text = api_description(router);
         call.response.set_content(text, "application/json");
     });
@@ -191,6 +202,7 @@ void add_page_routes(Router& router, Service& service) {
     router.post("/v1/scenes/plan", [&](Call& call) {
         call.allow_parameters({});
         auto [scene, warnings] = sent_scene(call.json_body(), service);
+        // The phases take paths, not references.
         scene::resolve_references(scene, service.data.root());
         reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())},
                               {"warnings", findings::as_json(warnings)}});

@@ -1,5 +1,6 @@
 // The report of a run. The program `report` makes it from the folder that `breach export` would
-// write; the phases' files are linked, not copied.
+// write; the phases' files are linked, not copied. Run on the request's thread, for at most five
+// minutes.
 #include <memory>
 #include <mutex>
 
@@ -36,6 +37,8 @@ class ScratchFolder {
     fs::path path_;
 };
 
+/// Asks this very API for each document, with the caller's own rights: the report then says what
+/// the API says, and needs no reading of its own.
 class Folder {
   public:
     Folder(const Router& router, const Service& service, const Call& call, fs::path path)
@@ -43,6 +46,7 @@ class Folder {
 
     void fill() {
         const std::string& id = call_.parts[0];
+        // Tasks come in pages below: a run may have thousands.
         const json run = answer("", {{"tasks", "0"}});
         keep("run.json", run);
         keep("study.json", run.at("study"));
@@ -51,6 +55,7 @@ class Folder {
             for (const char* each : {"uncertainty", "envelopes"})
                 keep(std::string(each) + ".json", answer(std::string("/") + each));
         keep_motions();
+        // Motions that the scene names by reference are looked for there.
         if (const fs::path files = service_.data.run(id) / "files"; fs::exists(files))
             fs::create_directory_symlink(fs::absolute(files), path_ / "files");
         json page{{"next", ""}};
@@ -68,6 +73,7 @@ class Folder {
         request.method = "GET";
         request.path = "/v1/runs/" + call_.parts[0] + part;
         for (const auto& [name, value] : parameters)
+            // The first page has no cursor.
             if (!value.empty()) request.params.emplace(name, value);
         httplib::Response response;
         router_.answer(request, response, call_.caller);
@@ -120,6 +126,7 @@ void send_report(const Router& router, const Service& service, Call& call) {
     const fs::path page = scratch.path() / "report.html";
     const command::Result made =
         command::run({report_program(), scratch.path(), "--output", page, "--alone"}, "", longest);
+    // The program's own words say what is missing.
     if (made.exit_code != 0)
         throw Problem{409, "/problems/nothing-to-report", "Nothing to report",
                       made.err.empty() ? "the program report was stopped" : made.err};

@@ -27,6 +27,7 @@ std::vector<std::string> segments_of(const std::string& path) {
     std::vector<std::string> segments;
     std::istringstream stream(path);
     std::string segment;
+    // Empty segments are dropped: /v1//runs/ is /v1/runs.
     while (std::getline(stream, segment, '/')) {
         if (!segment.empty()) segments.push_back(segment);
     }
@@ -92,6 +93,7 @@ void reply(httplib::Response& response, const json& body, int status) {
 
 void reply_with_text(httplib::Response& response, std::string body, int status) {
     response.status = status;
+    // Answers are of this moment; only contents with a hash may be kept (send_content).
     response.set_header("Cache-Control", "no-store");
     response.set_header("Content-Type", "application/json");
     response.body = std::move(body);
@@ -140,6 +142,7 @@ std::optional<double> Call::number(const std::string& name) const {
     return value;
 }
 
+/// A page elsewhere can make a browser send a form, but not this content type without being asked.
 const std::string& Call::json_body() const {
     if (!request.get_header_value("Content-Type").starts_with("application/json")) {
         throw Problem{415, "/problems/unsupported-media-type", "Unsupported media type",
@@ -148,6 +151,8 @@ const std::string& Call::json_body() const {
     return request.body;
 }
 
+/// Open paths are the dashboard, health, metrics and the description: a page must load before
+/// anyone can give it a token.
 void Router::add(const char* method, const std::string& path, Handler handler, Right right) {
     if (!path.starts_with("/v1/")) right = Right::none;
     routes_.push_back({method, segments_of(path), std::move(handler), right});
@@ -165,6 +170,8 @@ void Router::remove(const std::string& path, Handler handler, Right right) {
     add("DELETE", path, std::move(handler), right);
 }
 
+/// Asked before the handler runs. A path that does not exist needs the right to read: a stranger
+/// learns nothing about paths.
 Right Router::needed(const std::string& method, const std::string& path) const {
     const std::vector<std::string> segments = segments_of(path);
     std::vector<std::string> parts;
@@ -188,6 +195,8 @@ void Router::answer(const httplib::Request& request, httplib::Response& response
     ++answers_[static_cast<std::size_t>(std::clamp(status / 100, 0, 5))];
 }
 
+/// The one place where exceptions become answers. 503 with Retry-After where a client may simply
+/// ask again.
 void Router::answer_uncounted(Call& call) const {
     const httplib::Request& request = call.request;
     httplib::Response& response = call.response;
@@ -219,6 +228,7 @@ void Router::answer_uncounted(Call& call) const {
     }
 }
 
+/// In the order in which routes were added; no two of them match the same path and method.
 void Router::run(Call& call) const {
     const httplib::Request& request = call.request;
     const std::string& method = read_method(request.method);

@@ -1,5 +1,5 @@
 // Routes by method and path template ("/v1/runs/{id}"), and problems (RFC 9457) as exceptions of
-// the handlers.
+// the handlers. The router knows nothing of tokens: the server has asked needed() before.
 #pragma once
 
 #include <httplib.h>

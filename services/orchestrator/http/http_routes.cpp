@@ -1,3 +1,4 @@
+// The list of groups; each group's file has its own add function and knows no other group.
 #include "services/orchestrator/http/http_routes.hpp"
 
 #include <fstream>

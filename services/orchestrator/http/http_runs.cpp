@@ -32,6 +32,7 @@ namespace {
 constexpr std::size_t tasks_at_once = 500;  // read and sent together
 
 /// The tasks with their attempts and artifacts: three queries for any number of tasks.
+/// Ids of one run's tasks are adjacent, so that a range of them takes one query each.
 json tasks_json(const Service& service, const std::vector<Task>& tasks) {
     json list = json::array();
     if (tasks.empty()) return list;
@@ -74,6 +75,7 @@ void list_runs(const Service& service, Call& call, Ask ask) {
         throw bad_request(std::string("state must be queued, ") +
                           (filter.sweeps_only ? "planning, refining, " : "") +
                           "running, succeeded, questionable, partial, failed or cancelled");
+    // The place of the last run, not a number of rows: runs that are added meanwhile shift no page.
     if (const auto cursor = call.parameter("cursor")) filter.before = place_of(*cursor);
     // One more than wanted says whether there is a next page.
     std::vector<Run> runs = service.store.runs(filter, length + 1);
@@ -109,6 +111,7 @@ void send_with_tasks(const Service& service, Call& call, const json& head) {
                     }
                     walk->last = tasks.back().id;
                 }
+                // One write per call: httplib waits for the reader in between.
                 const std::string part = std::exchange(walk->text, {});
                 return sink.write(part.data(), part.size());
             } catch (const std::exception& error) {
@@ -148,6 +151,7 @@ void list_tasks(const Service& service, Call& call) {
     reply(call.response, {{"tasks", tasks_json(service, tasks)}, {"next", next}});
 }
 
+/// The dispatcher ends processes after the answer; until then the tasks are "cancelling".
 void cancel(Service& service, Call& call) {
     call.allow_parameters({});
     const bool known = service.store.write(call.caller.name, [&](Transaction& transaction) {
@@ -160,6 +164,8 @@ void cancel(Service& service, Call& call) {
 
 /// An order to a whole run; 404 when there is none.
 template <class Order>
+/// One transaction and the dispatcher's next look; what is forbidden in a run's state is no fault
+/// here but has no effect.
 void command_run(Service& service, Call& call, Order order) {
     call.allow_parameters({});
     const bool known = service.store.write(call.caller.name, [&](Transaction& transaction) {
@@ -171,6 +177,7 @@ void command_run(Service& service, Call& call, Order order) {
 }
 
 /// The value of an entry, if the body has no other; else null.
+/// Null also for what is no JSON: the caller's message then says what the body must be.
 json only_entry(const Call& call, const char* name) {
     const json body = json::parse(call.json_body(), nullptr, false);
     return body.is_object() && body.size() == 1 ? body.value(name, json()) : json();
@@ -205,6 +212,7 @@ void rename(Service& service, Call& call) {
     });
 }
 
+/// `all` stands for no limit.
 ResultFilter wanted_results(const Call& call) {
     constexpr std::int64_t all = std::int64_t{1} << 30;
     ResultFilter filter{.state = call.parameter("state"),
@@ -217,6 +225,7 @@ ResultFilter wanted_results(const Call& call) {
 }
 
 /// Adds a row without numbers for each variant without a transfer: the CSV would omit them.
+/// The JSON answer has them in "without_transfer".
 void add_without_transfer(const Store& store, const std::string& run,
                           std::vector<ResultRow>& rows) {
     for (const WithoutTransfer& each : store.without_transfer(run)) {
@@ -241,6 +250,7 @@ void results(const Service& service, Call& call) {
     ResultTable runs{"sweep_results", result_columns(),
                      service.store.results(call.parts[0], filter)};
     ResultTable means{"sweep_means", mean_columns(), service.store.means(call.parts[0])};
+    // Neighbours and repeats of a row may lie outside of a filtered page.
     std::optional<std::vector<ResultRow>> beyond_the_filter;
     const AllRows all_rows = [&]() -> const std::vector<ResultRow>& {
         if (filter.takes_all()) return runs.rows;
@@ -275,6 +285,7 @@ void results(const Service& service, Call& call) {
 
 /// A sweep is a run as a table: variants x transfer times. Both have the same id. Every run can be
 /// read as a sweep; the list contains those with several points.
+/// points: rows of the table of results, whose number grows with triggers and extensions.
 json sweep_json(const Service& service, const Run& run) {
     const auto [points, done] = service.store.points_of(run.id);
     json body = run_json(service, run);
@@ -297,7 +308,8 @@ void submit_sweep(Service& service, Call& call) {
     reply(call.response, sweep_json(service, wanted_sweep(service, id)), 202);
 }
 
-/// Adds transfer times; 202 when they are stored. Computed results stay.
+/// Planned outside the transaction, in which all other writers would wait. If another extension
+/// came in between, UNIQUE (run, label) refuses this one, and the client repeats it.
 void extend_sweep(Service& service, Call& call) {
     call.allow_parameters({});
     const std::string& id = call.parts[0];
@@ -320,6 +332,7 @@ void extend_sweep(Service& service, Call& call) {
                                     body["samples"].get<std::size_t>(),
                                     body["samples"].get<std::size_t>())
                 : plan_extension(so_far, service.data, service.numerics, body["transfer_times"]);
+    // Times that are there already change nothing, and make no event.
     if (!extension.tasks.empty() || !extension.samples.empty()) {
         service.store.write(call.caller.name, [&](Transaction& transaction) {
             transaction.extend_run(id, extension);

@@ -37,6 +37,8 @@ std::string secret_of(const httplib::Request& request) {
 }
 
 /// The request's length is ambiguous: bytes after it on the connection cannot be trusted.
+/// Two readers of one connection (a proxy and this one) could disagree about where the request
+/// ends, and one client's bytes become another's request.
 bool has_doubtful_end(const httplib::Request& request) {
     const auto lengths = request.get_header_value_count("Content-Length");
     const auto encodings = request.get_header_value_count("Transfer-Encoding");
@@ -67,11 +69,13 @@ Problem too_large() {
 }
 
 /// The body of one request, read at most once.
+/// Announced and received length both count: a client may say less than it sends.
 class Intake {
   public:
     Intake(const httplib::Request& request, const httplib::ContentReader* body) {
         if (body == nullptr) return;
         left_ = true;
+        // httplib reads forms through another function.
         const bool form = request.is_multipart_form_data();
         announced_ = std::strtoull(request.get_header_value("Content-Length").c_str(), nullptr, 10);
         reader_ = httplib::ContentReader(
@@ -122,6 +126,7 @@ class Intake {
     httplib::ContentReader reader_{nullptr, nullptr};
 };
 
+/// Says who can help: a user cannot make a token.
 Problem missing_right(const Caller& caller, Right needed) {
     const std::string right(name_of(needed));
     return {403, "/problems/missing-right", "Missing right",
@@ -138,6 +143,8 @@ Problem problem_of(int status) {
 
 }  // namespace
 
+/// Order of the members: the server is the last one, so that it is gone before what its handlers
+/// use.
 class HttpServer::Implementation {
   public:
     Implementation(Service& service, HttpSettings settings)
@@ -164,6 +171,7 @@ class HttpServer::Implementation {
 
   private:
     void set_connections() {
+        // A thread per connection: streams hold theirs for as long as the page is open.
         server_.new_task_queue = [] { return new httplib::ThreadPool(most_connections); };
         server_.set_keep_alive_max_count(most_requests_per_connection);
         server_.set_read_timeout(longest_pause);
@@ -211,10 +219,13 @@ class HttpServer::Implementation {
         server_.Put(".*", handler_with_body);
         server_.Patch(".*", handler_with_body);
         server_.Delete(".*", handler_with_body);
+        // httplib's own refusals (a broken request line, a body that is too long) get a problem
+        // document as well.
         server_.set_error_handler([](const httplib::Request&, httplib::Response& response) {
             if (response.body.empty() && !response.content_provider_)
                 refuse(response, problem_of(response.status));
         });
+        // Handlers throw nothing (Router::answer); this is for what fails around them.
         server_.set_exception_handler([](const httplib::Request&, httplib::Response& response,
                                          const std::exception_ptr&) {
             refuse(response,
@@ -229,6 +240,7 @@ class HttpServer::Implementation {
         Intake intake(request, body);
         try {
             const Caller caller = admitted(request, response);
+            // The only body that may be larger than memory allows.
             const bool streamed = request.method == "POST" && request.path == "/v1/files";
             if (!streamed) intake.keep_in(const_cast<httplib::Request&>(request).body);
             router_.answer(request, response, caller, streamed ? intake.reader() : nullptr);
@@ -239,6 +251,7 @@ class HttpServer::Implementation {
     }
 
     /// Identifies the caller. Throws the problem if the caller lacks the right.
+    /// From the cheapest check to the dearest; the secret comes last.
     Caller admitted(const httplib::Request& request, httplib::Response& response) const {
         if (request.headers.size() > most_headers + added_by_httplib)
             throw Problem{431, "/problems/too-many-headers", "Too many headers",
@@ -258,6 +271,7 @@ class HttpServer::Implementation {
         const std::string secret = secret_of(request);
         const auto known = secret.empty() ? std::nullopt : callers_.caller(secret);
         const Right needed = router_.needed(request.method, request.path);
+        // 403 for a known token, 401 for none or a wrong one.
         if (known && known->right < needed) throw missing_right(*known, needed);
         if (known || needed == Right::none) return known.value_or(Caller{});
         response.set_header("WWW-Authenticate", "Bearer");
@@ -265,6 +279,7 @@ class HttpServer::Implementation {
                       "send a token of this service: Authorization: Bearer ..."};
     }
 
+    /// Refuses an open service that other machines could reach, before anything is served.
     void bind() {
         if (!callers_.needs_token() && !words::is_loopback(settings_.host)) {
             throw fault::BadInput(

@@ -1,5 +1,5 @@
 // The service's HTTP server: sizes, hardening, tokens, routes. nginx handles TLS, slow clients and
-// rate limits (docs/how-to/reverse_proxy.md). Only this folder uses cpp-httplib.
+// rate limits (docs/how-to/reverse_proxy.md). Only the HTTP folders use cpp-httplib.
 #pragma once
 
 #include <memory>

@@ -37,6 +37,7 @@ void remove_run(Service& service, Call& call) {
     reply(call.response, {{"id", id}, {"freed_bytes", freed}}, 202);
 }
 
+/// freed_bytes: what a removal of this run alone would free; files shared with other runs stay.
 json use_of(const Run& run, const RunUse& use) {
     return {{"id", run.id},
             {"name", run.name},
@@ -50,6 +51,7 @@ json use_of(const Run& run, const RunUse& use) {
 }
 
 /// Reads every file's size: slow, not for polling.
+/// From the folders, not from the store: what has no row takes up room as well.
 void storage(const Service& service, Call& call) {
     call.allow_parameters({});
     const DiskUse use(service.data.runs(), service.data.files());
@@ -70,6 +72,8 @@ void storage(const Service& service, Call& call) {
                           {"database_bytes", database},
                           {"total_bytes", use.bytes_of_runs() + use.bytes_of_files() + database},
                           {"free_bytes", error ? json() : json(space.available)},
+                          // Runs without rows whose folders are not gone yet: their bytes are still
+                          // in runs_bytes.
                           {"removing", service.store.removals().size()},
                           {"keep_days", or_null(settings.keep_days)},
                           {"keep_GB", or_null(settings.keep_gb)}});

@@ -77,9 +77,11 @@ std::string accept_study(Service& service, Call& call, Ask ask) {
     const std::string& body = call.json_body();
     const auto key = idempotency_key(call.request);
     if (!key) return stored(service, call, body, ask, [](Transaction&, const std::string&) {});
+    // Before the store is asked: of two equal requests only one gets past this line.
     const KeyInProgress seat(service.keys, *key, call.response);
     const std::string hash = exchange::sha256_of_text(body);
     if (const auto known = service.store.run_of_key(*key)) {
+        // The key stands for one request; with another body it is a mistake of the client.
         if (known->body_sha256 != hash)
             throw Problem{422, "/problems/idempotency-key-reused", "Idempotency-Key reused",
                           "this key was sent before with another body; use a new key"};

@@ -1,3 +1,5 @@
+// Templates for the page's form (services/templates). Nothing is stored but the motion of a shaken
+// scene: the study is the page's to change and submit.
 #include "core/scene/schema.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/templates/templates.hpp"

@@ -1,3 +1,5 @@
+// Each transfer with the reason why it was made at its time: given, asked for, or by which trigger,
+// and how late it came. Newest first, in pages; of one run or of all.
 #include <algorithm>
 #include <array>
 
@@ -15,6 +17,7 @@ namespace {
 constexpr std::array reasons{"at_time", "manual", "criterion", "window", "bisect"};
 
 /// The trigger's condition with its threshold, in one line.
+/// In words as an author would say it; a transfer of the study's own times has no trigger.
 json condition_of(const TransferRow& row) {
     if (!row.spec) return nullptr;
     const json& spec = *row.spec;

@@ -1,4 +1,5 @@
-// Triggers of a run: their states, and new ones.
+// Triggers of a run: their states, and new ones. A new one becomes one row for each FEM that it can
+// watch, in one transaction; from there TriggerWatch moves it on, on the dispatcher's thread.
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
 #include "core/scene/schema.hpp"
@@ -13,6 +14,8 @@ using nlohmann::json;
 
 namespace {
 
+/// lag_s: how much later than wanted the snapshot is, in the FEM's time. *_ms: delays since the
+/// service read the line that met the trigger.
 json as_json(const FiringRow& row) {
     const Firing& firing = row.firing;
     return {{"transfer_time", firing.transfer_time},
@@ -40,6 +43,7 @@ json as_json(const Trigger& trigger, const std::vector<FiringRow>& firings) {
     return body;
 }
 
+/// Firings are read once for all triggers.
 json all_of(const Service& service, const std::string& run) {
     const std::vector<FiringRow> firings = service.store.firings_of(run);
     json list = json::array();
@@ -54,16 +58,20 @@ double span_of(const json& scene) {
     return span;
 }
 
+/// A manual trigger is an order for the next snapshot: only a running FEM can follow it.
 bool runs_now(const Task& fem) {
     return fem.state == TaskState::starting || fem.state == TaskState::running;
 }
 
 /// Simulated time of the last complete line.
+/// The snapshot must lie after this time; the FEM goes on while the request is answered.
 double reached(const DataFolder& data, const Task& fem) {
     const auto lines = telemetry::Tail(data.output(fem) / phases::files::telemetry).fresh();
     return lines.empty() ? 0.0 : lines.back().time;
 }
 
+/// The same checks as of a study's triggers, though the run is checked already: a field must exist
+/// and a time lie within the FEM.
 TriggerPlan checked(const Service& service, const std::string& run, const std::string& body) {
     // Uses the schema of an entry in a study's list.
     json entries = json::array({scene::parse_json(body, "trigger")});
@@ -76,9 +84,11 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     const double span = span_of(scene);
     CheckedTriggers triggers = check_triggers(entries, span, "", faults);
     if (!faults.empty()) throw fault::BadInput("trigger", std::move(faults));
+    // "at_time" needs snapshots that the FEM plans at its start.
     if (triggers.live.empty())
         throw bad_request("transfer times are given with the study, before its FEM starts");
     TriggerPlan plan = std::move(triggers.live.front());
+    // The store then gives it a free name.
     if (!entries[0].contains("name")) plan.name.clear();
     return plan;
 }
@@ -103,6 +113,7 @@ void add(Service& service, Call& call) {
     wanted_run(service, run);
     const TriggerPlan plan = checked(service, run, call.json_body());
     const Draws draws = draws_of(unless_removed(service.store.study_of(run)));
+    // Also refused at submission (conflicts.cpp).
     if (draws.of == Redrawn::fem && draws.count > 1) throw bad_request(each_fem_has_its_time);
     for (const Trigger& each : service.store.triggers_of(run)) {
         if (each.name == plan.name)
@@ -112,6 +123,7 @@ void add(Service& service, Call& call) {
     check_fems(service, run, plan);
     std::vector<std::pair<std::string, TriggerPlan>> wanted;
     for (const Task& task : service.store.tasks_of(run)) {
+        // Also FEMs that have ended: their telemetry and snapshots are there to be watched.
         if (task.phase != phases::fem.program || task.state == TaskState::cancelled) continue;
         if (plan.kind == "manual" && !runs_now(task)) continue;
         wanted.emplace_back(task.id, plan);

@@ -1,3 +1,5 @@
+// One document for all statistics (uncertainty/answer.cpp); samples as a table for those who make
+// their own.
 #include <algorithm>
 
 #include "services/orchestrator/http/answers.hpp"
@@ -19,6 +21,7 @@ void uncertainty(const Service& service, Call& call) {
     if (!ensemble)
         throw not_found("uncertainty study in run " + run.id +
                         " (its study has no entry \"uncertainty\")");
+    // Statistics of all quantities take a while; the page asks for the one it shows.
     const std::string quantity = call.parameter("quantity").value_or("");
     const auto known = result_columns();
     if (!quantity.empty() && std::ranges::find(known, quantity, &ResultColumn::name) == known.end())

@@ -13,6 +13,7 @@ namespace {
 
 constexpr auto all = static_cast<std::size_t>(1) << 30;
 
+/// 0 stands for "not asked for" and "not limited".
 json memory_json(std::int64_t megabytes) { return megabytes > 0 ? json(megabytes) : json(nullptr); }
 
 /// A running task with its attempt. Values that only the supervisor knows are null until its first
@@ -20,6 +21,7 @@ json memory_json(std::int64_t megabytes) { return megabytes > 0 ? json(megabytes
 json worker_json(const Service& service, const Task& task, const Attempt& attempt,
                  const std::vector<QueuedJob>& jobs) {
     const AttemptFolder folder = service.data.attempt(task, attempt.number);
+    // From the attempt's folder, as on Slurm's nodes nothing else is shared.
     const auto beat = read_heartbeat(folder);
     const auto job = std::ranges::find(jobs, folder.root, &QueuedJob::folder);
     const bool queued = job != jobs.end();
@@ -47,6 +49,7 @@ json worker_json(const Service& service, const Task& task, const Attempt& attemp
 }
 
 /// Number of jobs by Slurm's state, and of waiting jobs by Slurm's reason.
+/// Slurm's own words: an administrator knows them.
 json jobs_json(const std::vector<QueuedJob>& jobs) {
     json states = json::object();
     json reasons = json::object();
@@ -64,13 +67,16 @@ void workers(const Service& service, Call& call) {
     call.allow_parameters({});
     const DispatchSettings& settings = service.dispatcher.settings();
     const auto jobs = service.dispatcher.jobs();
+    // Numbers of this moment from several queries: they need not add up exactly.
     const auto counts = service.store.tasks_by_state();
     json running = json::array();
     std::int64_t cores = 0;
     std::int64_t memory = 0;
+    // These three occupy slots.
     for (const TaskState state : {TaskState::starting, TaskState::running, TaskState::cancelling}) {
         for (const Task& task : service.store.tasks_in(state, all)) {
             const std::vector<Attempt> attempts = service.store.attempts_of(task.id);
+            // The task moved on between two queries.
             if (attempts.empty()) continue;
             cores += task.resources.cores;
             memory += task.resources.memory_mb;
@@ -82,6 +88,7 @@ void workers(const Service& service, Call& call) {
         const auto found = counts.find(std::string(name_of(state)));
         return found == counts.end() ? std::int64_t{0} : found->second;
     };
+    // Only the Slurm executor has jobs, also when there are none.
     reply(call.response, {{"executor", jobs ? "slurm" : "local"},
                           {"slots", settings.slots},
                           {"slots_used", cores},

@@ -16,6 +16,7 @@ using nlohmann::json;
 namespace {
 
 /// The entries of a request, with a fault for each that has the wrong type.
+/// One pass over the body: each entry is asked for once, and finish() knows what was not.
 class Entries {
   public:
     explicit Entries(const json& body) : body_(body) {}
@@ -79,6 +80,7 @@ class Entries {
     std::vector<Fault> faults_;
 };
 
+/// Once for the scene and once for its picture: the same body gives both.
 importing::Request request_from(const std::string& text) {
     const json body = scene::parse_json(text, "request");
     Entries entries(body);
@@ -96,6 +98,7 @@ importing::Request request_from(const std::string& text) {
                                .confirmed = entries.flag("confirmed")};
     const auto pga = entries.number("pga"), shaking = entries.number("shaking");
     if (entries.flag("with_fem")) {
+        // Its presence asks for a FEM; pga and shaking alone have no effect.
         auto& motion = request.motion.emplace();
         motion.pga = pga.value_or(motion.pga);
         motion.shaking = shaking.value_or(motion.shaking);
@@ -119,11 +122,13 @@ json imported(const std::string& body, const KeepMotion& keep_motion) {
     return answer;
 }
 
+/// With faults there is no scene: what could be read of the drawing is shown with their places.
 std::string picture_of_import(const std::string& body) {
     const importing::Request request = request_from(body);
     importing::Imported made = importing::import_section(request);
     const json shown =
         made.faults.empty() ? made.scene : json{{"title", "What is wrong with the drawing"}};
+    // Made before it is known whether it is thrown: it keeps the faults, which the draft shows.
     const fault::BadInput first("drawing", std::move(made.faults));
     const drawing::Draft draft{{shown, {}, ""}, std::move(made.sketch), first.faults()};
     if (!drawing::can_be_drawn(draft)) throw first;

@@ -1,5 +1,5 @@
-// The answer of POST /v1/import: a drawing converted to a scene. Separate from the route, because
-// Eigen and httplib cannot be included together.
+// The answer of POST /v1/import: a drawing converted to a scene. Knows the request's body, but
+// nothing of HTTP.
 #pragma once
 
 #include <functional>

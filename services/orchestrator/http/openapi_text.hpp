@@ -1,5 +1,5 @@
 // The description of this API (OpenAPI 3.1) and its examples: openapi.json and examples.json, built
-// into the program.
+// into the program. http_pages.cpp completes them.
 #pragma once
 
 #include <string>

@@ -28,6 +28,8 @@ struct Sent {
     drawing::Draft draft;
 };
 
+/// A study without its scene inside is refused as a submission would refuse it; a study whose scene
+/// has faults is drawn.
 Sent sent(const Service& service, const std::string& body) {
     json document = scene::parse_json(body, "document");
     if (is_study_document(document) && !document.value("scene", json()).is_object())
@@ -42,6 +44,7 @@ Sent sent(const Service& service, const std::string& body) {
 
 bool is_study(const drawing::Draft& draft) { return !draft.base.pointer.empty(); }
 
+/// Pointers into the document that was sent, whether it is a scene or a study.
 fault::BadInput refusal_of(const drawing::Draft& draft, const std::vector<fault::Fault>& of_study) {
     std::vector<fault::Fault> faults = draft.faults;
     for (fault::Fault& each : faults) each.pointer = draft.base.pointer + each.pointer;
@@ -72,6 +75,7 @@ Judged judged(const Service& service, const json& document, const drawing::Draft
     }
 }
 
+/// With what this server's earlier runs say of its rates.
 std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::Scene& scene,
                                            const std::optional<estimate::MeshCounts>& mesh = {}) {
     std::vector<estimate::PhaseCost> costs = estimate::cost_of(scene, mesh);
@@ -88,6 +92,7 @@ estimate::Repeats repeats_here(const Service& service, json document) {
     if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
     const TaskGraph graph = plan_tasks(sent_study(std::move(document), service), service.numerics);
     for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
+    // Triggers add their transfers later: one per variant is the best guess.
     if (!repeats.tasks.contains(phases::mpm.program))  // for triggers
         for (const TaskPlan& each : graph.one_more_transfer)
             if (each.phase != phases::fem.program) ++repeats.tasks[each.phase];
@@ -113,6 +118,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
     auto [faults, warnings] = judged(service, document, draft);
     if (!drawing::can_be_drawn(draft)) throw refusal_of(draft, faults);
     drawing::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
+    // A scene with faults cannot be meshed, and its cost would be guessed from defaults.
     if (draft.faults.empty()) {
         std::optional<estimate::MeshCounts> counts;
         if (mesh == MeshDrawn::yes && draft.scene.fem) {
@@ -126,6 +132,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
     return drawing::as_svg(draft, additions);
 }
 
+/// In the order of a submission: what it would refuse has no cost.
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
     std::vector<fault::Flag> warnings = draft.scene.warnings;

@@ -1,3 +1,5 @@
+// HDF5 is written to a file and read back, because core/exchange publishes files only. alone(): one
+// thread at a time uses the library.
 #include "services/orchestrator/http/results_file.hpp"
 
 #include <algorithm>
@@ -25,6 +27,7 @@ std::string as_line(const json& value) {
     std::string line = value.is_null()    ? ""
                        : value.is_array() ? codes_of(value)
                                           : value.get<std::string>();
+    // A line per row is the format; a reason may have several.
     std::ranges::replace(line, '\n', ' ');
     return line + "\n";
 }

@@ -1,4 +1,5 @@
-// A sweep's results as an HDF5 file: one array per column, for h5py and MATLAB.
+// A sweep's results as an HDF5 file: one array per column, for h5py and MATLAB. The layout of
+// core/exchange/archive.hpp.
 #pragma once
 
 #include "services/orchestrator/files/frames.hpp"

@@ -32,6 +32,7 @@ std::string this_machine() {
     return "the service's machine (" + std::string(name.data()) + ")";
 }
 
+/// By its text, as faults have no code.
 bool is_about_a_missing_file(const Fault& fault) {
     const auto names_it = [&](const std::string& entry) {
         return fault.pointer.ends_with(entry) || fault.cause.starts_with(entry);
@@ -40,6 +41,7 @@ bool is_about_a_missing_file(const Fault& fault) {
            fault.cause.find("does not exist") != std::string::npos;
 }
 
+/// Only remedies change; pointers and causes are those of the checks.
 template <class Read>
 auto read_here(Read read) {
     try {
@@ -51,6 +53,7 @@ auto read_here(Read read) {
 
 }  // namespace
 
+/// "does not exist" is puzzling to a client on another machine, where the file does exist.
 std::vector<Fault> seen_from_here(std::vector<Fault> faults) {
     for (Fault& each : faults)
         if (is_about_a_missing_file(each))
@@ -71,6 +74,7 @@ Study sent_study(const std::string& body, const Service& service) {
     return sent_study(scene::parse_json(body, "study"), service);
 }
 
+/// One fault instead of the many that the schema would find in a scene.
 Study sent_study(json document, const Service& service) {
     if (is_a("scene", document, "section")) {
         throw BadInput(

@@ -1,4 +1,5 @@
-// The parts of the service that the HTTP layer may use.
+// The parts of the service that the HTTP layer may use. Each guards itself against the many threads
+// of requests; none of them knows HTTP.
 #pragma once
 
 #include <filesystem>
@@ -16,10 +17,9 @@
 
 namespace breach::orchestrator {
 
-/// The Idempotency-Keys of requests being stored now. Those of stored runs are in the database.
-/// Idempotency keys whose first request is being handled: KeyInProgress enters and leaves. Memory
-/// only: when the service is killed, its requests are over too, and stored keys are in the
-/// database.
+/// The Idempotency-Keys of requests that are being stored now: KeyInProgress enters and leaves. In
+/// memory only: when the service is killed, its requests are over too. Those of stored runs are in
+/// the database.
 class KeysInProgress {
   public:
     bool enter(const std::string& key) {

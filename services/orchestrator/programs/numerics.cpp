@@ -1,5 +1,6 @@
 // Asked once when the service starts. A phase of another build would put wrong results into the
-// cache, so a program that does not answer ends the start.
+// cache, so a program that does not answer ends the start. 0 ("never reuse") is refused as well: it
+// is for phases under development.
 #include "services/orchestrator/programs/numerics.hpp"
 
 #include <charconv>

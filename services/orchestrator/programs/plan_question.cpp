@@ -1,3 +1,5 @@
+// For the page of a scene that is not submitted yet (http_pages.cpp), on the request's thread. The
+// phases decide what they use and say so themselves: a copy of their rules here would drift.
 #include "services/orchestrator/programs/plan_question.hpp"
 
 #include <chrono>

@@ -1,3 +1,5 @@
+// Used by the store when a trigger fires (add_transfer) and by graph.cpp for times that are known
+// at submission, so that both name a transfer alike.
 #include "services/orchestrator/records/firing_plan.hpp"
 
 #include "services/orchestrator/records/identity.hpp"

@@ -1,3 +1,5 @@
+// Titles and meanings of the means follow from those of the single results. The lists live as long
+// as the program: a ResultColumn points to texts that someone must own.
 #include "services/orchestrator/records/mean_columns.hpp"
 
 #include <deque>

@@ -205,7 +205,7 @@ struct Task {
     Release release;
     std::string input;
     std::vector<std::string> overrides;
-    std::int64_t tries = 0;  ///< attempts that ended by the task's own fault
+    std::int64_t tries = 0;  ///< attempts that failed or were lost
     std::optional<std::string> started;
     std::optional<std::string> finished;
     std::optional<nlohmann::json> result;

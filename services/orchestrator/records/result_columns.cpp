@@ -1,3 +1,5 @@
+// One line per column, from which views, answers and descriptions are made. Without a pointer,
+// store/views.cpp or the service works the value out.
 #include "services/orchestrator/records/result_columns.hpp"
 
 #include <algorithm>

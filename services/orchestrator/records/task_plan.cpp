@@ -1,3 +1,5 @@
+// Plans of tasks as JSON, for the firing plan that the store keeps with a run until a trigger
+// fires.
 #include "core/phases/phases.hpp"
 #include "core/words/words.hpp"
 #include "services/orchestrator/records/identity.hpp"
@@ -29,6 +31,7 @@ std::string_view name_of(Release release) { return words::name_of(release); }
 
 Release release_named(std::string_view name) { return words::named<Release>(name); }
 
+/// Also the name of the task's folder, and read back by phase_folders.cpp.
 std::string label_of(const TaskPlan& task) {
     const phases::Phase* known = phases::named(task.phase);
     std::string label = known ? known->part : task.phase;

@@ -1,3 +1,5 @@
+// An estimate for people, computed at each request: nothing depends on it. Work that is left over
+// the workers that run now; how many will run later is not known.
 #include "services/orchestrator/records/time_left.hpp"
 
 #include <algorithm>
@@ -23,6 +25,7 @@ std::optional<double> time_left(const std::vector<PhaseLeft>& phases, double fra
     constexpr double too_early = 0.02;
     if (waiting > 0.0 || running == 0.0 || fractions / running < too_early) return std::nullopt;
     // No phase has finished a task: use the reported progress.
+    // The running tasks together, as if they were one.
     const double done = fractions / running;
     return running_for / running * (1.0 - done) / done;
 }

@@ -1,5 +1,5 @@
-// Rows of the batches of samples (Batches in records/records.hpp). BatchWatch reads the open ones and
-// ends them; Transaction::cancel_run stops and Transaction::retry_run opens them.
+// Rows of the batches of samples (Batches in records/records.hpp). BatchWatch reads the open ones
+// and ends them; Transaction::cancel_run stops and Transaction::retry_run opens them.
 #include "services/orchestrator/store/store.hpp"
 
 namespace breach::orchestrator {

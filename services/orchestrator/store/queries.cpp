@@ -50,6 +50,7 @@ std::string selected_runs(const std::string& state = "r.state") {
 FROM run_summaries r )";
 }
 
+/// The verdict's facts and the governing result are added for a whole page (gather_facts).
 Run run_from(const Row& row) {
     return {.id = row.text("id"),
             .name = row.text("name"),
@@ -149,6 +150,7 @@ std::vector<Run> Store::whole_runs(const std::string& sql, const std::vector<Val
     return found;
 }
 
+/// Oldest end first: Retention removes from the front.
 std::vector<Run> Store::runs_that_may_go() const {
     return reader()->select(selected_runs() + R"(WHERE r.finished IS NOT NULL
 ORDER BY r.finished, r.id)",
@@ -213,6 +215,7 @@ std::vector<Task> Store::tasks_of(const std::string& run, const std::string& aft
                             task_from);
 }
 
+/// The variant's own, else the one for all (variant ''), else any: for triggers and their FEM.
 std::optional<Task> Store::stability_of(const std::string& run, const std::string& variant) const {
     return reader()->first(
         selected_tasks +
@@ -247,6 +250,7 @@ ORDER BY priority DESC, id LIMIT ?)",
                             {json(full_queues).dump(), as_value(most)}, task_from);
 }
 
+/// When the parent has written a file or has ended: what waits for it.
 std::vector<BlockedTask> Store::blocked_children(const std::string& parent) const {
     return reader()->select(
         R"(SELECT id, release, input, transfer_time FROM tasks WHERE parent=? AND state='blocked'
@@ -272,6 +276,7 @@ std::vector<std::string> Store::due_retries(std::int64_t now) const {
         {now, longest_retry_ms});
 }
 
+/// For the dispatcher's sleep.
 std::optional<std::int64_t> Store::next_retry() const {
     return reader()->integer("SELECT min(retry_at) FROM tasks WHERE state='retry_wait'");
 }
@@ -334,6 +339,7 @@ std::map<std::string, std::vector<Artifact>> Store::artifacts_between(
                          {first, last}, artifact_from));
 }
 
+/// Any task with this content will do: the bytes are the same.
 std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return reader()->first(selected_artifacts + "WHERE sha256=? LIMIT 1", {sha256}, artifact_from);
 }

@@ -1,4 +1,5 @@
-// Removal of runs and files from the store.
+// Removal of runs and files from the store. Rows go in one transaction; the folder goes later, on
+// Retention's thread, which finds it in `removals` also after a kill.
 #include <array>
 
 #include "core/fault/fault.hpp"
@@ -47,6 +48,7 @@ Removal Transaction::remove_run(const std::string& run, const std::string& why) 
         "DELETE FROM recipes WHERE NOT EXISTS (SELECT 1 FROM tasks WHERE recipe=hash) AND "
         "NOT EXISTS (SELECT 1 FROM firing_plans WHERE instr(tasks, hash) > 0)",
         {});
+    // The memory of recent events still has the run's: the store drops all of it.
     removes_events_ = true;
     // Deleted again by Retention when the folder is gone.
     database_.change("INSERT INTO removals (run, asked) VALUES (?,?)", {run, utc_now()});
@@ -58,6 +60,7 @@ void Transaction::forget_removal(const std::string& run) {
     database_.change("DELETE FROM removals WHERE run=?", {run});
 }
 
+/// A few pages at a time: all other writes wait for a vacuum.
 void Transaction::shrink(std::int64_t pages) {
     database_.script("PRAGMA incremental_vacuum(" + std::to_string(pages) + ")");
 }
@@ -111,6 +114,8 @@ void Transaction::touch_file(const std::string& sha256) {
     database_.change("UPDATE files SET used=? WHERE sha256=?", {utc_now(), sha256});
 }
 
+/// Row and file go together: `erase` runs before the commit, and a kill in between leaves a row
+/// whose file is missing; is_whole() in http_files.cpp then counts it as not there.
 Removal Transaction::forget_file(const std::string& sha256, const std::function<void()>& erase) {
     if (!database_.finds("SELECT 1 FROM files WHERE sha256=?", {sha256})) return Removal::unknown;
     if (database_.finds("SELECT 1 FROM files_of_runs WHERE sha256=? LIMIT 1", {sha256}))

@@ -1,5 +1,5 @@
-// Collects the facts for a run's verdict, which services/findings judges. The number of queries
-// does not grow with the list of runs.
+// Collects the facts for a run's verdict, which services/findings judges. Called for every read of
+// a run or a page of runs. Most queries take all runs of the page at once.
 #include <algorithm>
 
 #include "core/phases/phases.hpp"
@@ -172,6 +172,7 @@ FROM tasks WHERE run=? AND phase='mpm_solver' AND result IS NOT NULL
         });
 }
 
+/// Means over the repeats at one transfer time, as the table of means has them.
 std::vector<findings::Candidate> candidates_among(const std::vector<Runout>& runouts) {
     const auto place = [](const Runout& each) {
         return std::pair(*each.draw_of, each.result.transfer_time);
@@ -199,6 +200,7 @@ void add_governing(Connection& database, Run& run) {
     if (run.stability) candidates.push_back({.factor_of_safety = run.stability->factor_of_safety});
     const auto place = findings::governing(candidates);
     if (!place) return;
+    // The last candidate is the stability analysis.
     if (*place == runouts.size()) {
         run.governing = {run.stability->task, run.stability->variant};
         return;
@@ -213,6 +215,7 @@ void add_governing(Connection& database, Run& run) {
     const bool samples = database.finds(
         "SELECT 1 FROM runs WHERE id=? AND json_extract(study, '$.uncertainty') IS NOT NULL",
         {run.id});
+    // The farthest of many samples is an extreme, and the headline says so.
     if (samples && run.governing->soil)
         run.governing->soil->worst_of = static_cast<std::int64_t>(runouts.size());
     if (const json depth = result.value("depth_beyond_toe", json()); depth.is_number())

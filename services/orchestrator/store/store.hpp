@@ -83,9 +83,10 @@ class Store {
     /// runs and full queues (phases).
     std::vector<Task> tasks_to_start(const std::vector<std::string>& full_queues,
                                      std::size_t most) const;
-    /// Whether an earlier task with this recipe succeeded, so that its input may be the same.
+    /// Whether an earlier task with this recipe succeeded or broke down, so that its input may be
+    /// the same.
     bool has_candidate(const Task& task) const;
-    /// Tasks that succeeded with this recipe and input, newest first.
+    /// Tasks that succeeded or broke down with this recipe and input, newest first.
     std::vector<Task> answers_to(const std::string& recipe, const std::string& input_sha256,
                                  std::size_t most) const;
     /// A task in progress with this one's recipe and input: its result will be used.
@@ -175,8 +176,8 @@ class Store {
     /// Number of state changes per commit.
     const Histogram& commit_sizes() const { return commit_sizes_; }
     std::int64_t last_event() const { return last_event_; }
-    /// Waits for an event after `seq`, until the time is over or the store closes; true: there is
-    /// an event.
+    /// Waits for an event after `seq`, until the time is over; true: there is an event. A caller
+    /// that may have to stop waits in slices.
     bool wait_for_event(std::int64_t seq, std::chrono::milliseconds longest) const;
 
   private:

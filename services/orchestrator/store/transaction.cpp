@@ -97,6 +97,8 @@ std::string Transaction::warnings_with(const std::string& run,
     return findings::as_json(all).dump();
 }
 
+/// The extension was planned from an older snapshot; UNIQUE (run, label) refuses a task that came
+/// in between. New tasks get the highest priority of the run's own.
 void Transaction::extend_run(const std::string& run, const Extension& extension) {
     add_recipes(extension.recipes);
     database_.change("UPDATE runs SET study=?, warnings=?, sweep=1 WHERE id=?",
@@ -163,6 +165,7 @@ void Transaction::set_state(const std::string& task, TaskState from, TaskEvent e
     add_event(run_of(task), task, "task", detail);
 }
 
+/// Nothing: the table of lifecycle.cpp has no such move, because another thread was faster.
 std::optional<TaskState> Transaction::try_move_task(const std::string& task, TaskEvent event,
                                                     json detail) {
     const TaskState from = state_of(task);
@@ -189,6 +192,7 @@ void Transaction::move_task_to_retry(const std::string& task, TaskEvent event,
     set_state(task, from, event, *to, retry_at, std::move(detail));
 }
 
+/// The summary is kept for the life of the task; a retry clears it.
 void Transaction::fail_task(const std::string& task, TaskEvent event, const TaskFault& fault) {
     json detail{{"summary", fault.summary}};
     if (fault.exit_code) detail["exit_code"] = *fault.exit_code;
@@ -213,6 +217,8 @@ void Transaction::finish_task(const std::string& task, const json& result,
     move_task(task, TaskEvent::keep_outputs, {{"artifacts", artifacts.size()}});
 }
 
+/// Outputs of a failed or cancelled task are listed as well: logs and snapshots before a breakdown
+/// are worth reading.
 void Transaction::keep_remains(const std::string& task, const std::vector<Artifact>& artifacts,
                                const std::string& input_sha256) {
     const bool has_ended = database_.finds(
@@ -250,6 +256,8 @@ void Transaction::note_cache_refusal(const std::string& task, const std::string&
     database_.change("UPDATE tasks SET cache_refusal=? WHERE id=?", {why, task});
 }
 
+/// Before the process is started: after a kill, a row without a process is found and closed, never
+/// a process without a row.
 std::int64_t Transaction::add_attempt(const std::string& task) {
     const std::int64_t number =
         database_.integer("SELECT max(number) FROM attempts WHERE task=?", {task}).value_or(0) + 1;
@@ -292,6 +300,8 @@ void Transaction::move_attempt(const std::string& task, std::int64_t number, Att
     add_event(run_of(task), task, "attempt", detail);
 }
 
+/// Counts attempts that failed or were lost, not those that were interrupted; attempts count every
+/// start.
 std::int64_t Transaction::count_try(const std::string& task) {
     return database_
         .integer("UPDATE tasks SET tries = tries + 1 WHERE id=? RETURNING tries", {task})
@@ -334,6 +344,7 @@ bool Transaction::rename_run(const std::string& run, const std::string& title) {
     return before.has_value();
 }
 
+/// Of all tasks, also ended ones: a retry starts with the new priority.
 bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
     const bool known =
         database_.change("UPDATE tasks SET priority=? WHERE run=?", {priority, run}) > 0;
@@ -377,6 +388,7 @@ std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
 
 void Transaction::add_event(const std::string& run, const std::optional<std::string>& task,
                             const std::string& kind, json detail) {
+    // Only orders to a run have a requester; tasks are moved by the service.
     if (!by_.empty() && kind == "run") detail["by"] = by_;
     const std::string time = utc_now(), text = text_of(detail);
     database_.change("INSERT INTO events (time, run, task, kind, detail) VALUES (?,?,?,?,?)",

@@ -75,6 +75,7 @@ struct FemOfPlan {
 
 }  // namespace
 
+/// Empty for runs that were stored without triggers or FEM: nothing can fire there.
 std::vector<TaskPlan> firing_plan_of(Connection& database, const std::string& run) {
     const auto plan = database.text("SELECT tasks FROM firing_plans WHERE run=?", {run});
     return plan ? json::parse(*plan).get<std::vector<TaskPlan>>() : std::vector<TaskPlan>{};
@@ -116,6 +117,7 @@ bool Transaction::is_open(const std::string& trigger) const {
                            {trigger});
 }
 
+/// Armed from the start; open_triggers() leaves it out until its FEM runs.
 std::string Transaction::add_trigger(const std::string& run, const std::string& fem_task,
                                      const TriggerPlan& plan) {
     const std::int64_t number =
@@ -133,6 +135,7 @@ VALUES (?,?,?,?,?,?,'armed',?,?))",
     return id;
 }
 
+/// False: the trigger was disarmed or fired meanwhile, and nothing is stored.
 bool Transaction::move_trigger(const Trigger& trigger, TriggerEvent event, json detail) {
     const auto from =
         database_.first("SELECT state FROM triggers WHERE id=?", {trigger.id},
@@ -273,6 +276,7 @@ std::vector<FiringRow> Store::firings_of(const std::string& run) const {
         });
 }
 
+/// Only of the first variant at a time and its repeats: a bisection looks for one edge.
 std::vector<Sample> Store::samples_of(const std::string& trigger) const {
     std::vector<Sample> found;
     std::string first;  // variant at this time

@@ -1,3 +1,6 @@
+// Reads ladders and turns each rung into variants. settings_of() is called when the study is read
+// and again for each answer (accuracy/accuracy_table.cpp): it must give the same names both times,
+// so it depends on the plan and the scene alone.
 #include "services/orchestrator/study/accuracy.hpp"
 
 #include <algorithm>
@@ -16,15 +19,19 @@ using nlohmann::json;
 
 namespace {
 
+// Each is a checked scene and several tasks; a slip in "draws" must not make millions.
 constexpr std::size_t most_variants = 1000;
+// Richardson's extrapolation has three unknowns.
 constexpr std::size_t rungs_of_an_order = 3;
 
 // ---------------------------------------------------------------- the quantity
 
+/// Columns without a pointer are computed by the service and are in no result.json.
 bool can_be_judged(const ResultColumn& column) {
     return column.kind == ColumnKind::number && *column.pointer != '\0';
 }
 
+/// "crest_displacement@4.5": of the FEM alone, so that no transfer is computed for it.
 std::optional<Quantity> of_telemetry(const std::string& text, std::size_t at) {
     const std::string name = text.substr(0, at);
     const telemetry::Column* column = telemetry::column_named(name);
@@ -50,6 +57,7 @@ Quantity read_quantity(const json& entry, const std::string& at, const json& sce
 // ---------------------------------------------------------------- ladders
 
 /// "=9" uses the pointer at the same place in the first rung.
+/// Rungs usually change one entry, and its pointer is long.
 std::vector<std::string> whole(const std::vector<std::string>& step,
                                const std::vector<std::string>& first, const std::string& at,
                                std::vector<Fault>& faults) {
@@ -86,6 +94,7 @@ std::vector<std::vector<std::string>> read_steps(const json& ladder, const std::
 }
 
 /// The value of the rung's first override, if it is a positive number.
+/// Only the first override: further ones of a rung follow it, such as a time step a cell size.
 std::optional<double> first_value(const std::vector<std::string>& step) {
     const std::string text = step.front().substr(step.front().find('=') + 1);
     const json value = json::parse(text, nullptr, false);
@@ -94,6 +103,7 @@ std::optional<double> first_value(const std::vector<std::string>& step) {
 }
 
 /// Falling values are sizes; rising ones are numbers of divisions.
+/// Empty where the values go up and down or are no numbers: then the author must give "sizes".
 std::vector<double> sizes_of(const std::vector<std::vector<std::string>>& steps) {
     std::vector<double> values;
     for (const auto& each : steps) {
@@ -125,6 +135,7 @@ std::vector<double> read_sizes(const json& ladder, const std::string& at,
 
 std::vector<Ladder> read_ladders(const json& entries, ReferenceKind reference,
                                  std::vector<Fault>& faults) {
+    // A limit needs sizes and three rungs, on every ladder.
     const bool limit = reference == ReferenceKind::richardson;
     std::vector<Ladder> ladders;
     for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -148,6 +159,7 @@ Reference read_reference(const json& entry, std::vector<Fault>& faults) {
     const json& reference = entry.at("reference");
     if (reference == "finest") return {};
     if (reference == "richardson") return {ReferenceKind::richardson, 0.0, ""};
+    // A result such as runout_beyond_toe may be 0 for a dam that stands.
     if (reference.at("value") == 0.0)
         faults.push_back({"/accuracy/reference/value",
                           "errors are relative to the reference, and it is zero",
@@ -155,6 +167,7 @@ Reference read_reference(const json& entry, std::vector<Fault>& faults) {
     return {ReferenceKind::given, reference.at("value"), reference.at("source")};
 }
 
+/// From 1, as people count; steps are counted from 0 elsewhere.
 std::string name_of_rung(const Ladder& ladder, std::size_t step) {
     return ladder.name + "_" + std::to_string(step + 1);
 }
@@ -203,6 +216,7 @@ AccuracyPlan read_accuracy(const json& entry, const json& scene, std::vector<Fau
     return plan;
 }
 
+/// The base first: a rung may change an entry that the base sets.
 std::vector<std::string> overrides_of(const AccuracyPlan& plan, std::size_t ladder,
                                       std::size_t step) {
     std::vector<std::string> overrides = plan.base;
@@ -218,6 +232,8 @@ std::vector<Setting> settings_of(const AccuracyPlan& plan, const json& scene) {
     for (std::size_t i = 0; i < plan.ladders.size(); ++i) {
         for (std::size_t k = 0; k < plan.ladders[i].steps.size(); ++k) {
             Setting setting{.ladder = i, .step = k, .variants = {}};
+            // By the whole changed scene, not by the overrides: two ways to write one setting are
+            // one.
             const auto [same, is_new] =
                 first_with.emplace(changed(scene, overrides_of(plan, i, k)), settings.size());
             const std::size_t first = same->second;

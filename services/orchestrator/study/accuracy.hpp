@@ -55,7 +55,7 @@ struct AccuracyPlan {
 };
 
 /// A rung of a ladder and the variants that give its value. Rungs with equal scenes, possible in
-/// two ladders, have the same variants.
+/// two ladders, have the same variants: the base is computed once, although every ladder has it.
 struct Setting {
     std::size_t ladder;
     std::size_t step;

@@ -1,3 +1,6 @@
+// A scene that was sent may name files on the service's machine. Reading one for a stranger would
+// give away its contents, or wait for a device that never ends, so every file is judged by its name
+// and size before any check opens it.
 #include "services/orchestrator/study/checked_scene.hpp"
 
 #include <algorithm>
@@ -47,6 +50,7 @@ std::optional<Fault> fault_of_size(const std::string& pointer, const fs::path& f
 std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& overrides,
                                    const SentFiles& files) {
     std::vector<Fault> faults;
+    // An override may name a file as well.
     for (const std::string& each : overrides) scene::apply_override(scene, each);
     for (const std::string& key : scene::file_entries) {
         const json::json_pointer at(key);
@@ -65,6 +69,7 @@ std::vector<Fault> forbidden_files(json scene, const std::vector<std::string>& o
                               "reference of the answer, or have its folder allowed: serve "
                               "--allow-folder FOLDER"});
         }
+        // Not its size either, which would say that the file exists.
         if (!faults.empty() && faults.back().pointer == key) continue;
         if (auto size = fault_of_size(key, scene::file_at(files.folder, file), files.largest))
             faults.push_back(std::move(*size));
@@ -88,6 +93,7 @@ check::Checked check_sent_scene(const json& document, const std::vector<std::str
     for (const Fault& each : faults) changes.push_back(each.pointer + "=/.forbidden");
     check::Checked checked =
         check::checked_document(document, "scene", files.folder, changes, recordings);
+    // Faults of the file that is not there would repeat, and contradict, those found here.
     std::erase_if(checked.faults, [&](const Fault& each) {
         return std::ranges::find(faults, each.pointer, &Fault::pointer) != faults.end();
     });
@@ -95,6 +101,7 @@ check::Checked check_sent_scene(const json& document, const std::vector<std::str
     return checked;
 }
 
+/// Throws where the document cannot be read at all; all other faults are in the returned Checked.
 check::Checked check_scene_of_study(const std::string& prefix, const json& document,
                                     const std::vector<std::string>& overrides,
                                     const SentFiles& files, check::Recordings& recordings) {

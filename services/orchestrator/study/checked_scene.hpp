@@ -1,4 +1,5 @@
-// Checks a scene that was uploaded: the readable part, and every fault.
+// Checks a scene that was uploaded: the readable part, and every fault. For submissions and
+// previews, and once more for each variant.
 #pragma once
 
 #include <cstdint>

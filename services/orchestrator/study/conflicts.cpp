@@ -1,5 +1,6 @@
 // A table instead of conditions in the readers: each pair of entries stands once, with its reason
-// and what to write instead.
+// and what to write instead. Rows of one kind stand together and are all tried, so that a study
+// with several conflicts gets all of them.
 #include "services/orchestrator/study/conflicts.hpp"
 
 #include "services/orchestrator/study/variants.hpp"
@@ -19,6 +20,8 @@ bool is(const Asked& asked, Kind kind) { return asked.kind == kind; }
 /// Each sample and each rung is one state, from one transfer.
 std::size_t transfers_of(const Asked& asked) { return asked.times + asked.live; }
 
+/// stands: a function without state, so that the table is data. It may rely on entries that the
+/// schema has completed ("triggers" is always there).
 struct Conflict {
     const char* pointer;
     bool (*stands)(const Asked& asked);
@@ -110,6 +113,7 @@ Kind kind_of(const json& document) {
 void refuse_conflicts(const Asked& asked, std::vector<fault::Fault>& faults) {
     for (const Conflict& each : conflicts)
         if (each.stands(asked)) faults.push_back({each.pointer, each.cause, each.remedy});
+    // The other kinds read and check their repeats themselves.
     if (asked.kind == Kind::sweep) check_draws(asked.draws, asked.reach, "", faults);
 }
 

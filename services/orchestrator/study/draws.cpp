@@ -1,3 +1,6 @@
+// A runout depends on where the material points lie, a FEM near failure on its steps: numerical
+// noise that one run does not show. Repeats measure it. Each is a variant with overrides of its
+// own, so tasks, cache and results need no notion of repeats.
 #include "services/orchestrator/study/draws.hpp"
 
 #include <array>
@@ -20,6 +23,7 @@ constexpr const char* fill_shift = "/mpm/fill_shift";
 /// The k-th point of the R2 sequence (Roberts 2018), which fills the unit square evenly for every
 /// length; point 0 is the corner.
 std::array<double, 2> place_of_draw(std::size_t draw) {
+    // The inverse of the plastic number and its square, to all digits of a double.
     constexpr std::array step{0.7548776662466927, 0.5698402909980532};
     const auto k = static_cast<double>(draw);
     return {std::fmod(k * step[0], 1.0), std::fmod(k * step[1], 1.0)};
@@ -27,6 +31,7 @@ std::array<double, 2> place_of_draw(std::size_t draw) {
 
 std::string override_of(const char* pointer, double a, double b) {
     std::array<char, 96> text{};
+    // Four digits: the text is part of the cache's key and must be the same on every machine.
     std::snprintf(text.data(), text.size(), "%s=[%.4f,%.4f]", pointer, a, b);
     return text.data();
 }
@@ -40,6 +45,7 @@ std::string override_of(const std::string& pointer, double value) {
 /// model. Near failure the runs diverge. Tolerances alone have too little effect: the crest of
 /// docs/verification/mochikoshi_fem.md scatters three times as much with the steps.
 std::vector<std::string> fem_of_draw(std::size_t draw, const json& scene) {
+    // Repeat 0 is the scene itself, so that it shares its results with runs without repeats.
     if (draw == 0 || !scene.contains("fem")) return {};
     const auto d = static_cast<double>(draw);
     std::vector<std::string> changes;
@@ -71,6 +77,7 @@ std::vector<std::string> lattice_of_draw(std::size_t draw, Reach reach) {
         override_of(point_shift, largest_shift * (2.0 * a - 1.0), largest_shift * (2.0 * b - 1.0))};
 }
 
+/// The schema has refused every other word.
 Redrawn redrawn_named(const std::string& name) {
     return name == name_of(Redrawn::fem) ? Redrawn::fem : Redrawn::points;
 }
@@ -109,6 +116,7 @@ json changed(json scene, const std::vector<std::string>& overrides) {
     return scene;
 }
 
+/// Numbers in names count from 1, so the first repeat of "soft" is "soft_d2".
 std::string name_of_draw(const std::string& variant, std::size_t draw) {
     if (draw == 0) return variant;
     return variant + "_d" + std::to_string(draw + 1);
@@ -119,6 +127,7 @@ void draw(VariantEntry& entry, std::size_t number, const char* pointer, Redrawn 
     const auto add = [&](const std::vector<std::string>& changes) {
         entry.overrides.insert(entry.overrides.end(), changes.begin(), changes.end());
     };
+    // A fault of repeat 0 is the variant's own.
     if (number > 0) entry.draws_pointer = pointer;
     if (what == Redrawn::fem) add(fem_of_draw(number, scene));
     if (has_lattice(reach)) add(lattice_of_draw(number, reach));
@@ -131,6 +140,7 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const D
         const json its_scene = changed(scene, each.overrides);
         for (std::size_t d = 0; d < draws.count; ++d) {
             VariantEntry entry = each;
+            // A study without variants: its repeats have no stem, and all of them are made here.
             const bool unnamed = each.name.empty();
             entry.name = unnamed ? "d" + std::to_string(d + 1) : name_of_draw(each.name, d);
             if (unnamed || d > 0) entry.made_by = "draws";
@@ -141,6 +151,7 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const D
     return entries;
 }
 
+/// rfind, because a variant's own name may have "_d" in it.
 std::string repeated_variant(const json& variant) {
     const auto& name = variant.at("name").get_ref<const std::string&>();
     if (variant.value("made_by", "") != "draws") return name;

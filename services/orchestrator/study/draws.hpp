@@ -1,5 +1,6 @@
 // A study's repeats. A repeat moves the lattice of points, or computes the FEM again with slightly
-// different steps and tolerances; each is an ordinary variant.
+// different steps and tolerances; each is an ordinary variant. Sweeps and accuracy studies use it;
+// an uncertainty study samples the lattice as a parameter.
 #pragma once
 
 #include <nlohmann/json.hpp>

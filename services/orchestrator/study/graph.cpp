@@ -25,6 +25,7 @@ json snapshot_times(const json& scene, const std::vector<double>& transfer_times
     times.insert(times.end(), transfer_times.begin(), transfer_times.end());
     std::ranges::sort(times);
     const auto repeated = std::ranges::unique(times);
+    // A time that scene and study both name is one snapshot.
     times.erase(repeated.begin(), repeated.end());
     return times;
 }
@@ -48,11 +49,13 @@ class TaskList {
             known_.emplace(identity, tasks_.size());
         }
         task.variant = variant.name;
+        // The variant's first: those of the plan (snapshot times) must win.
         task.overrides.insert(task.overrides.begin(), variant.overrides.begin(),
                               variant.overrides.end());
         if (const auto ask = study_.resources.find(task.phase); ask != study_.resources.end())
             task.resources = ask->second;
         tasks_.push_back(std::move(task));
+        // 0: a task that is never shared belongs to its variant, also in a study with a single one.
         users_.push_back(sharing == Sharing::wanted ? 1 : 0);
         return tasks_.size() - 1;
     }
@@ -66,6 +69,7 @@ class TaskList {
             if (for_all && !may_grow) tasks_[i].variant.clear();
             tasks_[i].label = label_of(tasks_[i]);
             if (for_all && tasks_[i].phase == phases::lem.program) tasks_[i].variant.clear();
+            // Without a recipe the cache neither answers a task nor keeps its result.
             if (!study_.reuse) tasks_[i].recipe.clear();
         }
         return std::move(tasks_);
@@ -96,6 +100,7 @@ class Planner {
     void plan(const Variant& variant) {
         if (study_.reach == Reach::chain) return plan_chain(variant);
         plan_one_phase(variant, phases_of(study_.reach).front().program);
+        // Both at once: neither waits for the other.
         if (study_.reach == Reach::filled_mpm && study_.stability)
             plan_one_phase(variant, phases::lem.program);
     }
@@ -107,6 +112,8 @@ class Planner {
         add_first(tasks_, phase, {}, Sharing::never);
     }
 
+    /// One FEM with the snapshots of all transfer times; the same variant once more in the plan of
+    /// one further transfer, whose time is unknown until a trigger fires.
     void plan_chain(const Variant& variant) {
         json scene = variant.scene;
         scene["fem"]["snapshot_times"] = snapshot_times(scene, study_.transfer_times);
@@ -117,6 +124,7 @@ class Planner {
             changes.push_back("/fem/snapshot_interval=" + json(study_.snapshot_interval).dump());
         }
         variant_ = &variant;
+        // Recipes from the scene with its snapshots: other times are another FEM for the cache.
         for (const phases::Phase& each : phases::all)
             if (each.program != std::string_view(phases::lem.program) || study_.stability)
                 recipes_of_variant_[each.program] = recipe(each.program, scene);
@@ -166,6 +174,7 @@ class Planner {
                           .label = {},
                           .transfer_time = {},
                           .parent = fem,
+                          // The transfer need not wait for the FEM's end: its snapshot is enough.
                           .release = Release::file_exists,
                           .input = {},
                           .overrides = {},

@@ -30,6 +30,7 @@ struct TaskGraph {
 /// The name of the stability analysis' result in triggers.
 inline constexpr std::string_view critical_depth_field = "critical_depth";
 bool asks_for_critical_depth(const criteria::Expression& condition);
+/// Such a trigger waits for lem_tool, whose result gives the number.
 bool asks_for_critical_depth(const Work& work);
 
 TaskGraph plan_tasks(const Study& study, const Numerics& numerics);

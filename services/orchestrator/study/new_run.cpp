@@ -1,3 +1,5 @@
+// The last step of a submission that computes: from here on a run is rows in the store. Nothing is
+// checked any more: read_study has refused what is wrong.
 #include "services/orchestrator/study/new_run.hpp"
 
 #include <algorithm>
@@ -28,6 +30,7 @@ json batches_of(const Study& study) {
 NewRun new_run(const Study& study, const Numerics& numerics) {
     TaskGraph graph = plan_tasks(study, numerics);
     std::vector<std::string> files;
+    // A sent file stays as long as a run names it (Transaction::forget_file).
     for (const auto& each : scene::references_in({study.scene, study.document}))
         files.push_back(each.sha256);
     const std::size_t states = std::max<std::size_t>(1, study.transfer_times.size());

@@ -1,5 +1,5 @@
 // A checked study as the rows of its run. POST /v1/runs and POST /v1/sweeps store it in one
-// transaction; the dispatcher starts what is ready.
+// transaction (http_submission.cpp); the dispatcher, woken then, starts what is ready.
 #pragma once
 
 #include "services/orchestrator/study/study.hpp"

@@ -1,4 +1,5 @@
-// The phases that a study's tasks include.
+// The phases that a study's tasks include. Decided once, when the study is read (read_study.cpp);
+// graph and repeats ask it instead of looking at the scene.
 #pragma once
 
 #include <vector>

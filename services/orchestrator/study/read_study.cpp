@@ -27,6 +27,7 @@ namespace {
 
 constexpr std::size_t most_transfers = 10000;
 
+/// Parts with a default ("transfer") are completed instead.
 void need_part(const json& scene, const std::string& part, std::vector<Fault>& faults) {
     if (scene.contains(part)) return;
     faults.push_back({"/scene/" + part, "a study needs this part of the scene, and it is missing",
@@ -66,6 +67,7 @@ void check_time(const Quantity& quantity, const scene::Scene& scene, std::vector
 }
 
 /// Faults of rungs that change nothing for the phases of the quantity.
+/// By recipes, not by scenes: an entry that the phases do not read changes the scene alone.
 void check_rungs(const AccuracyPlan& plan, const std::vector<Setting>& settings,
                  const std::vector<Variant>& variants, std::vector<Fault>& faults) {
     const auto asked = [&](const Setting& setting) {
@@ -108,8 +110,11 @@ std::vector<std::string> recipes_of_probe(const Base& base, const std::vector<st
     return recipes;
 }
 
+/// A parameter without effect would show up as an importance of 0, and its author would take it for
+/// a finding.
 void check_parameters_are_read(const Study& study, const Base& base, std::vector<Fault>& faults) {
     std::vector<phases::Phase> phases = phases_of(study.reach);
+    // A parameter may matter to the stability analysis only.
     if (study.stability && study.reach != Reach::lem) phases.push_back(phases::lem);
     std::string readers;
     for (const phases::Phase& each : phases)
@@ -135,6 +140,8 @@ void check_parameters_are_read(const Study& study, const Base& base, std::vector
 }
 
 /// Reads the plan, checks it, and makes the samples the study's variants.
+/// Each step needs the one before it without faults: samples of a wrong distribution would give a
+/// fault in every variant.
 void take_samples(Study& study, json& document, const Base& base, std::vector<Fault>& faults) {
     const std::size_t before = faults.size();
     study.uncertainty = read_uncertainty(document["uncertainty"], base.scene, faults);
@@ -158,6 +165,8 @@ void take_samples(Study& study, json& document, const Base& base, std::vector<Fa
         entry["target"]["draws"] = study.target->lattices;
         entry["target"]["values"] = study.target->values;
     }
+    // Written back, so that reading the stored study again gives the same samples (first_block:
+    // they depend on the size of the first hypercube).
     entry["drawn"] = study.target ? entries.size() : plan.drawn;
     entry["first_block"] = plan.first;
 }
@@ -185,7 +194,9 @@ class StudyReader {
   public:
     StudyReader(json document, const SentFiles& files)
         : document_(std::move(document)), base_{files, {}, {}, {}, {}, &recordings_} {
+        // Before the schema: a scene in place of a study would lack every entry of one.
         refuse_scene(document_);
+        // Kept apart from faults_: sound() asks it for single entries while faults_ grows.
         of_schema_ = scene::complete_and_check(document_, scene::study_schema(), "study");
         faults_ = of_schema_;
         if (document_.is_object()) kind_ = kind_of(document_);
@@ -194,6 +205,8 @@ class StudyReader {
             document_.is_object() && is_sound(of_schema_, "/transfer_times") && sound("triggers");
     }
 
+    /// The order is that of dependence: the scene decides the phases, these decide which entries
+    /// may stand together, and all of it decides what variants are.
     Study read() {
         read_scene();
         read_transfers();
@@ -215,6 +228,7 @@ class StudyReader {
     }
 
   private:
+    /// Entries that the schema refused are not read, since at() and get() would throw.
     bool sound(const char* entry) const {
         return document_.is_object() && document_.contains(entry) &&
                is_sound(of_schema_, std::string("/") + entry);
@@ -253,6 +267,8 @@ class StudyReader {
             each.pointer = "/scene" + each.pointer;
             study_.warnings.push_back(std::move(each));
         }
+        // Variants then start from the completed scene: their overrides find every entry, defaults
+        // included.
         if (base_.faults.empty()) {  // changes by variants
             base_.scene = std::move(checked.completed);
             base_.overrides.clear();
@@ -277,6 +293,7 @@ class StudyReader {
                          faults_);
     }
 
+    /// An accuracy study has one quantity and computes nothing beside it.
     bool wants_stability() const {
         if (study_.reach == Reach::lem) return true;
         return kind_ != Kind::accuracy && document_["stability"].get<bool>() &&
@@ -308,6 +325,7 @@ class StudyReader {
         if (sound("overrides")) warn_about_overrides(document_, study_.warnings);
         check_lines(*scene_, study_, faults_);
         const std::vector<double>& times = study_.transfer_times;
+        // The study has that fault once already; each variant would repeat it.
         const bool late = fem() && !times.empty() && is_late(times.back(), *fem());
         study_.variants = checked_variants(entries, base_, late ? std::vector<double>{} : times,
                                            faults_, study_.warnings);
@@ -326,6 +344,7 @@ class StudyReader {
         study_.resources = wanted_resources(document_["resources"]);
         study_.priority = document_["priority"];
         study_.reuse = document_["reuse"];
+        // The store keeps it in a column of its own, for it is large.
         document_.erase("scene");
         study_.document = std::move(document_);
         return std::move(study_);

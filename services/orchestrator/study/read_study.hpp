@@ -1,4 +1,5 @@
-// Reads a study: one reader for each kind of question.
+// Reads a study: one reader for each kind of question. Of submissions, previews and extensions
+// alike, so that a preview refuses exactly what a submission would.
 #pragma once
 
 #include "services/orchestrator/study/study.hpp"

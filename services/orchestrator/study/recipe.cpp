@@ -15,6 +15,7 @@ using nlohmann::json;
 
 namespace {
 
+/// A reference has the hash in it; any other file is read at each planning.
 json content_of(const std::string& file) {
     if (const auto reference = scene::file_reference(file)) return {{"sha256", reference->sha256}};
     try {
@@ -24,6 +25,7 @@ json content_of(const std::string& file) {
     }
 }
 
+/// RFC 6901.
 std::string escaped(const std::string& key) {
     std::string text;
     for (const char each : key) {
@@ -61,6 +63,7 @@ void collect(const json& a, const json& b, const std::string& at, std::vector<st
 
 }  // namespace
 
+/// The parts of the key are on lines of their own, so that none can run into the next.
 Recipe recipe_of(const std::string& phase, const json& scene, std::int64_t numerics) {
     json part = phases::part_read_by(*phases::named(phase), scene);
     for (const std::string& key : scene::file_entries) {

@@ -48,6 +48,7 @@ void check_overrides(const json& overrides, const std::string& at, const Uncerta
 
 }  // namespace
 
+/// Called before the parameters are read: it depends on the quantity only.
 Reach reach_of_samples(const json& entry, const json& scene, Reach of_scene,
                        std::vector<Fault>& faults) {
     const std::string first = entry.at("quantity");
@@ -79,6 +80,8 @@ void check_parameters(const json& document, const UncertaintyPlan& plan, Reach r
                               "leave the parameter out"});
 }
 
+/// "transfer" of an uncertainty study is another way to write "transfer_times"; what follows knows
+/// only the latter.
 void place_transfer(json& document, std::vector<Fault>& faults) {
     const json& entry = document.at("uncertainty");
     if (!entry.contains("transfer")) return;
@@ -101,6 +104,7 @@ void place_transfer(json& document, std::vector<Fault>& faults) {
     const std::string name = transfer.at("trigger");
     std::size_t found = 0;
     for (const json& each : document["triggers"])
+        // By name or, where a study has one trigger of a kind, by its kind.
         if (each.value("name", "") == name || each.at("kind") == name) ++found;
     if (found != 1)
         faults.push_back({"/uncertainty/transfer/trigger",
@@ -130,6 +134,7 @@ std::vector<VariantEntry> variants_of(const UncertaintyPlan& plan, const json& s
     return entries;
 }
 
+/// At 10 and 90 %: far enough apart to change every text, near enough to be valid.
 std::vector<ParameterProbe> probes_of(const UncertaintyPlan& plan, const json& scene, Reach reach) {
     std::vector<ParameterProbe> probes;
     for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
@@ -148,6 +153,7 @@ std::vector<ParameterProbe> probes_of(const UncertaintyPlan& plan, const json& s
     return probes;
 }
 
+/// A thousand samples may break the same rule; a person needs it once, where the numbers come from.
 std::vector<Fault> faults_by_parameter(const std::vector<Fault>& found,
                                        const UncertaintyPlan& plan) {
     std::vector<Fault> told;

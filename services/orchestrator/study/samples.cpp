@@ -14,6 +14,7 @@ using nlohmann::json;
 
 namespace {
 
+/// The last option takes what rounding leaves over.
 double place_of_choice(const std::vector<Choice>& choices, double u) {
     double all = 0.0;
     for (const Choice& each : choices) all += each.weight;
@@ -25,6 +26,7 @@ double place_of_choice(const std::vector<Choice>& choices, double u) {
     return static_cast<double>(choices.size() - 1);
 }
 
+/// Whole hypercubes are drawn and cut to the number wanted: an extension goes on in the same block.
 statistics::Points points_of(const UncertaintyPlan& plan, std::size_t count) {
     const std::size_t dimensions = plan.parameters.size();
     const statistics::Matrix wanted = correlation_matrix(plan);
@@ -38,6 +40,7 @@ statistics::Points points_of(const UncertaintyPlan& plan, std::size_t count) {
         statistics::latin_hypercube(ends.back(), plan.first, dimensions, plan.seed);
     std::size_t from = 0;
     for (const std::size_t to : ends) {
+        // Block by block, so that a later block does not move the samples of an earlier one.
         statistics::correlate(points, from, to, wanted);
         from = to;
     }
@@ -58,8 +61,10 @@ double draw_at(const Parameter& parameter, double u) {
         case ParameterKind::value:
             break;
     }
+    // Rounded first: the number is stored as text and must be the same when it is read again.
     const double value = statistics::in_six_digits(statistics::quantile(parameter.distribution, u));
     const auto& between = parameter.distribution.between;
+    // Rounding may step over a bound.
     return between ? std::clamp(value, (*between)[0], (*between)[1]) : value;
 }
 

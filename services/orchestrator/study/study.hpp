@@ -1,5 +1,6 @@
 // A submitted study: completely checked, its scene completed and immutable, its transfer times a
-// plain list.
+// plain list. Short-lived: new_run() makes rows of it, an extension reads the stored document
+// again.
 #pragma once
 
 #include <filesystem>

@@ -1,3 +1,6 @@
+// A run grows by reading its study again with more times or samples, planning all of it, and
+// keeping what it lacks; tasks are matched by their labels. Called by requests to extend a run or
+// to add a trigger, and by BatchWatch.
 #include "services/orchestrator/study/sweep_extension.hpp"
 
 #include <algorithm>
@@ -39,6 +42,7 @@ Study study_with(const RunSoFar& run, const DataFolder& data, const json& times)
     json document = run.study;
     document["transfer_times"] = times;
     Study study = read_again(std::move(document), run, data);
+    // Else tasks would be matched with those of other variants.
     if (names_of_variants(study.document) != names_of_variants(run.study))
         throw fault::BadInput(
             "request", {{"/transfer_times",
@@ -61,6 +65,7 @@ std::string free_label(const std::map<std::string, Task>& present, const std::st
 }
 
 /// Adds tasks that the run lacks; repeats FEMs without a snapshot of the new times.
+/// Parents come first in the graph, so a parent is known when its children are looked at.
 void add_missing_tasks(TaskGraph graph, const std::map<std::string, Task>& present,
                        const DataFolder& data, Extension& extension) {
     extension.recipes = std::move(graph.recipes);
@@ -80,6 +85,7 @@ void add_missing_tasks(TaskGraph graph, const std::map<std::string, Task>& prese
             existing[i] = same->second.id;
             continue;
         }
+        // The first FEM keeps its label and its results; transfers of the old times stay below it.
         if (fem_again) plan.label = free_label(present, plan.label);
         AddedTask task{.plan = std::move(plan), .parent = std::nullopt};
         if (task.plan.parent) {
@@ -118,6 +124,7 @@ Extension plan_extension(const RunSoFar& run, const DataFolder& data, const Nume
     return extension;
 }
 
+/// Never fewer than there are: an extension does not remove.
 Extension plan_more_samples(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                             std::size_t drawn, std::size_t asked) {
     json document = run.study;
@@ -152,6 +159,8 @@ Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const 
     return extension;
 }
 
+/// Planned as if the trigger had been there from the start: where that needs a FEM more than the
+/// run has, the run cannot take the trigger.
 bool shares_fems_too_widely(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                             const TriggerPlan& trigger) {
     if (!asks_for_critical_depth(work_of(trigger))) return false;

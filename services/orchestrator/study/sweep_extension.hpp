@@ -1,6 +1,6 @@
 // Adds transfer times or samples to an existing run. Computed results stay. The FEM is repeated
 // only when a snapshot is missing, and then with all times: it then equals the FEM of the whole
-// sweep submitted at once, and its cache entry.
+// sweep submitted at once, and its cache entry. Plans only: Transaction::extend_run stores it.
 #pragma once
 
 #include "services/orchestrator/files/data_folder.hpp"

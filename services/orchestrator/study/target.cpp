@@ -33,6 +33,7 @@ std::optional<std::array<double, 2>> ends_of(const statistics::Distribution& dis
     return std::nullopt;
 }
 
+/// Factors and lognormal numbers vary by ratios, so the search works on their logarithms.
 bool is_logarithmic(const Parameter& parameter, double low) {
     const DistributionKind kind = parameter.distribution.kind;
     return low > 0.0 &&
@@ -47,6 +48,7 @@ double middle_of(const Parameter& parameter) {
     return static_cast<double>(likeliest - parameter.choices.begin());
 }
 
+/// Two digits, so that the names sort in the order of the values' requests.
 std::string name_of(std::size_t number, std::size_t lattice) {
     return "v" + std::string(number < 10 ? "0" : "") + std::to_string(number) +
            (lattice == 0 ? "" : "_d" + std::to_string(lattice + 1));
@@ -99,7 +101,9 @@ Target read_target(const json& entry, const UncertaintyPlan& plan, Reach reach,
     target.question.high = (*ends)[1];
     target.question.logarithmic = is_logarithmic(*found, (*ends)[0]);
     target.question.tolerance = asked.at("tolerance");
+    // "samples" is the most runs that the search may take; each value takes one per lattice.
     target.question.most_values = plan.samples / target.lattices;
+    // A new search begins with both ends: they say whether the target lies between them.
     target.values = asked.value("values", std::vector<double>{(*ends)[0], (*ends)[1]});
     if (target.values.size() * target.lattices > plan.samples)
         fault("",

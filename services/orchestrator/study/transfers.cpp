@@ -44,6 +44,7 @@ std::vector<double> even_range(const json& range, std::vector<Fault>& faults) {
                           "give a step of at least 1e-6 s"});
         return {};
     }
+    // 1e-9 of a step: 0.3 / 0.1 is 2.9999999999999996 and must give three steps.
     const double count = std::floor((to - from) / step + 1e-9) + 1;
     if (count > static_cast<double>(most_times)) {
         faults.push_back({"/transfer_times/step",
@@ -52,6 +53,7 @@ std::vector<double> even_range(const json& range, std::vector<Fault>& faults) {
         return {};
     }
     std::vector<double> times;
+    // Not a running sum: its rounding would grow with the number of steps.
     for (double i = 0; i < count; ++i) times.push_back(from + i * step);
     return times;
 }
@@ -74,6 +76,7 @@ std::vector<double> wanted_times(const json& entry, std::vector<Fault>& faults) 
 void warn_about_late_criteria(const json& triggers, double span,
                               std::vector<fault::Flag>& warnings) {
     const auto range = [&](const std::string& field) {
+        // All other fields may take any value.
         return field == "time" ? criteria::Range{0.0, span} : criteria::Range{};
     };
     for (std::size_t i = 0; i < triggers.size(); ++i) {
@@ -112,6 +115,7 @@ double dynamic_duration(const scene::Fem& fem) {
     return sum;
 }
 
+/// A microsecond of slack for sums of stages.
 bool is_late(double time, const scene::Fem& fem) {
     return time > dynamic_duration(fem) + microsecond;
 }
@@ -160,6 +164,8 @@ void check_lines(const scene::Scene& scene, const Study& study, std::vector<Faul
     }
 }
 
+/// Triggers "at_time" fire at times that are known: they become transfer times here, and only live
+/// ones are watched.
 void read_transfers(const json& document, const scene::Fem* fem, Study& study,
                     std::vector<Fault>& faults) {
     const std::size_t before = faults.size();

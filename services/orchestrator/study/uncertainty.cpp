@@ -1,3 +1,7 @@
+// Reads parameters, distributions and correlations, and refuses what would give wrong samples
+// without a message later: values given as factors, bounds beyond the distribution, correlations
+// that contradict each other. Called at each reading of a study and for each answer about its
+// results, then without faults.
 #include "services/orchestrator/study/uncertainty.hpp"
 
 #include <algorithm>
@@ -28,6 +32,7 @@ static constexpr auto words_of(Sampling) {
 
 namespace {
 
+// Below this share the bounds miss the distribution, most likely by a slip.
 constexpr double least_share_between = 1e-9;
 constexpr std::size_t default_batch = 16;
 
@@ -45,6 +50,7 @@ struct DistributionWords {
     std::string meaning;
 };
 
+/// The keys in the order in which statistics::Distribution keeps its numbers.
 DistributionWords distribution_words(DistributionKind kind) {
     switch (kind) {
         case DistributionKind::normal:
@@ -127,6 +133,7 @@ class ParameterReader {
         }
     }
 
+    /// The root is none: a parameter must not replace the whole scene.
     static bool is_pointer(const std::string& text) {
         try {
             return text.starts_with('/') && !json::json_pointer(text).empty();
@@ -247,6 +254,7 @@ class ParameterReader {
                   "give [least, largest]");
             return;
         }
+        // The distribution is cut, not clamped: samples between the bounds keep their proportions.
         parameter_.distribution.between = ends;
         const double share = statistics::share_between(parameter_.distribution);
         if (share < least_share_between)
@@ -261,6 +269,8 @@ class ParameterReader {
         for (std::size_t i = 0; i < options.size(); ++i) {
             parameter_.choices.push_back(
                 {.name = "option " + std::to_string(i + 1), .overrides = options[i]});
+            // Each option by itself, its overrides one after the other: a later one may need an
+            // earlier.
             json changed = scene_;
             for (std::size_t k = 0; k < options[i].size(); ++k)
                 add_entry_of(options[i][k], i, k, changed);
@@ -315,6 +325,7 @@ class ParameterReader {
 };
 
 /// Whether the pointers are equal or one contains the other.
+/// An override of "/materials/clay" sets "/materials/clay/law" too.
 bool meet(const std::string& a, const std::string& b) {
     const auto holds = [](const std::string& whole, const std::string& part) {
         return part.starts_with(whole) &&
@@ -323,6 +334,8 @@ bool meet(const std::string& a, const std::string& b) {
     return holds(a, b) || holds(b, a);
 }
 
+/// Two parameters of one entry: the later one would win in every sample, and the other would show
+/// no effect.
 void refuse_repeated_entries(const std::vector<Parameter>& parameters, std::vector<Fault>& faults) {
     std::optional<std::size_t> numerical;
     for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -399,6 +412,7 @@ std::vector<AskedCorrelation> read_correlations(const json& entries,
     return asked;
 }
 
+/// The quantity that is shown first, unless "until" names another.
 std::optional<Until> read_until(const json& entry, const UncertaintyPlan& plan) {
     if (!entry.contains("until")) return std::nullopt;
     const json& until = entry.at("until");
@@ -416,6 +430,7 @@ void check_correlations(const UncertaintyPlan& plan, std::vector<Fault>& faults)
                           "definite",
                           "weaken one of them, or correlate their common cause: two that go with a "
                           "third cannot go against each other"});
+    // With fewer samples than this, ranks cannot be arranged to the wanted matrix.
     const std::size_t least = plan.parameters.size() + 2;
     if (plan.sampling == Sampling::latin_hypercube && plan.first < least)
         faults.push_back(

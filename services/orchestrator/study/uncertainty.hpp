@@ -1,5 +1,6 @@
 // The study's entry "uncertainty": the uncertain settings, their distributions, and the number of
-// samples. uncertainty/ computes the statistics of the results.
+// samples. samples.cpp draws from it, sampled_variants.cpp makes variants of the samples,
+// uncertainty/ computes the statistics of the results.
 #pragma once
 
 #include <cstdint>

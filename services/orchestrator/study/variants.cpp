@@ -20,6 +20,7 @@ using nlohmann::json;
 namespace {
 
 /// Faults of a variant that the scene itself does not have.
+/// Late times are judged per variant, as an override may shorten the FEM's stages.
 std::vector<Fault> faults_of_variant(const check::Checked& changed, const Base& base,
                                      const std::vector<double>& times) {
     std::vector<Fault> own;
@@ -61,6 +62,8 @@ CheckedVariant checked_variant(const VariantEntry& entry, const Base& base,
 }
 
 /// Checks all variants, on several threads if there are many.
+/// Scenes are independent; the motions they share are read once (Recordings). Below 50 variants per
+/// thread, starting it is not worth it.
 std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entries, const Base& base,
                                          const std::vector<double>& times) {
     constexpr std::size_t worth_a_thread = 50;
@@ -69,6 +72,7 @@ std::vector<CheckedVariant> each_checked(const std::vector<VariantEntry>& entrie
         1, 8);
     std::vector<CheckedVariant> checked(entries.size());
     const auto check_from = [&](std::size_t first) {
+        // Every thread writes to places of its own.
         for (std::size_t i = first; i < entries.size(); i += threads)
             checked[i] = checked_variant(entries[i], base, times);
     };
@@ -91,6 +95,7 @@ void add_warnings(const std::vector<VariantEntry>& entries,
     std::vector<Found> found;
     for (std::size_t i = 0; i < entries.size(); ++i)
         for (const Flag& flag : checked[i].warnings) {
+            // The message may have numbers of the variant, so code and pointer decide.
             const auto known = std::ranges::find_if(found, [&](const Found& each) {
                 return each.flag.code == flag.code && each.flag.pointer == flag.pointer;
             });
@@ -114,6 +119,7 @@ std::vector<VariantEntry> own_variants(const json& document) {
     const json& entries = document["variants"];
     std::vector<VariantEntry> own;
     for (std::size_t i = 0; i < entries.size(); ++i) {
+        // Of a stored study: generated variants stand beside the author's.
         if (entries[i].contains("made_by")) continue;
         const std::string at = "/variants/" + std::to_string(i);
         own.push_back({.name = entries[i].at("name"),
@@ -133,6 +139,7 @@ void warn_about_overrides(const json& document, std::vector<Flag>& warnings) {
             const std::string entry = each.substr(0, each.find('='));
             const std::string value = each.substr(std::min(entry.size() + 1, each.size()));
             const auto [known, is_new] = values.try_emplace(entry, value);
+            // An append may come twice.
             if (is_new || known->second == value || entry.ends_with("/-")) continue;
             warnings.push_back({"overridden_twice", fault::Severity::warning,
                                 "sets " + entry + " to " + known->second + " and to " + value +

@@ -35,8 +35,8 @@ std::vector<VariantEntry> wanted_variants(const nlohmann::json& document, Reach 
 
 nlohmann::json as_json(const std::vector<VariantEntry>& entries);
 
-/// Stores the variants that are run, and the study's own variants where none of them runs
-/// unchanged, so that reading the study again gives the same variants.
+/// Stores the variants that are run, generated ones with "made_by", so that reading the study again
+/// gives the same variants.
 void keep_variants(const std::vector<VariantEntry>& entries, nlohmann::json& document);
 
 /// Each variant's scene, checked and completed; faults are those of its overrides.

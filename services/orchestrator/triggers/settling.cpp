@@ -26,6 +26,7 @@ using nlohmann::json;
 
 namespace {
 
+/// The remedy is part of the reason: a user sees the reason only.
 std::string until_a_retry(const std::string& what_failed, const std::string& how) {
     return what_failed + " (" + how + "); a retry of the run arms this trigger again";
 }
@@ -183,6 +184,7 @@ void Settling::settle(WatchedFem& fem, ArmedTrigger& armed) {
     }
 }
 
+/// No condition: the order itself was the crossing.
 void Settling::settle_work(WatchedFem& fem, ArmedTrigger& armed, Manual& manual) {
     if (armed.trigger.state == TriggerState::armed) move(armed, TriggerEvent::cross, {});
     take_first_from(fem, armed, manual.after);
@@ -258,6 +260,7 @@ void Settling::pick_in_window(const WatchedFem& fem, ArmedTrigger& armed, const 
     take(fem, armed, *std::ranges::find(fem.snapshots, *time, &Frame::time), wanted);
 }
 
+/// After the FEM's end, because its snapshots are the candidates; each round fires several times.
 void Settling::settle_work(WatchedFem& fem, ArmedTrigger& armed, Bisect& bisect) {
     if (!fem.ended) return;
     if (fem.was_cut_short()) return expire(armed, cut_short_text(fem.task), WasMet::not_told);
@@ -302,6 +305,8 @@ void Settling::take_first_from(WatchedFem& fem, ArmedTrigger& armed, double want
     }
 }
 
+/// Firing and move in one transaction: killed before it, the trigger is still open and comes here
+/// again.
 void Settling::take(const WatchedFem& fem, ArmedTrigger& armed, const Frame& snapshot,
                     double wanted) {
     const double within = armed.trigger.spec.value("within_s", std::numeric_limits<double>::max());

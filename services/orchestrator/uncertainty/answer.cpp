@@ -1,5 +1,5 @@
-// The answer of GET /v1/runs/{run}/uncertainty: statistics by quantity, with sentences.
-// Everything that the pages, the CLI and the report say about samples comes from this document.
+// Everything that the pages, the CLI and the report say about samples comes from this document. It
+// is computed for each request from the store: a running study's answer changes with every sample.
 #include "services/orchestrator/uncertainty/answer.hpp"
 
 #include <algorithm>
@@ -21,14 +21,17 @@ using nlohmann::json;
 
 namespace {
 
+// The percentiles that need 59, 29 and 5 samples; one that has too few is listed as lacking.
 constexpr std::array shown_percentiles{5.0, 10.0, 50.0, 90.0, 95.0};
 
+/// By the keys of the study's entry. numerical: the lattice of the points, no property of the soil.
 std::string kind_of(const json& parameter) {
     if (parameter.contains("one_of")) return "choice";
     if (parameter.contains("factor_on")) return "factor";
     return parameter.contains("sets") ? "value" : "numerical";
 }
 
+/// A correlation stands once in the study and is listed at both of its parameters here.
 json parameters_of(const json& entry) {
     json list = json::array();
     for (const json& each : entry.at("parameters")) {
@@ -56,6 +59,7 @@ struct Measured {
     std::optional<double> least_bound;  ///< least result of a sample with moving soil
 };
 
+/// The count differs by quantity: factors of safety exist for samples whose runout failed.
 Measured measured(const Ensemble& ensemble, std::string_view quantity) {
     Measured found;
     for (const SampleRow& each : ensemble.samples) {
@@ -73,6 +77,7 @@ Measured measured(const Ensemble& ensemble, std::string_view quantity) {
 statistics::Drawn drawn_of(const json& parameter, const std::vector<const SampleRow*>& samples) {
     statistics::Drawn drawn{
         .name = parameter.at("name"),
+        // A lattice's number has no order either.
         .is_choice = kind_of(parameter) == "choice" || kind_of(parameter) == "numerical",
         .values = {}};
     std::set<json> options;
@@ -93,6 +98,7 @@ void add(json& into, const std::optional<statistics::Interval>& found, const cha
     into[high] = found ? json(found->high) : json();
 }
 
+/// measure names the number that fits the parameter's kind: a choice has no order, so no rank.
 json as_json(const statistics::Importance& found, const json& parameter) {
     const std::string kind = kind_of(parameter);
     const bool ranked = kind == "factor" || kind == "value";
@@ -105,6 +111,8 @@ json as_json(const statistics::Importance& found, const json& parameter) {
     return made;
 }
 
+/// Refused where the fitted polynomial predicts left-out samples badly (q2): its bars would be
+/// noise.
 json as_json(const statistics::Tornado& tornado) {
     if (!tornado.refused.empty()) return {{"refused", tornado.refused}, {"q2", tornado.q2}};
     json bars = json::array();
@@ -179,6 +187,7 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
         if (found.results.size() < statistics::samples_needed(p))
             lacking.push_back({{"p", p}, {"needs", statistics::samples_needed(p)}});
     made["percentiles_lacking"] = std::move(lacking);
+    // A factor below 1 is a failure; no such limit is known for a distance.
     if (std::string_view(quantity.name).starts_with("factor_of_safety")) {
         const statistics::Interval failed = statistics::share_below(found.results, 1.0);
         made["probability_of_failure"] = {
@@ -188,6 +197,8 @@ json statistics_of(const Ensemble& ensemble, const ResultColumn& quantity) {
     return made;
 }
 
+/// Samples without a result are counted and named: leaving them out silently would bias every
+/// number. doubtful: questionable for another reason than that soil still moved.
 json counts_of(const Ensemble& ensemble) {
     const auto count = [&](SampleEnd end) {
         return std::ranges::count(ensemble.samples, end, &SampleRow::end);
@@ -214,6 +225,7 @@ json counts_of(const Ensemble& ensemble) {
 
 json rows_of(const Ensemble& ensemble) {
     json rows = json::array();
+    // A row for every planned sample: one without a result still shows which parameters it had.
     const auto quantities = quantities_of(ensemble);
     for (const SampleRow& each : ensemble.samples) {
         json results = json::object();
@@ -228,7 +240,8 @@ json rows_of(const Ensemble& ensemble) {
     return rows;
 }
 
-/// The entry "until", with the present accuracy of its percentile.
+/// The entry "until", with the present accuracy of its percentile: half of the 90 % interval over
+/// the value, the measure by which BatchWatch decides. A value of 0 has no relative accuracy.
 json until_of(const Ensemble& ensemble) {
     const json until = ensemble.entry.value("until", json());
     if (!until.is_object()) return nullptr;
@@ -270,6 +283,7 @@ json uncertainty_of(const Ensemble& ensemble, const json& scene, const std::stri
         {"quantities", std::move(quantities)},
         {"until", until_of(ensemble)},
         {"inverse", search ? as_json(*search, ensemble.entry.at("target").at("vary")) : json()}};
+    // Last, because the words are made from the numbers of this very document.
     answer["sentences"] = findings::sentences_of(answer);
     answer["cautions"] = findings::cautions_of(answer);
     if (const json::json_pointer own("/lem/probability");

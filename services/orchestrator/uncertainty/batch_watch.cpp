@@ -27,6 +27,7 @@ std::vector<double> results_of(const Store& store, const std::string& run,
     const auto ensemble = ensemble_of(store, run);
     std::vector<double> values;
     for (const SampleRow& each : ensemble->samples)
+        // By the time of this call every sample has ended, so what has no value now never will.
         if (const auto value = result_of(each, quantity)) values.push_back(*value);
     return values;
 }
@@ -53,6 +54,9 @@ Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
 
 }  // namespace
 
+/// seen_event_ moves on only when no run had trouble: otherwise a run that failed for a full disk
+/// would wait for the next event, which may never come. An error is logged when its text changes,
+/// not in every round.
 bool BatchWatch::look() {
     const std::int64_t newest = store_.last_event();
     if (newest == seen_event_) return false;
@@ -72,6 +76,7 @@ bool BatchWatch::look() {
     return added;
 }
 
+/// A trigger that may still fire can add tasks, so it counts as open.
 bool BatchWatch::has_ended(const std::string& run) const {
     const auto known = store_.run(run);
     if (!known || known->tasks_ended < known->tasks_total) return false;
@@ -81,6 +86,7 @@ bool BatchWatch::has_ended(const std::string& run) const {
 
 bool BatchWatch::settle(const Batches& batches) {
     if (!has_ended(batches.run)) return false;
+    // Two kinds of study share this watch and differ in their spec only.
     if (batches.spec.contains("target")) return search_on(batches);
     const json study = unless_removed(store_.study_of(batches.run));
     const json& entry = study.at("uncertainty");
@@ -90,6 +96,7 @@ bool BatchWatch::settle(const Batches& batches) {
     if (narrowness.reached) {
         end(batches, "met", "");
     } else if (results.empty()) {
+        // More of the same would cost as much and give as little.
         end(batches, "given_up", "no sample has a result: no more are drawn");
     } else if (entry.at("drawn") >= entry.at("samples")) {
         end(batches, "given_up",
@@ -133,6 +140,7 @@ bool BatchWatch::extend(const Batches& batches, const json& study, const json& e
                               .tasks = store_.tasks_of(batches.run)};
         const Extension extension = plan_more_variants(so_far, data_, numerics_, entry);
         added = store_.write([&](Transaction& transaction) {
+            // Asked again within the transaction: a cancel may have come since the row was read.
             const bool open = transaction.batches_are_open(batches.run);
             if (open) transaction.extend_run(batches.run, extension);
             return open;
@@ -144,6 +152,7 @@ bool BatchWatch::extend(const Batches& batches, const json& study, const json& e
     return added;
 }
 
+/// From "open" to its end; a retry of the run's tasks opens it again (Batches in records.hpp).
 void BatchWatch::end(const Batches& batches, const char* state, const std::string& why) {
     store_.write(
         [&](Transaction& transaction) { transaction.end_batches(batches.run, state, why); });

@@ -20,10 +20,13 @@ namespace {
 
 constexpr const char* safety = "factor_of_safety";
 constexpr const char* safety_liquefied = "factor_of_safety_liquefied";
+// What a person asks an uncertainty study for, in the order in which pages list it. Error measures
+// are left out: their percentiles mean nothing.
 constexpr std::array<const char*, 6> answers{"runout_beyond_toe", "runout", "runout_largest",
                                              "area_beyond_toe",   safety,   safety_liquefied};
 
 /// state: of a row of results.
+/// A questionable result is a result: leaving it out would favour runs that went well.
 SampleEnd end_of_sample(const std::string& state) {
     if (state == "succeeded" || state == "questionable") return SampleEnd::done;
     constexpr std::array ended{"failed", "skipped", "cancelled", "not_reached"};
@@ -61,9 +64,13 @@ std::optional<Ensemble> ensemble_of(const Store& store, const std::string& run) 
                          .drawn = variant.at("sample").at("values"),
                          .row = std::nullopt,
                          .safety = {}};
+        // The name "" is of an analysis that all variants share; a sample's own comes second and
+        // wins.
         for (const std::string& each : {std::string(), sample.name})
             if (const auto own = factors.find(each); own != factors.end())
                 sample.safety = own->second;
+        // A sample with an MPM task has a row, even when it failed. Without one, the store says why
+        // there was no transfer; a sample that neither knows may still get there.
         if (const auto found = rows.find(sample.name); found != rows.end()) {
             sample.state = value_of(found->second, "state");
             sample.end = end_of_sample(sample.state);
@@ -99,6 +106,7 @@ std::vector<const ResultColumn*> quantities_of(const Ensemble& ensemble) {
     std::vector<std::string> names{first_quantity(ensemble)};
     if (const json until = ensemble.entry.value("until", json()); until.contains("quantity"))
         names.push_back(until.at("quantity"));
+    // What the study names comes first, and once.
     names.insert(names.end(), answers.begin(), answers.end());
     std::vector<const ResultColumn*> found;
     for (const std::string& name : names) {
@@ -124,6 +132,7 @@ SampleTable sample_table(const Ensemble& ensemble) {
         const std::string name = each.at("name");
         const bool taken = std::ranges::any_of(
             result_columns(), [&](const ResultColumn& other) { return other.name == name; });
+        // A parameter may be called like a result; a table must not have two columns of one name.
         table.names.push_back(taken || name == "sample" ? name + " (draw)" : name);
         add({table.names.back().c_str(), "",
              each.contains("one_of") ? ColumnKind::word : ColumnKind::number, "", "",

@@ -1,5 +1,6 @@
 // The results of an uncertainty study so far: each sample with its sampled values and its result.
-// Read from the store at each call.
+// Read from the store at each call, by requests on their threads and by BatchWatch on the
+// dispatcher's.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,6 +13,8 @@
 
 namespace breach::orchestrator {
 
+/// open: may still get a result. It becomes one of the others when its tasks end, without anyone
+/// setting it: it is derived from the rows at each reading.
 enum class SampleEnd { done, failed, no_transfer, open };
 
 struct SampleRow {

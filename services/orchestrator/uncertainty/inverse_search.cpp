@@ -14,6 +14,8 @@ using nlohmann::json;
 
 namespace {
 
+/// These are 0 for a dam that stands, so a standing sample is a result. The absolute runout has no
+/// such value.
 bool is_none_where_nothing_flows(const std::string& quantity) {
     return quantity == "runout_beyond_toe" || quantity == "area_beyond_toe";
 }
@@ -32,6 +34,7 @@ std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json
         statistics::InverseStep step{.value = value, .results = {}};
         for (const SampleRow& each : ensemble.samples) {
             if (each.drawn.at(vary) != value) continue;
+            // A cancelled run leaves samples open that no one will compute.
             step.open |= each.end == SampleEnd::open && !ensemble.run.finished;
             if (each.end == SampleEnd::no_transfer && is_none_where_nothing_flows(quantity)) {
                 step.results.push_back(0.0);
@@ -44,6 +47,7 @@ std::optional<InverseSearch> inverse_search(const Ensemble& ensemble, const json
         }
         search.steps.push_back(std::move(step));
     }
+    // The values are stored in the order of their requests; the search needs them ascending.
     std::ranges::sort(search.steps, {}, &statistics::InverseStep::value);
     search.advice = statistics::advise_inverse(search.target.question, search.steps);
     return search;
@@ -53,6 +57,7 @@ json as_json(const InverseSearch& search, const std::string& vary) {
     const statistics::InverseAdvice& advice = search.advice;
     json steps = json::array();
     for (const statistics::InverseStep& each : search.steps) {
+        // All its lattices ended, none with a result.
         const bool failed = each.results.empty() && !each.open;
         steps.push_back(
             {{"value", each.value},

@@ -1,4 +1,5 @@
 // State of an inverse study: the values computed so far, and the advice for the next value.
+// BatchWatch acts on the advice when all samples have ended; uncertainty_of shows it at any time.
 #pragma once
 
 #include "services/orchestrator/study/target.hpp"
