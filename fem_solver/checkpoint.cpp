@@ -190,13 +190,20 @@ bool fits(const Beginning& beginning, const Model& model) {
            empty_or(beginning.skeleton_modulus, model.water.elements.size());
 }
 
+bool fits(const Largest& largest, const Model& model) {
+    const std::size_t points = model.body.elements * model.points_per_element;
+    return empty_or(largest.excess_pressure, model.body.nodes) && empty_or(largest.r_u, points) &&
+           largest.shear_strain.size() == largest.r_u.size();
+}
+
 /// Everything except scene and file. Throws std::out_of_range if numbers are missing or left over.
 Checkpoint read(const exchange::Archive& archive, const Model& model) {
     Checkpoint c;
     Kept& kept = c.kept;
     kept.motion = motion_from(archive, model);
     kept.beginning = beginning_from(archive);
-    kept.excess_pressure_max = archive.reals.at("excess_pressure_max");
+    kept.largest = {archive.reals.at("largest.excess_pressure"), archive.reals.at("largest.r_u"),
+                    archive.reals.at("largest.shear_strain")};
     kept.stage_force = vector_from(archive.reals.at("stage_force"));
     c.newton.values = archive.reals.at("newton.values");
     const Reals& rule = archive.reals.at("newton.rule");
@@ -239,7 +246,9 @@ exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newto
     put(archive, kept.position);
     put(archive, kept.motion);
     put(archive, kept.beginning);
-    archive.reals["excess_pressure_max"] = kept.excess_pressure_max;
+    archive.reals["largest.excess_pressure"] = kept.largest.excess_pressure;
+    archive.reals["largest.r_u"] = kept.largest.r_u;
+    archive.reals["largest.shear_strain"] = kept.largest.shear_strain;
     archive.reals["stage_force"] = flat(kept.stage_force);
     archive.reals["crest_time"] = kept.crest_time;
     archive.reals["crest_acceleration"] = kept.crest_acceleration;
@@ -293,7 +302,7 @@ Checkpoint checkpoint_from(const exchange::Archive& archive, const scene::Scene&
         checkpoint.kept.position = position;
         const Kept& kept = checkpoint.kept;
         const bool whole = fits(kept.motion, model) && fits(kept.beginning, model) &&
-                           empty_or(kept.excess_pressure_max, model.body.nodes) &&
+                           fits(kept.largest, model) &&
                            empty_or(kept.stage_force, model.mesh.nodes.size() * 2) &&
                            kept.crest_time.size() == kept.crest_acceleration.size();
         if (whole) return checkpoint;

@@ -9,7 +9,7 @@
 
 #include "core/fault/flag.hpp"
 #include "fem_solver/monitors/monitors.hpp"
-#include "fem_solver/solve/beginning.hpp"
+#include "fem_solver/solve/largest.hpp"
 #include "fem_solver/solve/newton.hpp"
 
 namespace breach::fem {
@@ -41,8 +41,7 @@ struct Kept {
     Position position;
     Motion motion;
     Beginning beginning;
-    /// since the first dynamic stage began, [nodes of the body]; empty if dry [Pa]
-    std::vector<double> excess_pressure_max;
+    Largest largest;
     /// static stage: internal force at its beginning; dynamic stage with a ramp: withheld force [N]
     Eigen::VectorXd stage_force;
     NewtonCounts counts;  ///< up to the last use of the matrix

@@ -142,17 +142,6 @@ void note_entanglement(const Distortion& folded, double time, Course& course, Re
     if (course.position.time == 0.0) refuse_the_mesh(*course.entanglement, recorder);
 }
 
-/// Liquefied soil does not regain strength when its pore pressure falls.
-void keep_largest_excess_pressure(Course& course) {
-    if (course.beginning.p.size() == 0) return;
-    std::vector<double>& largest = course.excess_pressure_max;
-    const std::vector<double> excess =
-        course.watch.excess_pressure(course.model, course.motion, course.beginning);
-    if (largest.empty()) largest = excess;
-    std::ranges::transform(excess, largest, largest.begin(),
-                           [](double now, double before) { return std::max(now, before); });
-}
-
 /// Adds the work of the step; the trial becomes the motion.
 void take_trial(Course& course) {
     Motion& motion = course.motion;
@@ -170,7 +159,10 @@ void take_trial(Course& course) {
         position.viscous_dissipation += force.viscous_work(mean, d_u);
     }
     std::swap(motion, trial);
-    keep_largest_excess_pressure(course);
+    if (course.beginning.p.size() > 0)
+        keep_largest(course.model, motion, course.beginning,
+                     course.watch.excess_pressure(course.model, motion, course.beginning),
+                     course.largest);
 }
 
 [[noreturn]] void give_up_step(const NewtonOutcome& outcome, const Course& course,

@@ -249,7 +249,7 @@ void report_end(Course& course) {
     course.watch.read(course.model, course.motion, course.beginning, last);
     if (auto near = upstream_wall(course.fem, course.model, course.motion, course.beginning,
                                   last.failure_surfaces > 0.0, course.crest_node,
-                                  course.excess_pressure_max))
+                                  course.largest.excess_pressure))
         session.flag(std::move(*near));
     double depth = last.liquefaction_depth;
     for (const Reading& each : course.history) depth = std::max(depth, each.liquefaction_depth);

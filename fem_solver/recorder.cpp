@@ -119,7 +119,7 @@ void Recorder::write_snapshot() {
     exchange::write_mesh_snapshot(
         session.output(name),
         snapshot_of(session.scene(), course_.model, course_.motion, course_.beginning,
-                    course_.excess_pressure_max, time, course_.position.step),
+                    course_.largest, time, course_.position.step),
         session.provenance());
     session.announce_frame(name, phases::files::snapshot_prefix, time);
     last_snapshot_ = time;

@@ -55,6 +55,8 @@ void drop_absent(const Model& model, exchange::MeshSnapshot& s) {
     keep_present(model, points, s.strain);
     keep_present(model, points, s.epsilon_q);
     keep_present(model, points, s.epsilon_q_plastic);
+    keep_present(model, points, s.r_u_max);
+    keep_present(model, points, s.shear_strain_max);
     keep_present(model, points, s.psi);
     keep_present(model, points, s.instability_ratio);
 }
@@ -63,8 +65,7 @@ void drop_absent(const Model& model, exchange::MeshSnapshot& s) {
 
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
                                    const Motion& motion, const Beginning& beginning,
-                                   const std::vector<double>& excess_pressure_max, double time,
-                                   std::int64_t step) {
+                                   const Largest& largest, double time, std::int64_t step) {
     exchange::MeshSnapshot s;
     s.time = time;
     s.step = step;
@@ -88,7 +89,9 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model
     if (beginning.p.size() > 0) {
         s.pore_pressure_0 = first(without_suction(model.water, beginning.p), nodes);
         s.sigma_v0 = beginning.sigma_v0;
-        s.excess_pressure_max = excess_pressure_max;
+        s.excess_pressure_max = largest.excess_pressure;
+        s.r_u_max = largest.r_u;
+        s.shear_strain_max = largest.shear_strain;
     }
     // Empty before the first dynamic stage and in a scene without columns.
     s.base_motion = beginning.base_motion;

@@ -5,16 +5,14 @@
 
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/phases/files.hpp"
-#include "fem_solver/solve/beginning.hpp"
+#include "fem_solver/solve/largest.hpp"
 
 namespace breach::fem {
 
-/// Without free-field columns. excess_pressure_max: [nodes of the body] Pa, since the first dynamic
-/// stage began; empty if dry.
+/// Without free-field columns.
 exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, const Model& model,
                                    const Motion& motion, const Beginning& beginning,
-                                   const std::vector<double>& excess_pressure_max, double time,
-                                   std::int64_t step);
+                                   const Largest& largest, double time, std::int64_t step);
 
 /// "snapshot_0.250000.vtkhdf"
 using phases::files::snapshot_name;

@@ -83,6 +83,12 @@ PlanLine collapse_line(const scene::Scene& scene) {
 PlanLine liquefied_line(const scene::Scene& scene, const scene::Transfer& settings) {
     if (!judged_by(scene).pressure)
         return {"liquefied layers", Use::left_out, "the scene names none", "/transfer/liquefied"};
+    if (settings.liquefied->by == scene::LiquefiedBy::point)
+        return {"liquefied layers", Use::on,
+                "each point below the water table by the largest r_u" +
+                    std::string(settings.liquefied->shear_strain ? " or shear strain" : "") +
+                    " of its Gauss point",
+                "/transfer/liquefied/by"};
     if (settings.liquefied->layers.empty())
         return {"liquefied layers", Use::on,
                 "each point above the deepest liquefied node at its own residual strength",

@@ -93,12 +93,13 @@ void report_options(const Transferred& t, nlohmann::json& result) {
                            {"filled", t.supply->filled},
                            {"least_points_in_a_filled_cell", t.supply->least_in_filled},
                            {"short", t.supply->short_cells}};
-    if (t.liquefaction) {
-        result["liquefied_when"] = words::name_of(t.liquefaction->when);
-        result["liquefied_nodes"] = t.liquefaction->nodes;
-        result["liquefied_closed_width"] = t.liquefaction->closed_width;
-        if (t.liquefaction->nodes > 0)
-            result["deepest_liquefied_level"] = t.liquefaction->deepest_level;
+    if (t.liquefaction) result["liquefied_share"] = t.liquefaction->share;
+    if (t.liquefaction && t.liquefaction->columns) {
+        const LiquefiedColumns& columns = *t.liquefaction->columns;
+        result["liquefied_when"] = words::name_of(columns.when);
+        result["liquefied_nodes"] = columns.nodes;
+        result["liquefied_closed_width"] = columns.closed_width;
+        if (columns.nodes > 0) result["deepest_liquefied_level"] = columns.deepest_level;
     }
     if (t.collapse)
         result["collapse"] = {{"criterion", collapse_criterion(*t.collapse)},
@@ -162,9 +163,9 @@ void report(process::Session& session, const Transferred& t) {
     result["coincident_gauss_points"] = t.gauss_fields.merged_centres;
     result["ledger"] = as_json(t.ledger);
     report_options(t, result);
-    if (t.liquefaction) {
+    if (t.liquefaction && t.liquefaction->columns) {
         const auto& mpm = session.scene().mpm;
-        if (auto flag = flag_of(t.liquefaction->gaps, mpm ? mpm->cell_size : 0.0))
+        if (auto flag = flag_of(t.liquefaction->columns->gaps, mpm ? mpm->cell_size : 0.0))
             session.flag(std::move(*flag));
     }
 }

@@ -52,7 +52,12 @@ void check_snapshot(const MeshSnapshot& mesh, const scene::Scene& scene,
                               "the snapshot has no state parameter: its NorSand soil has not begun",
                               "give a snapshot of a stage with the scene's laws"});
     }
-    if (judged.pressure && mesh.sigma_v0.empty())
+    if (judged.pressure && liquefied->by == scene::LiquefiedBy::point && mesh.r_u_max.empty())
+        faults.push_back({"/transfer/liquefied/by",
+                          "the snapshot has no largest r_u of its points: nothing has shaken yet",
+                          "give a snapshot of a dynamic stage with pore water, or decide by "
+                          "\"column\""});
+    else if (judged.pressure && mesh.sigma_v0.empty())
         faults.push_back(
             {"/transfer/liquefied",
              "the snapshot has no sigma_v0 and pore_pressure_0, which show what has liquefied",
@@ -124,14 +129,17 @@ SoilMap::SoilMap(const MeshSnapshot& mesh, const scene::Scene& scene, const std:
         layer_ends_.push_back(layer.to);
     std::vector<char> can_liquefy;
     for (const RegionRule& rule : rules_) can_liquefy.push_back(rule.liquefies ? 1 : 0);
-    if (std::ranges::count(can_liquefy, 1) > 0)
-        liquefied_.emplace(mesh, can_liquefy, settings.liquefied->r_u, settings.liquefied->when,
-                           settings.liquefied->narrowest_wall);
-    if (!liquefied_) return;
-    liquefied_->keep_below(water_table_of(scene));
-    for (const scene::LiquefiedLine& line : settings.liquefied->lines)
+    if (std::ranges::count(can_liquefy, 1) == 0) return;
+    const scene::LiquefiedZone& zone = *settings.liquefied;
+    if (zone.by == scene::LiquefiedBy::point) {
+        points_.emplace(mesh, zone.r_u, zone.shear_strain, water_table_of(scene));
+        return;
+    }
+    columns_.emplace(mesh, can_liquefy, zone.r_u, zone.when, zone.narrowest_wall);
+    columns_->keep_below(water_table_of(scene));
+    for (const scene::LiquefiedLine& line : zone.lines)
         // Times come from text in the scene and from summed steps in the snapshot.
-        if (std::abs(line.transfer_time - mesh.time) < 1e-6) liquefied_->add(line);
+        if (std::abs(line.transfer_time - mesh.time) < 1e-6) columns_->add(line);
 }
 
 /// The pool stays where it is drawn, also where the base has moved; the soil's water moves with it.
@@ -168,12 +176,21 @@ void SoilMap::add_rule(const scene::Scene& scene, const std::vector<scene::Soil>
     rules_.push_back(std::move(rule));
 }
 
+bool SoilMap::is_liquefied(std::size_t element, const Vec2& xi, const Vec2& place) const {
+    return points_ ? points_->holds(element, xi, place) : columns_->holds(place);
+}
+
+std::optional<bool> SoilMap::liquefied_at(std::size_t element, const Vec2& xi) const {
+    if (!rules_[mesh_.region_of_element[element]].liquefies) return std::nullopt;
+    return is_liquefied(element, xi, undeformed_corners(mesh_, element) * shape_functions(xi));
+}
+
 std::int32_t SoilMap::at(std::size_t element, const Vec2& xi) const {
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
     if (!rule.saturated && rule.layers.empty()) return rule.soil;
     const Eigen::Vector4d N = shape_functions(xi);
     const Vec2 place = undeformed_corners(mesh_, element) * N;
-    if (!rule.layers.empty() && liquefied_->holds(place)) {
+    if (!rule.layers.empty() && is_liquefied(element, xi, place)) {
         const double sigma_v0 = corner_values(mesh_.sigma_v0, mesh_.quads[element]).dot(N);
         const auto layer = std::ranges::upper_bound(layer_ends_, sigma_v0) - layer_ends_.begin();
         // Stress beyond the last layer's end still belongs to that layer.
@@ -201,7 +218,7 @@ materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& x
     }
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
     const Vec2 place = undeformed_corners(mesh_, element) * shape_functions(xi);
-    const bool flows = rule.liquefies && liquefied_->holds(place);
+    const bool flows = rule.liquefies && is_liquefied(element, xi, place);
     return materials::strength_of_point(
         *profile, ground_.at(place, rule.region),
         flows ? materials::Liquefaction::liquefied : materials::Liquefaction::before);

@@ -13,6 +13,7 @@
 #include "core/scene/scene.hpp"
 #include "core/scene/standing_water.hpp"
 #include "transfer_tool/collapse.hpp"
+#include "transfer_tool/liquefied_points.hpp"
 #include "transfer_tool/liquefied_zone.hpp"
 #include "transfer_tool/points.hpp"
 
@@ -48,8 +49,10 @@ class SoilMap {
     materials::PointStrength strength_at(std::size_t element, const Vec2& xi) const;
     /// State of the soil there, if its strength depends on it.
     std::optional<Collapse::Soil> state_at(std::size_t element, const Vec2& xi) const;
-    /// None: no soil can liquefy by pore pressure.
-    const std::optional<LiquefiedZone>& liquefied() const { return liquefied_; }
+    /// Whether soil that can liquefy by pore pressure has, at xi of an element; none: it cannot.
+    std::optional<bool> liquefied_at(std::size_t element, const Vec2& xi) const;
+    /// None: no soil can liquefy by pore pressure, or points decide.
+    const std::optional<LiquefiedZone>& columns() const { return columns_; }
     /// Soil with a state parameter in /transfer/liquefied.
     const Collapse& collapse() const { return collapse_; }
     /// Report on that soil; none if there is none.
@@ -84,7 +87,10 @@ class SoilMap {
     std::vector<RegionRule> rules_;  ///< [regions of the mesh]
     std::vector<Vec2> phreatic_line_;
     std::vector<double> layer_ends_;  ///< [Pa]
-    std::optional<LiquefiedZone> liquefied_;
+    bool is_liquefied(std::size_t element, const Vec2& xi, const Vec2& place) const;
+
+    std::optional<LiquefiedZone> columns_;
+    std::optional<LiquefiedPoints> points_;
     Collapse collapse_;
     scene::Ground ground_;
     mechanics::NodalField steady_;

@@ -22,15 +22,36 @@ Sampling sampling_of(const std::vector<Corners>& shapes, const scene::Scene& sce
                                        .shift = settings.point_shift});
 }
 
+std::map<std::string, double> liquefied_shares(const SoilMap& map,
+                                               const exchange::MeshSnapshot& mesh,
+                                               const Points& points) {
+    std::map<std::string, double> all, liquefied;
+    for (std::size_t e = 0; e + 1 < points.first.size(); ++e)
+        for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
+            const auto has = map.liquefied_at(e, points.xi[p]);
+            if (!has) continue;
+            const std::string& region = mesh.regions[mesh.region_of_element[e]];
+            all[region] += points.state.mass[p];
+            liquefied[region] += *has ? points.state.mass[p] : 0.0;
+        }
+    for (auto& [region, mass] : liquefied) mass /= all[region];
+    return liquefied;
+}
+
 std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
                                                   const exchange::MeshSnapshot& mesh,
+                                                  const Points& points,
                                                   scene::LiquefiedWhen asked) {
-    if (!map.liquefied()) return std::nullopt;
-    const LiquefiedZone& zone = *map.liquefied();
-    const scene::LiquefiedWhen when =
-        mesh.excess_pressure_max.empty() ? scene::LiquefiedWhen::at_transfer : asked;
-    return LiquefactionReport{when, zone.liquefied_nodes(), zone.deepest_level(),
-                              zone.closed_width(), zone.gaps()};
+    LiquefactionReport report{liquefied_shares(map, mesh, points), std::nullopt};
+    if (report.share.empty()) return std::nullopt;
+    if (map.columns()) {
+        const LiquefiedZone& zone = *map.columns();
+        const scene::LiquefiedWhen when =
+            mesh.excess_pressure_max.empty() ? scene::LiquefiedWhen::at_transfer : asked;
+        report.columns = {when, zone.liquefied_nodes(), zone.deepest_level(), zone.closed_width(),
+                          zone.gaps()};
+    }
+    return report;
 }
 
 }  // namespace
@@ -67,7 +88,8 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.soils = map.soils();
     t.shares = shares_of_soils(map, points.state);
     t.softening = softening_of(laws, points.state);
-    if (settings.liquefied) t.liquefaction = liquefaction_of(map, mesh, settings.liquefied->when);
+    if (settings.liquefied)
+        t.liquefaction = liquefaction_of(map, mesh, points, settings.liquefied->when);
     t.collapse = map.collapse_report(points);
     t.state = std::move(points.state);
     // For /mpm/shaking: the runout's ground moves on with it.

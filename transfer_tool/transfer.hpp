@@ -2,7 +2,9 @@
 // Called by run.cpp, tests and benchmarks. Docs: docs/reference/methods/transfer.md, *Steps*.
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 
 #include "transfer_tool/gauss_fields.hpp"
 #include "transfer_tool/laws.hpp"
@@ -12,12 +14,18 @@
 
 namespace breach::transfer {
 
-struct LiquefactionReport {
+/// By columns only.
+struct LiquefiedColumns {
     scene::LiquefiedWhen when;  ///< at_transfer too if the snapshot has no earlier maximum
     std::size_t nodes;          ///< liquefied
     double deepest_level;       ///< of the liquefied nodes, undeformed [m]; +infinity: none
     double closed_width;        ///< of walls that were too narrow [m]
     std::vector<LiquefiedGap> gaps;
+};
+
+struct LiquefactionReport {
+    std::map<std::string, double> share;  ///< of the mass of each region that can liquefy [-]
+    std::optional<LiquefiedColumns> columns;
 };
 
 struct Transferred {

@@ -22,21 +22,22 @@ void check_sizes(const MeshSnapshot& s) {
     const std::size_t nodes = s.position_0.size();
     const std::size_t elements = s.quads.size();
     const std::size_t points = elements * static_cast<std::size_t>(s.gauss_per_element);
-    const bool agree = s.displacement.size() == nodes && s.velocity.size() == nodes &&
-                       s.acceleration.size() == nodes && s.nodal_mass.size() == nodes &&
-                       (s.pore_pressure.empty() || s.pore_pressure.size() == nodes) &&
-                       (s.sigma_v0.empty() || s.sigma_v0.size() == nodes) &&
-                       s.pore_pressure_0.size() == s.sigma_v0.size() &&
-                       (s.excess_pressure_max.empty() ||
-                        s.excess_pressure_max.size() == s.pore_pressure_0.size()) &&
-                       (s.sigma_v0.empty() || !s.pore_pressure.empty()) &&
-                       s.region_of_element.size() == elements && s.density.size() == elements &&
-                       s.gauss_positions.size() == static_cast<std::size_t>(s.gauss_per_element) &&
-                       s.stress.size() == points && s.strain.size() == points &&
-                       s.epsilon_q.size() == points && s.epsilon_q_plastic.size() == points &&
-                       (s.psi.empty() || s.psi.size() == points) &&
-                       s.instability_ratio.size() == s.psi.size() &&
-                       s.regions.size() == s.materials_of_regions.size();
+    const bool agree =
+        s.displacement.size() == nodes && s.velocity.size() == nodes &&
+        s.acceleration.size() == nodes && s.nodal_mass.size() == nodes &&
+        (s.pore_pressure.empty() || s.pore_pressure.size() == nodes) &&
+        (s.sigma_v0.empty() || s.sigma_v0.size() == nodes) &&
+        s.pore_pressure_0.size() == s.sigma_v0.size() &&
+        (s.excess_pressure_max.empty() ||
+         s.excess_pressure_max.size() == s.pore_pressure_0.size()) &&
+        (s.sigma_v0.empty() || !s.pore_pressure.empty()) &&
+        s.region_of_element.size() == elements && s.density.size() == elements &&
+        s.gauss_positions.size() == static_cast<std::size_t>(s.gauss_per_element) &&
+        s.stress.size() == points && s.strain.size() == points && s.epsilon_q.size() == points &&
+        s.epsilon_q_plastic.size() == points && (s.r_u_max.empty() || s.r_u_max.size() == points) &&
+        s.shear_strain_max.size() == s.r_u_max.size() &&
+        (s.psi.empty() || s.psi.size() == points) && s.instability_ratio.size() == s.psi.size() &&
+        s.regions.size() == s.materials_of_regions.size();
     if (!agree) throw std::logic_error("mesh snapshot: arrays of different lengths");
 }
 
@@ -145,6 +146,10 @@ void write_exact(Hdf5Image& image, const MeshSnapshot& s) {
     image.array(here + "/gauss/strain", flat<4>(s.strain), 4, "1");
     image.array(here + "/gauss/epsilon_q", s.epsilon_q, 0, "1");
     image.array(here + "/gauss/epsilon_q_plastic", s.epsilon_q_plastic, 0, "1");
+    if (!s.r_u_max.empty()) {
+        image.array(here + "/gauss/r_u_max", s.r_u_max, 0, "1");
+        image.array(here + "/gauss/shear_strain_max", s.shear_strain_max, 0, "1");
+    }
     if (s.psi.empty()) return;
     image.array(here + "/gauss/psi", s.psi, 0, "1");
     image.array(here + "/gauss/instability_ratio", s.instability_ratio, 0, "1");
@@ -193,6 +198,11 @@ void read_elements(Hdf5Reader& reader, MeshSnapshot& s, std::size_t elements, st
     reader.array(at_gauss + "strain", flat<4>(s.strain), 4);
     reader.array(at_gauss + "epsilon_q", s.epsilon_q, 0);
     reader.array(at_gauss + "epsilon_q_plastic", s.epsilon_q_plastic, 0);
+    if (reader.exists(at_gauss + "r_u_max")) {
+        for (auto* field : {&s.r_u_max, &s.shear_strain_max}) field->resize(elements * gauss);
+        reader.array(at_gauss + "r_u_max", s.r_u_max, 0);
+        reader.array(at_gauss + "shear_strain_max", s.shear_strain_max, 0);
+    }
     if (!reader.exists(at_gauss + "psi")) return;
     for (auto* field : {&s.psi, &s.instability_ratio}) field->resize(elements * gauss);
     reader.array(at_gauss + "psi", s.psi, 0);

@@ -59,6 +59,11 @@ struct MeshSnapshot {
     std::vector<double> psi;
     std::vector<double> instability_ratio;
 
+    /// Largest r_u and largest engineering shear strain in the plane since the shaking began; with
+    /// excess_pressure_max, both or neither [-].
+    std::vector<double> r_u_max;
+    std::vector<double> shear_strain_max;
+
     BaseMotion base_motion;  ///< of the whole earthquake, also after `time`
 };
 

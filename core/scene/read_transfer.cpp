@@ -131,7 +131,8 @@ std::optional<std::size_t> layer_material(Reader& reader, Scene& scene, const js
     return std::nullopt;
 }
 
-/// Without layers, every soil that can liquefy needs a profile with a residual strength.
+/// Without layers, every soil that can liquefy needs a profile with a residual strength: what a
+/// mapping keeps above the phreatic line cannot.
 void check_residuals(Reader& reader, const Scene& scene, const json& liquefied,
                      const Transfer& transfer, const LiquefiedZone& zone) {
     if (liquefied.contains("residual_strength")) {
@@ -143,8 +144,7 @@ void check_residuals(Reader& reader, const Scene& scene, const json& liquefied,
         std::vector<std::size_t> materials{scene.section.regions[region].material};
         for (const SoilMapping& each : transfer.mapping) {
             if (each.region != region) continue;
-            materials = {each.material};
-            if (each.saturated) materials.push_back(*each.saturated);
+            materials = {each.saturated.value_or(each.material)};
         }
         for (const std::size_t index : materials) {
             if (index >= scene.materials.size()) continue;
@@ -175,12 +175,31 @@ std::vector<LiquefiedLine> lines_from(Reader& reader, const json& liquefied) {
     return lines;
 }
 
+/// Refuses entries of columns where points decide, and the other way round.
+void check_by(Reader& reader, const LiquefiedZone& zone) {
+    const bool by_point = zone.by == LiquefiedBy::point;
+    const auto refuse = [&](const char* key, const char* cause) {
+        reader.add(std::string("/transfer/liquefied/") + key, cause,
+                   by_point ? "leave it out, or set \"by\" to \"column\""
+                            : "leave it out, or set \"by\" to \"point\"");
+    };
+    if (!by_point && zone.shear_strain)
+        refuse("shear_strain", "belongs to single points, and columns decide here");
+    if (!by_point) return;
+    if (!zone.lines.empty()) refuse("line", "divides columns, and points decide here");
+    if (zone.narrowest_wall > 0.0)
+        refuse("narrowest_wall", "closes columns, and points decide here");
+    if (zone.when == LiquefiedWhen::at_transfer)
+        refuse("when", "is \"at_transfer\", and points keep their largest values only");
+}
+
 void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer& result) {
     if (!transfer.contains("liquefied")) return;
     const json& liquefied = transfer.at("liquefied");
     LiquefiedZone zone{.regions = {},
                        .r_u = liquefied.at("r_u"),
                        .when = word_at<LiquefiedWhen>(liquefied, "when"),
+                       .by = word_at<LiquefiedBy>(liquefied, "by"),
                        .layers = {},
                        .narrowest_wall = liquefied.at("narrowest_wall")};
     for (std::size_t i = 0; i < liquefied.at("regions").size(); ++i) {
@@ -190,6 +209,8 @@ void read_liquefied(Reader& reader, Scene& scene, const json& transfer, Transfer
         if (region) zone.regions.push_back(*region);
     }
     zone.lines = lines_from(reader, liquefied);
+    if (liquefied.contains("shear_strain")) zone.shear_strain = liquefied.at("shear_strain");
+    check_by(reader, zone);
     const auto s_r = strength_function(reader, scene, liquefied);
     if (liquefied.at("layers").empty()) check_residuals(reader, scene, liquefied, result, zone);
     double reached = 0.0;

@@ -449,10 +449,14 @@ struct LiquefiedLine {
     std::array<Vec2, 2> points;  ///< from left to right [m]
 };
 
+enum class LiquefiedBy { column, point };
+
 struct LiquefiedZone {
     std::vector<std::size_t> regions;  ///< with liquefiable soil
     double r_u;                        ///< liquefied above this pore pressure ratio [-]
     LiquefiedWhen when;
+    LiquefiedBy by = LiquefiedBy::column;
+    std::optional<double> shear_strain{};  ///< by point: liquefied above it [-]
     /// From 0, without gaps; the last layer includes higher stresses. Empty: soil keeps its
     /// material, with the residual strength of that material's profile.
     std::vector<LiquefiedLayer> layers;

@@ -138,6 +138,11 @@ constexpr auto words_of(LiquefiedWhen) {
     return words::in_order<LiquefiedWhen>({{ever, "ever"}, {at_transfer, "at_transfer"}});
 }
 
+constexpr auto words_of(LiquefiedBy) {
+    using enum LiquefiedBy;
+    return words::in_order<LiquefiedBy>({{column, "column"}, {point, "point"}});
+}
+
 constexpr auto words_of(Entangled) {
     using enum Entangled;
     return words::in_order<Entangled>({{refuse, "refuse"}, {rebuild, "rebuild"}});

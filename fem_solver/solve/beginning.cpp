@@ -59,9 +59,10 @@ double modulus_of(const Model& model, const Motion& motion, const PorousElement&
 Beginning beginning_of(const Model& model, const Motion& motion) {
     Beginning beginning;
     if (model.base.any()) beginning.base_reaction = base_reaction(model, motion);
-    const bool has_psi = std::ranges::any_of(
-        model.zones, [](const Zone& zone) { return materials::has_state_parameter(zone.law); });
-    for (std::size_t p = 0; has_psi && p < model.body.elements * model.points_per_element; ++p)
+    const bool wanted = model.water.any() || std::ranges::any_of(model.zones, [](const Zone& zone) {
+                            return materials::has_state_parameter(zone.law);
+                        });
+    for (std::size_t p = 0; wanted && p < model.body.elements * model.points_per_element; ++p)
         beginning.sigma_v0_points.push_back(-motion.points[p].sigma[1]);
     if (!model.water.any()) return beginning;
     beginning.p = motion.p;

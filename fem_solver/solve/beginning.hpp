@@ -16,7 +16,7 @@ struct Beginning {
     Eigen::VectorXd p;  ///< u_0, per node; empty if dry [Pa]
     /// vertical effective stress, per node of the body, compression positive; empty if dry [Pa]
     std::vector<double> sigma_v0;
-    /// the same per Gauss point of the body; empty if no law has a state parameter [Pa]
+    /// the same per Gauss point of the body; empty if dry and no law has a state parameter [Pa]
     std::vector<double> sigma_v0_points;
     std::vector<double> skeleton_modulus;  ///< of the saturated elements, K + 4G/3 [Pa]
     exchange::BaseMotion base_motion{};    ///< of the free-field columns (base_motion.hpp)

@@ -53,7 +53,7 @@ class FemPhase {
         fem::analyse(course);
         fem::Kept kept = course;
         kept.position.stage = 1;
-        kept.excess_pressure_max.clear();
+        kept.largest = {};
         kept.stage_force = kept.motion.force;
         kept.counts = {};
         sound_ = fem::checkpoint_archive(kept, {}, session_.scene());

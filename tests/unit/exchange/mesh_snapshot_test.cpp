@@ -81,6 +81,12 @@ TEST(MeshSnapshot, CarriesTheStressBeforeTheShakingWhenThereIsOne) {
     write_mesh_snapshot(folder / "largest.vtkhdf", s, {});
     EXPECT_EQ(read_mesh_snapshot(folder / "largest.vtkhdf").snapshot.excess_pressure_max,
               s.excess_pressure_max);
+    s.r_u_max = s.epsilon_q;
+    s.shear_strain_max = s.epsilon_q_plastic;
+    write_mesh_snapshot(folder / "points.vtkhdf", s, {});
+    const MeshSnapshot points = read_mesh_snapshot(folder / "points.vtkhdf").snapshot;
+    EXPECT_EQ(points.r_u_max, s.r_u_max);
+    EXPECT_EQ(points.shear_strain_max, s.shear_strain_max);
     s.excess_pressure_max.pop_back();
     EXPECT_THROW(write_mesh_snapshot(folder / "no.vtkhdf", s, {}), std::logic_error);
     s.excess_pressure_max.clear();

@@ -102,6 +102,23 @@ TEST(TransferScene, EveryFaultIsNamedAtOnce) {
     EXPECT_EQ(pointers_at_fault(scene), expected);
 }
 
+TEST(TransferScene, PointsAndColumnsHaveTheirOwnEntries) {
+    using Pointers = std::vector<std::string>;
+    const auto with = [](const json& entries) {
+        json scene = sound_scene();
+        scene["transfer"]["liquefied"].update(entries);
+        return pointers_at_fault(scene);
+    };
+    EXPECT_EQ(with({{"by", "point"}, {"shear_strain", 0.08}}), Pointers{});
+    EXPECT_EQ(with({{"shear_strain", 0.08}}), Pointers{"/transfer/liquefied/shear_strain"});
+    EXPECT_EQ(with({{"by", "point"}, {"narrowest_wall", 2}}),
+              Pointers{"/transfer/liquefied/narrowest_wall"});
+    EXPECT_EQ(with({{"by", "point"}, {"when", "at_transfer"}}),
+              Pointers{"/transfer/liquefied/when"});
+    const json line = json::parse(R"([{"transfer_time": 1, "points": [[0, 0.5], [1, 0.2]]}])");
+    EXPECT_EQ(with({{"by", "point"}, {"line", line}}), Pointers{"/transfer/liquefied/line"});
+}
+
 TEST(TransferScene, ASaturatedPartNeedsThePhreaticLine) {
     json scene = sound_scene();
     scene["transfer"].erase("phreatic_line");

@@ -122,6 +122,9 @@ TEST(Stopped, AShakenWetSceneGoesOnBitForBit) {
     EXPECT_EQ(end_1.pore_pressure, end_2.pore_pressure);
     EXPECT_EQ(end_1.sigma_v0, end_2.sigma_v0);
     EXPECT_EQ(end_1.excess_pressure_max, end_2.excess_pressure_max);
+    EXPECT_EQ(end_1.r_u_max, end_2.r_u_max);
+    EXPECT_EQ(end_1.shear_strain_max, end_2.shear_strain_max);
+    EXPECT_GT(*std::ranges::max_element(end_1.shear_strain_max), 0.0);
     const std::vector<double> now = exchange::nodal_excess_pressure(end_1);
     double fell = 0.0;
     for (std::size_t i = 0; i < now.size(); ++i)

@@ -60,8 +60,9 @@ TEST_F(MochikoshiShaped, LiquefiedLayersAndWetDamsAreThereAndTheirMassAddsUp) {
     for (const char* each : {"liquefied_1", "liquefied_2", "liquefied_3", "embankment_saturated",
                              "embankment_unsaturated", "tailings_not_liquefied"})
         EXPECT_EQ(std::ranges::count(materials, each) > 0, true) << each;
-    EXPECT_GT(transferred_->liquefaction->nodes, 100u);
-    EXPECT_NEAR(transferred_->liquefaction->deepest_level, 29.4 - 18.5, 3.0) << "one element";
+    EXPECT_GT(transferred_->liquefaction->columns->nodes, 100u);
+    EXPECT_NEAR(transferred_->liquefaction->columns->deepest_level, 29.4 - 18.5, 3.0)
+        << "one element";
 }
 
 Transferred transferred_with(const scene::Scene& shipped, const exchange::MeshSnapshot& mesh,

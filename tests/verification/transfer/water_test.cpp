@@ -125,8 +125,8 @@ TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
                                                        .layers = {{0.0, 36e3, 1}, {36e3, 40e3, 2}}};
     const auto t = meshes::transferred(g.mesh, g.scene);
     ASSERT_TRUE(t.liquefaction.has_value());
-    EXPECT_EQ(t.liquefaction->nodes, 6u);
-    EXPECT_EQ(t.liquefaction->deepest_level, 4.0);
+    EXPECT_EQ(t.liquefaction->columns->nodes, 6u);
+    EXPECT_EQ(t.liquefaction->columns->deepest_level, 4.0);
     for (std::size_t p = 0; p < t.state.size(); ++p) {
         const Vec2& x = t.state.position[p];
         // Nodes at x = 0, 1, 2 represent columns to 2.5 m; 36 kPa are at 4 m depth, and the second
@@ -141,6 +141,40 @@ TEST(LiquefiedLayers, HoldEverythingAboveTheDeepestNodeByInitialStress) {
     EXPECT_GT(t.yield.at(2).returned, 0u) << "K_0 stresses exceed the residual strength";
     EXPECT_EQ(t.shares.size(), 4u);
     EXPECT_NO_THROW(refuse_losses(t.ledger, *g.scene.transfer));
+}
+
+// A layer between 4 and 5 m by r_u and a patch by strain; what lies between and above stands, and
+// so does what lies above the water table.
+TEST(LiquefiedPoints, AreThoseOfTheirGaussPointsBelowTheWaterTable) {
+    Ground g = ground([](const Vec2&) { return 0.0; });
+    const auto places = meshes::gauss_places(g.mesh);
+    g.mesh.excess_pressure_max = g.mesh.pore_pressure_0;
+    for (const Vec2& x : places) {
+        g.mesh.r_u_max.push_back(x.y() > 4.0 && x.y() < 5.0 ? 0.7 : 0.69);
+        g.mesh.shear_strain_max.push_back(x.x() < 2.0 && x.y() > 8.0 ? 0.08 : 0.01);
+    }
+    g.scene.transfer->phreatic_line = {{0.0, 9.0}};
+    g.scene.transfer->liquefied = scene::LiquefiedZone{.regions = {0},
+                                                       .r_u = 0.7,
+                                                       .when = scene::LiquefiedWhen::ever,
+                                                       .by = scene::LiquefiedBy::point,
+                                                       .shear_strain = 0.08,
+                                                       .layers = {{0.0, 1e6, 1}}};
+    const auto t = meshes::transferred(g.mesh, g.scene);
+    double share = 0.0;
+    for (std::size_t p = 0; p < t.state.size(); ++p) {
+        const Vec2& x = t.state.position[p];
+        const bool by_pressure = x.y() > 4.0 && x.y() < 5.0;
+        const bool by_strain = x.x() < 2.0 && x.y() > 8.0 && x.y() < 9.0;
+        const bool liquefied = x.x() < 6.0 && (by_pressure || by_strain);
+        ASSERT_EQ(t.state.region[p], liquefied ? 2 : x.x() < 6.0 ? 0 : 1) << x.transpose();
+        share += liquefied ? 1.0 / (4 * 60) : 0.0;
+    }
+    EXPECT_NEAR(t.liquefaction->share.at(g.mesh.regions[0]), share, 1e-12);
+    EXPECT_FALSE(t.liquefaction->columns);
+    g.mesh.r_u_max.clear();
+    g.mesh.shear_strain_max.clear();
+    EXPECT_THROW(transfer(g.mesh, g.scene, {}, "snapshot"), fault::BadInput);
 }
 
 // Liquefied below y = 6 m everywhere; the water table falls through the elements, over dry soil.

@@ -1,0 +1,23 @@
+#include "transfer_tool/liquefied_points.hpp"
+
+#include <algorithm>
+
+#include "core/geometry/polyline.hpp"
+
+namespace breach::transfer {
+
+using mechanics::Vec2;
+
+bool LiquefiedPoints::holds(std::size_t element, const Vec2& xi, const Vec2& place) const {
+    if (!water_table_.empty() && place.y() >= geometry::level_at(water_table_, place.x()))
+        return false;
+    const auto& gauss = mesh_->gauss_positions;
+    const auto nearest = std::ranges::min_element(
+        gauss, {}, [&](const Vec2& each) { return (each - xi).squaredNorm(); });
+    const std::size_t p =
+        element * gauss.size() + static_cast<std::size_t>(nearest - gauss.begin());
+    return mesh_->r_u_max[p] >= r_u_ ||
+           (shear_strain_ && mesh_->shear_strain_max[p] >= *shear_strain_);
+}
+
+}  // namespace breach::transfer
