@@ -85,6 +85,39 @@ void note_free_ground(Course& course) {
                  motion::peak(velocity), velocity.duration());
 }
 
+/// The flag of stresses that a law could not hold when it began.
+void flag_cut_down(Course& course, std::size_t points, double largest, const std::string& remedy) {
+    course.session.flag(
+        {"stress_cut_down", fault::Severity::warning,
+         std::to_string(points) +
+             " points began with a stress that their law cannot hold; its deviator was cut down, "
+             "by at most " +
+             words::text_of(largest / 1e3) +
+             " kPa, and what is missing is out of balance in this stage: " + remedy,
+         course.pointer_of_stage()});
+}
+
+/// Brings the stresses of the drained law inside the undrained strength.
+void begin_undrained(Course& course) {
+    if (course.model.s_u.empty()) return;
+    const std::vector<State> drained = course.motion.points;
+    settle_stresses(*course.newton, course.laws, course.motion, course.trial);
+    std::size_t points = 0;
+    double largest = 0.0;
+    for (std::size_t p = 0; p < drained.size(); ++p) {
+        const Voigt cut = course.motion.points[p].sigma - drained[p].sigma;
+        const double size = cut.cwiseAbs().maxCoeff();
+        // round-off of a stress on the surface
+        if (size <= 1e-9 * drained[p].sigma.cwiseAbs().maxCoeff()) continue;
+        ++points;
+        largest = std::max(largest, size);
+    }
+    if (points > 0)
+        flag_cut_down(course, points, largest,
+                      "the shear stress at rest is above the undrained strength; compare with a "
+                      "higher /materials/*/dynamic_strength/ratio, and give the stage a ramp");
+}
+
 /// Clocks, displacements and strains start at zero: settlement due to gravity is not part of the
 /// failure.
 void begin_motion(Course& course) {
@@ -95,9 +128,10 @@ void begin_motion(Course& course) {
     std::ranges::fill(course.motion.strain, Voigt::Zero());
     for (Hourglass& each : course.motion.hourglass) each.energy = 0.0;
     course.beginning = beginning_of(course.model, course.motion);
-    set_skeleton_modulus(course.beginning, course.model);
+    apply_to_model(course.beginning, course.model);
     // The stabilisation of pressures depends on the modulus that was just set.
     evaluate_pore_water(course.model, course.model.water);
+    begin_undrained(course);
     note_free_ground(course);
 }
 
@@ -142,15 +176,7 @@ void begin_laws(Course& course) {
         names_of_laws_with_memory(course.model), points_with_memory(course.model, course.motion),
         bias.points, bias.largest / 1e3);
     if (bias.cut_down == 0) return;
-    course.session.flag(
-        {"stress_cut_down", fault::Severity::warning,
-         std::to_string(bias.cut_down) +
-             " points began with a stress that their law cannot hold; its deviator was cut down, "
-             "by "
-             "at most " +
-             words::text_of(bias.largest_cut / 1e3) +
-             " kPa, and what is missing is out of balance in this stage: look at K_0 and psi_0",
-         course.pointer_of_stage()});
+    flag_cut_down(course, bias.cut_down, bias.largest_cut, "look at K_0 and psi_0");
     // A static stage corrects the change over its load, starting with these forces.
     settle_stresses(*course.newton, course.laws, course.motion, course.trial);
 }

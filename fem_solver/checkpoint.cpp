@@ -142,6 +142,7 @@ void put(exchange::Archive& archive, const Beginning& beginning) {
     archive.reals["beginning.p"] = flat(beginning.p);
     archive.reals["beginning.sigma_v0"] = beginning.sigma_v0;
     archive.reals["beginning.sigma_v0_points"] = beginning.sigma_v0_points;
+    archive.reals["beginning.s_u"] = beginning.s_u;
     archive.reals["beginning.skeleton_modulus"] = beginning.skeleton_modulus;
     archive.reals["beginning.base_motion"] = beginning.base_motion.velocity;
     archive.reals["beginning.base_motion.time_step"] = {beginning.base_motion.time_step};
@@ -152,6 +153,7 @@ Beginning beginning_from(const exchange::Archive& archive) {
             .p = vector_from(archive.reals.at("beginning.p")),
             .sigma_v0 = archive.reals.at("beginning.sigma_v0"),
             .sigma_v0_points = archive.reals.at("beginning.sigma_v0_points"),
+            .s_u = archive.reals.at("beginning.s_u"),
             .skeleton_modulus = archive.reals.at("beginning.skeleton_modulus"),
             .base_motion = {archive.reals.at("beginning.base_motion.time_step").at(0),
                             archive.reals.at("beginning.base_motion")}};
@@ -187,6 +189,7 @@ bool fits(const Beginning& beginning, const Model& model) {
            empty_or(beginning.p, model.mesh.nodes.size()) &&
            empty_or(beginning.sigma_v0, model.body.nodes) &&
            empty_or(beginning.sigma_v0_points, model.body.elements * model.points_per_element) &&
+           empty_or(beginning.s_u, model.points()) &&
            empty_or(beginning.skeleton_modulus, model.water.elements.size());
 }
 

@@ -71,6 +71,6 @@ std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::s
 
 inline constexpr const char* checkpoint_kind = "fem_checkpoint";
 /// Raise it when arrays are added, removed or reordered: older checkpoints are then refused.
-inline constexpr int checkpoint_version = 8;
+inline constexpr int checkpoint_version = 9;
 
 }  // namespace breach::fem

@@ -104,7 +104,7 @@ void Course::place_stage() {
     set_stage(session.scene(), decide_model(session.scene()),
               static_cast<std::size_t>(position.stage), model);
     watch.look_at(model);
-    set_skeleton_modulus(beginning, model);
+    apply_to_model(beginning, model);
     prediction = prediction_for(model);
 }
 
@@ -151,7 +151,7 @@ void Course::resume() {
             entanglement_from(nlohmann::json::parse(noted->second), session.scene().section);
     static_cast<Kept&>(*this) = std::move(checkpoint.kept);
     trial = motion;
-    set_skeleton_modulus(beginning, model);
+    apply_to_model(beginning, model);
     raise_again(flags_in(archive, file.string()));
     session.truncate_telemetry(position.telemetry_lines);
     session.went_on_after(archive.spent);

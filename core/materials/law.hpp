@@ -76,6 +76,16 @@ std::optional<LawLanes> for_particles(const L& law) {
     return std::visit([](const auto& each) { return for_particles(each); }, law);
 }
 
+/// The law with c = s_u [Pa] and phi = psi = 0; unchanged if it has no c and phi.
+template <class Each>
+Each undrained(Each law, double s_u) {
+    const StrengthEntries entries = strength_entries(law);
+    if (entries.c == nullptr) return law;
+    *entries.c = s_u;
+    *entries.phi = *entries.psi = 0.0;
+    return law;
+}
+
 /// Whether material points of the MPM can have this law.
 inline bool is_for_particles(const Law& law) { return for_particles(law).has_value(); }
 

@@ -27,6 +27,7 @@ struct Traits {
 struct StrengthEntries {
     double* c = nullptr;    ///< [Pa]
     double* phi = nullptr;  ///< [rad]
+    double* psi = nullptr;  ///< dilatancy angle [rad]
 };
 
 template <class... Each>

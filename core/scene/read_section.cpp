@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "core/mechanics/atmosphere.hpp"
 #include "core/scene/norsand.hpp"
 #include "core/scene/reader.hpp"
 #include "core/scene/sand.hpp"
@@ -293,6 +294,15 @@ void check_overlaps(Reader& reader, const Scene& scene) {
     }
 }
 
+std::optional<materials::StrengthCurve> dynamic_strength_from(const json& material) {
+    if (!material.contains("dynamic_strength")) return std::nullopt;
+    const json& entry = material.at("dynamic_strength");
+    const double ratio = entry.at("factor").get<double>() * entry.at("ratio").get<double>();
+    return materials::StrengthCurve{
+        materials::Undrained{.coefficient = ratio * mechanics::standard_atmosphere},
+        1e3 * entry.at("minimum_kPa").get<double>()};
+}
+
 }  // namespace
 
 void read_materials(Reader& reader, Scene& scene) {
@@ -320,7 +330,8 @@ void read_materials(Reader& reader, Scene& scene) {
              .void_ratio = void_ratio,
              .permeability = permeability,
              .limit_strength = limit_strength_from(material),
-             .strength = profile});
+             .strength = profile,
+             .dynamic_strength = dynamic_strength_from(material)});
     }
 }
 

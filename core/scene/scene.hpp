@@ -44,6 +44,8 @@ struct Material {
     std::optional<LimitStrength> limit_strength{};        ///< lem: replaces the law's strength
     /// for every phase without an entry of its own
     std::optional<materials::StrengthProfile> strength{};
+    /// fem: s_u from the first dynamic stage on, by the sigma'_v0 with which it begins
+    std::optional<materials::StrengthCurve> dynamic_strength{};
 };
 
 /// In the lem, limit_strength or a law with c_kPa and phi_deg takes precedence over the profile.

@@ -17,7 +17,8 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
         if (opens) {
             const auto& region = scene.section.regions[mesh.region_of_element[e]];
             const auto& material = scene.materials[region.material];
-            zones.push_back({e, 0, material.density, material.law, material.viscosity});
+            zones.push_back({e, 0, material.density, material.law, material.viscosity,
+                             material.dynamic_strength});
         }
         ++zones.back().count;
     }

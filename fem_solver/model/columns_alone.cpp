@@ -115,6 +115,7 @@ Model columns_alone(const Model& whole) {
         alone.zones.push_back(
             {part.first - elements, part.count, zone.density, zone.law, zone.viscosity});
     }
+    alone.s_u = rest_of(whole.s_u, elements * whole.points_per_element);
     // The columns become the body: their forces must keep the size that the copied state has.
     alone.thickness = whole.thickness * whole.column_thickness;
     alone.constraints = {.held = held_of(whole.constraints, 2 * nodes),

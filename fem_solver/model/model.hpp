@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/motion/series.hpp"
@@ -24,6 +25,7 @@ struct Zone {
     double density;  ///< [kg/m3]
     materials::Law law;
     double viscosity = 0.0;  ///< eta of the additional Newtonian stress in dynamic stages [Pa s]
+    std::optional<materials::StrengthCurve> dynamic_strength{};  ///< see Model::s_u
 };
 
 /// Damping matrix C = mass M + stiffness K_elastic.
@@ -81,6 +83,9 @@ struct Model {
     /// released [s]; empty: none.
     Eigen::VectorXd withheld;
     double withheld_from = 0.0, withheld_for = 0.0;
+    /// [points] undrained strength from the first dynamic stage on; 0: the law's own strength.
+    /// Empty: before that stage, or no zone has one [Pa]
+    std::vector<double> s_u;
     /// [nodes] with unknown pore pressure in an undrained static stage; else empty
     std::vector<bool> undrained;
     /// Prescribed displacements of fixed nodes over the load of a static stage [m].

@@ -107,7 +107,7 @@ PoreWater build_pore_water(const Model& model, Wetness wetness) {
         if (!wetness.fluids[z]) continue;
         const Zone& zone = model.zones[z];
         // Until the first dynamic stage, which sets the modulus at its stress
-        // (set_skeleton_modulus).
+        // (apply_to_model).
         const double modulus = constrained_modulus(materials::elasticity(zone.law));
         for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
             if (!wetness.wet[e]) continue;

@@ -54,6 +54,19 @@ double modulus_of(const Model& model, const Motion& motion, const PorousElement&
     return modulus;
 }
 
+/// See Model::s_u.
+std::vector<double> undrained_strengths(const Model& model, const Motion& motion) {
+    std::vector<double> s_u;
+    for (const Zone& zone : model.zones) {
+        if (!zone.dynamic_strength) continue;
+        s_u.resize(model.points(), 0.0);
+        const std::size_t begin = zone.first * model.points_per_element;
+        for (std::size_t p = begin; p < begin + zone.count * model.points_per_element; ++p)
+            s_u[p] = strength_at(*zone.dynamic_strength, {0.0, 0.0, -motion.points[p].sigma[1]}).c;
+    }
+    return s_u;
+}
+
 }  // namespace
 
 Beginning beginning_of(const Model& model, const Motion& motion) {
@@ -64,6 +77,7 @@ Beginning beginning_of(const Model& model, const Motion& motion) {
                         });
     for (std::size_t p = 0; wanted && p < model.body.elements * model.points_per_element; ++p)
         beginning.sigma_v0_points.push_back(-motion.points[p].sigma[1]);
+    beginning.s_u = undrained_strengths(model, motion);
     if (!model.water.any()) return beginning;
     beginning.p = motion.p;
     beginning.sigma_v0 = vertical_stress(model, motion);
@@ -73,7 +87,8 @@ Beginning beginning_of(const Model& model, const Motion& motion) {
     return beginning;
 }
 
-void set_skeleton_modulus(const Beginning& beginning, Model& model) {
+void apply_to_model(const Beginning& beginning, Model& model) {
+    model.s_u = beginning.s_u;
     for (std::size_t i = 0; i < beginning.skeleton_modulus.size(); ++i) {
         model.water.elements[i].skeleton_modulus = beginning.skeleton_modulus[i];
     }

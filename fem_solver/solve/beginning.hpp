@@ -18,15 +18,16 @@ struct Beginning {
     std::vector<double> sigma_v0;
     /// the same per Gauss point of the body; empty if dry and no law has a state parameter [Pa]
     std::vector<double> sigma_v0_points;
+    std::vector<double> s_u;               ///< Model::s_u [Pa]
     std::vector<double> skeleton_modulus;  ///< of the saturated elements, K + 4G/3 [Pa]
     exchange::BaseMotion base_motion{};    ///< of the free-field columns (base_motion.hpp)
 };
 
 Beginning beginning_of(const Model& model, const Motion& motion);
 
-/// Sets the modulus of the pressure stabilisation to these values.
+/// Sets the undrained strengths and the modulus of the pressure stabilisation to these values.
 /// Again after each rebuilding of the water and after a restart: a Model alone has elastic moduli.
-void set_skeleton_modulus(const Beginning& beginning, Model& model);
+void apply_to_model(const Beginning& beginning, Model& model);
 
 /// Coefficient of lateral stress sigma'_xx / sigma'_yy: volume average over the body [-], and its
 /// range over elements with at least 1 % of the largest sigma'_yy.

@@ -23,6 +23,22 @@ Eigen::Matrix3d in_plane(const Matrix4& D) {
     return C;
 }
 
+/// A law whose points have their own undrained strength.
+template <class Law>
+struct OfPoints {
+    const Law& law;
+    const std::vector<double>& s_u;  ///< [points] [Pa]
+};
+
+template <class Law>
+const Law& at(const Law& law, std::size_t /*point*/) {
+    return law;
+}
+template <class Law>
+auto at(const OfPoints<Law>& laws, std::size_t point) {
+    return materials::ready(materials::undrained(laws.law, laws.s_u[point]));
+}
+
 Voigt strain_of(const StrainOperator& B, const Dofs8& d_u) {
     const Eigen::Vector3d e = B * d_u;
     return {e[0], e[1], 0.0, e[2]};
@@ -77,7 +93,7 @@ Geometry InternalForce::integrate_zone(const Law& law, std::size_t z, const Moti
     const std::size_t first = zone.first * points_;
     for_ranges(zone.count * points_, *team_, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = first + begin; p < first + end; ++p)
-            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p]).state;
+            trial.points[p] = materials::integrate(at(law, p), old.points[p], d_epsilon_[p]).state;
     });
     return Geometry::sound;
 }
@@ -90,7 +106,8 @@ Geometry InternalForce::integrate_zone_with_tangent(const Law& law, std::size_t 
     for_ranges(zone.count * points_, *team_, [&](std::size_t begin, std::size_t end) {
         Matrix4 D;
         for (std::size_t p = first + begin; p < first + end; ++p) {
-            trial.points[p] = materials::integrate(law, old.points[p], d_epsilon_[p], D).state;
+            trial.points[p] =
+                materials::integrate(at(law, p), old.points[p], d_epsilon_[p], D).state;
             tangent_[p] = in_plane(D);
         }
     });
@@ -129,10 +146,16 @@ Geometry InternalForce::law_pass(const std::vector<materials::Law>& laws, const 
                                  Motion& trial, Wanted wanted) {
     const Stopwatch watch(seconds_, &Seconds::law);
     for (std::size_t z = 0; z < model_.zones.size(); ++z) {
-        const auto pass = [&](const auto& parameters) {
-            const auto& law = materials::ready(parameters);
+        const auto integrate = [&](const auto& law) {
             return wanted == Wanted::stress ? integrate_zone(law, z, old, trial)
                                             : integrate_zone_with_tangent(law, z, old, trial);
+        };
+        const bool of_points =
+            !model_.s_u.empty() && model_.s_u[model_.zones[z].first * points_] > 0.0;
+        const auto pass = [&]<class Law>(const Law& parameters) {
+            if constexpr (!materials::Remembers<Law>)
+                if (of_points) return integrate(OfPoints<Law>{parameters, model_.s_u});
+            return integrate(materials::ready(parameters));
         };
         if (std::visit(pass, laws[z]) == Geometry::degenerate) return Geometry::degenerate;
     }

@@ -118,7 +118,7 @@ inline std::optional<Strength> limit_strength(const DruckerPrager& law) {
     return Strength{law.c, std::tan(law.phi)};
 }
 inline const Softening* softening(const DruckerPrager&) { return nullptr; }
-inline StrengthEntries strength_entries(DruckerPrager& law) { return {&law.c, &law.phi}; }
+inline StrengthEntries strength_entries(DruckerPrager& law) { return {&law.c, &law.phi, &law.psi}; }
 inline double yield_excess(const DruckerPrager& law, const State& state) {
     const DruckerPragerNumbers cone = ready(law);
     const ConeReturnOf<double> r = returned(cone, state.sigma);

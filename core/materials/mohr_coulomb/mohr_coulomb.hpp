@@ -38,7 +38,7 @@ std::optional<Strength> limit_strength(const MohrCoulomb& law);
 inline const Softening* softening(const MohrCoulomb& law) {
     return law.softening ? &*law.softening : nullptr;
 }
-inline StrengthEntries strength_entries(MohrCoulomb& law) { return {&law.c, &law.phi}; }
+inline StrengthEntries strength_entries(MohrCoulomb& law) { return {&law.c, &law.phi, &law.psi}; }
 double yield_excess(const MohrCoulomb& law, const State& state);
 Voigt return_to_surface(const MohrCoulomb& law, const State& state);
 std::optional<LawLanes> for_particles(const MohrCoulomb& law);
