@@ -10,6 +10,7 @@
 #include "core/phases/phases.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
+#include "services/cli/table.hpp"
 #include "services/drawing/mesh_question.hpp"
 #include "services/estimate/cost.hpp"
 
@@ -108,11 +109,8 @@ ExitCode draw(Server& server, const DrawOptions& options, const Console& console
         cost = std::move(preview.cost);
         faults = additions.faults = std::move(preview.faults);
         additions.foot = cost.at("lines");
-        if (console.style == Style::json) {
-            console.out << cost.dump(2) << "\n";
-        } else {
+        if (!shown_as_json(cost, console))
             for (const std::string& each : additions.foot) console.out << each << "\n";
-        }
     }
     show_warnings(cost, console);
     for (const json& each : cost.at("warnings"))

@@ -12,6 +12,7 @@
 #include "core/exchange/publish.hpp"
 #include "core/scene/schema.hpp"
 #include "services/cli/new_scene.hpp"
+#include "services/cli/table.hpp"
 #include "services/drawing/section_drawing.hpp"
 #include "services/import/import.hpp"
 
@@ -110,10 +111,7 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
     if (!options.force) refuse_to_overwrite(files, "breach import");
     files[options.output] = imported.scene.dump(1) + "\n";
     for (const auto& [path, text] : files) exchange::publish_text(path, text);
-    if (console.style == Style::json) {
-        console.out << imported.report.dump(2) << "\n";
-        return ExitCode::done;
-    }
+    if (shown_as_json(imported.report, console)) return ExitCode::done;
     for (const std::string& each : importing::lines_of(imported.report, most_lines))
         console.notes << each << "\n";
     for (const auto& [path, text] : files) console.out << path.string() << "\n";

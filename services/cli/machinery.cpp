@@ -37,10 +37,7 @@ std::string runouts_of(const json& transfer) {
 
 ExitCode workers(Server& server, const Console& console) {
     const json answer = server.get("/v1/workers");
-    if (console.style == Style::json) {
-        show_json(answer, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(answer, console)) return ExitCode::done;
     std::vector<Cells> rows;
     for (const json& each : answer.at("workers")) {
         std::string note = cell(each, "message") == "-" ? "" : cell(each, "message");
@@ -85,10 +82,7 @@ ExitCode transfers(Server& server, const TransfersOptions& options, const Consol
     if (answer.at("next").is_string())
         console.notes << "only the newest " << list.size()
                       << " transfers, there are more: -n shows up to 500\n";
-    if (console.style == Style::json) {
-        show_json(list, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(list, console)) return ExitCode::done;
     std::vector<Cells> rows;
     for (const json& each : list)
         rows.push_back({cell(each, "task"), cell(each, "variant"),

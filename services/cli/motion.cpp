@@ -184,10 +184,7 @@ std::string found_as_text(const json& found) {
 
 fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console) {
     const auto show = [&](const json& answer, const auto& text) {
-        if (console.style == Style::json)
-            show_json(answer, console);
-        else
-            console.out << text();
+        if (!shown_as_json(answer, console)) console.out << text();
     };
     if (!options.run.empty()) {
         const json found = server.get(path_of({"runs", run_named(server, options.run), "motions"}));

@@ -77,10 +77,7 @@ std::string name_for(const std::filesystem::path& folder) {
 }
 
 void list_templates(const Console& console) {
-    if (console.style == Style::json) {
-        console.out << templates::as_json(templates::catalogue()).dump(2) << "\n";
-        return;
-    }
+    if (shown_as_json(templates::as_json(templates::catalogue()), console)) return;
     for (const templates::Template& each : templates::catalogue())
         console.out << each.name << std::string(18 - each.name.size(), ' ') << each.title << "\n";
     console.notes << "`breach new NAME --help` says what can be asked of each\n";
@@ -156,14 +153,10 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
         exchange::publish_text(path, text);
         written.push_back(path.string());
     }
-    if (console.style == Style::json) {
-        console.out << json{{"template", chosen.made_from},
-                            {"options", made.options},
-                            {"files", written}}
-                           .dump(2)
-                    << "\n";
+    if (shown_as_json(
+            {{"template", chosen.made_from}, {"options", made.options}, {"files", written}},
+            console))
         return ExitCode::done;
-    }
     for (const json& each : written) console.out << each.get<std::string>() << "\n";
     const std::string study = (folder / "study.json").string();
     console.notes << "The notes of scene.json list the assumptions. Next:\n"

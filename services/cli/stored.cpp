@@ -70,40 +70,33 @@ bool wants(const std::vector<Removed>& all) {
 
 }  // namespace
 
-ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
-                    Confirm confirm, const Console& console) {
-    const std::vector<Removed> all = meant(server, names);
-    if (confirm == Confirm::ask && isatty(STDIN_FILENO) != 1)
+ExitCode remove_all(Server& server, const Removal& removal, const Console& console) {
+    const std::vector<Removed> all = meant(server, removal.names);
+    if (!removal.confirmed && isatty(STDIN_FILENO) != 1)
         throw fault::BadInput("breach rm", {{"", "there is no terminal to ask on",
                                              "give --yes to remove without being asked"}});
-    if (confirm == Confirm::ask && !wants(all)) return ExitCode::done;
+    if (!removal.confirmed && !wants(all)) return ExitCode::done;
     for (const auto& [kind, id, name, bytes] : all) {
         const std::string path = path_of({kind, id});
         json answer;
         try {
             answer = server.remove(path);
         } catch (const Refused& refused) {
-            if (refused.type() != "/problems/going-on" || options == IfItRuns::refuse) throw;
+            if (refused.type() != "/problems/going-on" || !removal.cancel_first) throw;
             server.post(path + "/cancel", json::object());
             wait_for_the_end(server, id);
             answer = server.remove(path);
         }
-        if (console.style == Style::json) {
-            show_json(answer, console);
-        } else {
+        if (!shown_as_json(answer, console))
             console.out << id << "  " << in_bytes(answer.at("freed_bytes").get<double>())
                         << " freed" << std::endl;
-        }
     }
     return ExitCode::done;
 }
 
 ExitCode disk_use(Server& server, const Console& console) {
     const json storage = server.get("/v1/storage");
-    if (console.style == Style::json) {
-        show_json(storage, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(storage, console)) return ExitCode::done;
     const auto bytes = [](const json& of, const char* key) {
         return of.at(key).is_number() ? in_bytes(of.at(key).get<double>()) : std::string("-");
     };
@@ -134,10 +127,7 @@ ExitCode disk_use(Server& server, const Console& console) {
 
 ExitCode list_files(Server& server, const Console& console) {
     const json files = server.get("/v1/files").at("files");
-    if (console.style == Style::json) {
-        show_json(files, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(files, console)) return ExitCode::done;
     std::vector<Cells> rows;
     for (const json& file : files)
         rows.push_back({cell(file, "reference"), cell(file, "name"),

@@ -32,6 +32,8 @@ std::string whole_cell(const nlohmann::json& object, const char* key);
 
 /// Prints the server's answer unchanged.
 void show_json(const nlohmann::json& answer, const Console& console);
+/// The same with --json only. False: the caller prints the answer for people, or as CSV.
+bool shown_as_json(const nlohmann::json& answer, const Console& console);
 
 /// Removes control characters, so that a text from the server cannot move the cursor.
 std::string harmless(std::string_view text);
