@@ -11,6 +11,7 @@
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
+#include "core/words/list.hpp"
 #include "element_bench/norsand_document.hpp"
 
 namespace breach::element_bench {
@@ -377,9 +378,8 @@ void check_calibration(const json& document, std::vector<Fault>& faults) {
     for (const auto& [name, bound] : document.at("calibration").at("free").items()) {
         const std::string pointer = "/calibration/free/" + name;
         if (std::find(names.begin(), names.end(), name) == names.end()) {
-            std::string known;
-            for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-            faults.push_back({pointer, "is not a parameter that can be free", "use " + known});
+            faults.push_back(
+                {pointer, "is not a parameter that can be free", "use " + words::list_of(names)});
         }
         if (bound.at("least") >= bound.at("most")) {
             faults.push_back({pointer, "has least >= most", "give least < most"});

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/words/list.hpp"
+
 namespace breach::element_bench {
 
 namespace norsand = materials::norsand;
@@ -563,9 +565,7 @@ void Calibrator::add_hardening_errors(const std::vector<Values>& errors,
 }
 
 std::string names_of(const std::vector<TriaxialTest>& tests, const Indices& which) {
-    std::string out;
-    for (const std::size_t i : which) out += (out.empty() ? "" : ", ") + tests[i].name;
-    return out;
+    return words::list_of(which, [&](std::size_t i) { return tests[i].name; });
 }
 
 /// Warns of parameters that the tests do not determine.

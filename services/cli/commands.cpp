@@ -7,6 +7,7 @@
 
 #include "core/exchange/csv.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/words/list.hpp"
 #include "services/cli/accuracy_view.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
@@ -59,12 +60,10 @@ std::string run_named(Server& server, const std::string& name) {
         if (each.at("id").get<std::string>().starts_with(name)) begun.push_back(each.at("id"));
     }
     if (begun.size() == 1) return begun.front();
-    std::string which;
-    for (const std::string& each : begun) which += (which.empty() ? "" : ", ") + each;
     throw Refused(404,
                   begun.empty()
                       ? "no run has the name or id \"" + name + "\"; `breach list` shows the runs"
-                      : "several ids begin with \"" + name + "\": " + which,
+                      : "several ids begin with \"" + name + "\": " + words::list_of(begun),
                   {});
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/words/list.hpp"
 #include "services/cli/table.hpp"
 
 namespace breach::cli {
@@ -26,10 +27,9 @@ std::string counts_of(const json& counts) {
 }
 
 std::string runouts_of(const json& transfer) {
-    std::string text;
-    for (const json& each : transfer.at("runouts"))
-        text += (text.empty() ? "" : ", ") +
-                (each.at("runout").is_number() ? cell(each, "runout") : cell(each, "state"));
+    const std::string text = words::list_of(transfer.at("runouts"), [](const json& each) {
+        return cell(each, each.at("runout").is_number() ? "runout" : "state");
+    });
     return text.empty() ? "-" : text;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/words/list.hpp"
 #include "core/words/nearest.hpp"
 #include "services/cli/table.hpp"
 
@@ -43,12 +44,6 @@ std::string meant(const std::string& word, const std::vector<std::string>& known
     return nearest.empty() ? "" : "; did you mean " + nearest + "?";
 }
 
-std::string listed(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& each : words) text += (text.empty() ? "" : ", ") + each;
-    return text;
-}
-
 }  // namespace
 
 std::vector<std::string>::iterator command_in(const CLI::App& program,
@@ -81,17 +76,17 @@ int explain(const CLI::App& program, const CLI::ParseError& error) {
     const std::vector<std::string> unknown = program.remaining(true);
     const auto option = std::ranges::find_if(
         unknown, [](const std::string& each) { return each.starts_with("-"); });
-    const std::vector<std::string> words = names_below(named);
+    const std::vector<std::string> known = names_below(named);
     if (option != unknown.end()) {
         std::cerr << name << ": unknown option " << harmless(*option)
                   << meant(option->substr(0, option->find('=')), options_of(program, named))
                   << "; `" << name << " --help` lists them\n";
-    } else if (!unknown.empty() && !words.empty()) {
+    } else if (!unknown.empty() && !known.empty()) {
         std::cerr << name << ": unknown command \"" << harmless(unknown.front()) << "\""
-                  << meant(unknown.front(), words) << "; the commands are: " << listed(words)
-                  << "\n";
+                  << meant(unknown.front(), known)
+                  << "; the commands are: " << words::list_of(known) << "\n";
     } else if (error.get_name() == "RequiredError" && !named.get_parent()) {
-        std::cerr << "breach: give a command: " << listed(words)
+        std::cerr << "breach: give a command: " << words::list_of(known)
                   << "\nFor example: breach submit study.json --watch\n";
     } else {
         return program.exit(error);

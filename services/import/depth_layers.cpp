@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/geometry/polyline.hpp"
+#include "core/words/list.hpp"
 #include "services/import/numbers.hpp"
 
 namespace breach::importing {
@@ -190,15 +191,12 @@ Healed with_layers(std::vector<Soil> soils, const LayerRequest& request,
                    const std::vector<Vec2>& line, double tolerance) {
     Healed healed{std::move(soils), {}, {}, {}};
     std::set<std::string> meant;
-    std::string all;
-    for (const Soil& each : healed.soils) {
-        all += (all.empty() ? "" : ", ") + each.name;
+    for (const Soil& each : healed.soils)
         if (lower(each.name) == lower(request.region) || lower(each.layer) == lower(request.region))
             meant.insert(each.name);
-    }
     if (meant.empty())
-        healed.faults.push_back(
-            {"layers", "there is no region \"" + request.region + "\"", "the regions are " + all});
+        healed.faults.push_back({"layers", "there is no region \"" + request.region + "\"",
+                                 "the regions are " + words::list_of(healed.soils, &Soil::name)});
     for (const std::string& name : meant) {
         const auto at = std::ranges::find(healed.soils, name, &Soil::name);
         cut_region(healed, static_cast<std::size_t>(at - healed.soils.begin()), request, line,

@@ -59,6 +59,10 @@ geometry::Outlines outlines_of(const std::vector<Soil>& soils) {
     return geometry::outlines_of(soils, &Soil::ring);
 }
 
+geometry::Box box_of(const std::vector<Soil>& soils) {
+    return geometry::extent(outlines_of(soils));
+}
+
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
     std::vector<Vec2> ground;

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/words/list.hpp"
+
 namespace breach::importing {
 
 namespace {
@@ -49,11 +51,7 @@ std::optional<Unit> unit_named(const std::string& name) {
     return std::nullopt;
 }
 
-std::string unit_names() {
-    std::string all;
-    for (const Known& each : units) all += (all.empty() ? "" : ", ") + std::string(each.name);
-    return all;
-}
+std::string unit_names() { return words::list_of(units, &Known::name); }
 
 std::optional<Unit> unit_of_code(int code) {
     for (const Known& each : units)

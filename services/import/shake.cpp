@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/words/list.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::importing {
@@ -16,10 +17,6 @@ namespace {
 
 /// document.cpp rounds to a micrometre.
 constexpr double same_place = 1e-6;  // m: rounding of a scene's vertices
-
-geometry::Box box_of(const std::vector<Soil>& soils) {
-    return geometry::extent(outlines_of(soils));
-}
 
 bool is_drained(const json& material) {
     const json& law = material.at("law");
@@ -52,12 +49,11 @@ void check_layers(const std::vector<Soil>& soils, const Lines& lines, const json
                           "draw it on a layer PHREATIC, or give it as a file"});
         return;
     }
-    std::string all;
-    for (const Soil& each : soils) all += (all.empty() ? "" : ", ") + each.name;
     if (std::ranges::none_of(soils, [](const Soil& each) { return each.depth_layer > 0; }))
         faults.push_back(
             {"layers", "no region is cut in layers below the phreatic line, so none can liquefy",
-             "name the tailings and depths, as --layers REGION=5,10; the regions are " + all});
+             "name the tailings and depths, as --layers REGION=5,10; the regions are " +
+                 words::list_of(soils, &Soil::name)});
     std::set<std::string> reported;
     for (const Soil& each : soils) {
         const json& material = materials.at(each.material);
