@@ -85,19 +85,19 @@ std::string as_accuracy_table(const json& answer) {
                         of_mean(row, "cpu_seconds"), note_of(row, answer)});
     }
     std::string text =
-        as_table({{"ladder", Align::left},
-                  {"setting", Align::left},
+        as_table({{"ladder"},
+                  {"setting"},
                   {title_of(answer), Align::right},
-                  {"+-", Align::right},
-                  {"repeats", Align::right},
-                  {"error", Align::right},
-                  {"of a run", Align::right},
-                  {"CPU [s]", Align::right},
-                  {"wall [s]", Align::right},
-                  {"memory [MB]", Align::right},
+                  {"+-", right},
+                  {"repeats", right},
+                  {"error", right},
+                  {"of a run", right},
+                  {"CPU [s]", right},
+                  {"wall [s]", right},
+                  {"memory [MB]", right},
                   {"repeats for " + percent_of(answer.at("asked_error")), Align::right},
-                  {"their CPU [s]", Align::right},
-                  {"", Align::left}},
+                  {"their CPU [s]", right},
+                  {""}},
                  rows);
     text += "errors relative to " + cell(answer, "reference") +
             "; \"of a run\": including the error of the reference, of the other ladders at the "

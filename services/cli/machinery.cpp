@@ -48,16 +48,16 @@ ExitCode workers(Server& server, const Console& console) {
                         cell(each, "cpu_seconds"), cell(each, "memory_used_MB"), note});
     }
     if (!rows.empty())
-        console.out << as_table({{"task", Align::left},
-                                 {"label", Align::left},
-                                 {"state", Align::left},
-                                 {"since (UTC)", Align::left},
-                                 {"host", Align::left},
-                                 {"pid or job", Align::right},
-                                 {"cores", Align::right},
-                                 {"CPU [s]", Align::right},
-                                 {"memory [MB]", Align::right},
-                                 {"", Align::left}},
+        console.out << as_table({{"task"},
+                                 {"label"},
+                                 {"state"},
+                                 {"since (UTC)"},
+                                 {"host"},
+                                 {"pid or job", right},
+                                 {"cores", right},
+                                 {"CPU [s]", right},
+                                 {"memory [MB]", right},
+                                 {""}},
                                 rows)
                     << "\n";
     const json& queue = answer.at("queue");
@@ -93,15 +93,15 @@ ExitCode transfers(Server& server, const TransfersOptions& options, const Consol
     if (rows.empty())
         console.notes << "no transfers\n";
     else
-        console.out << as_table({{"transfer", Align::left},
-                                 {"variant", Align::left},
-                                 {"t_T [s]", Align::right},
-                                 {"why", Align::left},
-                                 {"condition", Align::left},
-                                 {"values", Align::left},
-                                 {"start [ms]", Align::right},
-                                 {"state", Align::left},
-                                 {"runout [m]", Align::left}},
+        console.out << as_table({{"transfer"},
+                                 {"variant"},
+                                 {"t_T [s]", right},
+                                 {"why"},
+                                 {"condition"},
+                                 {"values"},
+                                 {"start [ms]", right},
+                                 {"state"},
+                                 {"runout [m]"}},
                                 rows);
     return ExitCode::done;
 }

@@ -51,14 +51,12 @@ std::string as_text(const json& all) {
         {"D5-95", cell(all, "strong_duration"), "s, from " + cell(all, "strong_from") + " s"},
         {"CAV", cell(all, "cav"), "m/s"},
         {"MASI", cell(all, "masi"), "m/s (5 %, 0.1 to 2 s)"}};
-    std::string text =
-        as_table({{"measure", Align::left}, {"value", Align::right}, {"unit", Align::left}}, rows);
+    std::string text = as_table({{"measure"}, {"value", right}, {"unit"}}, rows);
     std::vector<Cells> spectrum;
     const json& of = all.at("spectrum");
     for (std::size_t i = 0; i < of.at("period").size(); ++i)
         spectrum.push_back({cell(of.at("period")[i]), cell(of.at("acceleration")[i])});
-    return text + "\n" +
-           as_table({{"period s", Align::right}, {"5 % S_a m/s2", Align::right}}, spectrum);
+    return text + "\n" + as_table({{"period s", right}, {"5 % S_a m/s2", right}}, spectrum);
 }
 
 struct Measured {
@@ -142,14 +140,14 @@ std::string as_text(const std::vector<Measured>& records) {
         rows.push_back({file.filename().string(), cell(all, "pga_g"), cell(all, "pgv"),
                         cell(all, "pgd"), cell(all, "arias"), cell(all, "strong_duration"),
                         cell(all, "cav"), cell(all, "masi")});
-    return as_table({{"record", Align::left},
-                     {"PGA g", Align::right},
-                     {"PGV m/s", Align::right},
-                     {"PGD m", Align::right},
-                     {"Arias m/s", Align::right},
-                     {"D5-95 s", Align::right},
-                     {"CAV m/s", Align::right},
-                     {"MASI m/s", Align::right}},
+    return as_table({{"record"},
+                     {"PGA g", right},
+                     {"PGV m/s", right},
+                     {"PGD m", right},
+                     {"Arias m/s", right},
+                     {"D5-95 s", right},
+                     {"CAV m/s", right},
+                     {"MASI m/s", right}},
                     rows);
 }
 
@@ -173,10 +171,7 @@ std::string found_as_text(const json& found) {
                                   " (" + cell(curve, "low") + " to " + cell(curve, "high") + ")"});
     }
     return text + "\n" +
-           as_table({{"measure", Align::left},
-                     {"with liquefied depth", Align::left},
-                     {"with runout", Align::left},
-                     {"half past the toe", Align::left}},
+           as_table({{"measure"}, {"with liquefied depth"}, {"with runout"}, {"half past the toe"}},
                     rows);
 }
 

@@ -104,13 +104,9 @@ ExitCode disk_use(Server& server, const Console& console) {
     for (const json& run : storage.at("runs"))
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), bytes(run, "bytes"),
                         bytes(run, "shared_bytes"), bytes(run, "freed_bytes")});
-    console.out << as_table({{"run", Align::left},
-                             {"name", Align::left},
-                             {"state", Align::left},
-                             {"holds", Align::right},
-                             {"shared", Align::right},
-                             {"rm frees", Align::right}},
-                            rows);
+    console.out << as_table(
+        {{"run"}, {"name"}, {"state"}, {"holds", right}, {"shared", right}, {"rm frees", right}},
+        rows);
     console.out << "\nruns " << bytes(storage, "runs_bytes") << ", files that were sent "
                 << bytes(storage, "files_bytes") << ", database "
                 << bytes(storage, "database_bytes") << ": " << bytes(storage, "total_bytes")
@@ -136,11 +132,7 @@ ExitCode list_files(Server& server, const Console& console) {
     if (rows.empty())
         console.notes << "no files were sent\n";
     else
-        console.out << as_table({{"reference", Align::left},
-                                 {"name", Align::left},
-                                 {"size", Align::right},
-                                 {"runs", Align::right},
-                                 {"", Align::left}},
+        console.out << as_table({{"reference"}, {"name"}, {"size", right}, {"runs", right}, {""}},
                                 rows);
     return ExitCode::done;
 }

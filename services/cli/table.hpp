@@ -11,10 +11,11 @@
 namespace breach::cli {
 
 enum class Align { left, right };
+using enum Align;
 
 struct Column {
     std::string title;
-    Align align;
+    Align align = left;
 };
 
 using Cells = std::vector<std::string>;

@@ -41,10 +41,8 @@ std::string percentile_table(const std::string& name, const json& statistics) {
             rows.push_back({"p" + cell(each, "p"), marked(each.at("value"), statistics),
                             marked(each.at("low"), statistics) + " to " +
                                 marked(each.at("high"), statistics)});
-    std::string text = as_table({{title_of(name, statistics), Align::left},
-                                 {"", Align::right},
-                                 {"90 % interval", Align::left}},
-                                rows);
+    std::string text =
+        as_table({{title_of(name, statistics), Align::left}, {"", right}, {"90 % interval"}}, rows);
     if (percentiles.is_object()) text += cell(percentiles, "refused") + "\n";
     return text;
 }
@@ -67,12 +65,9 @@ std::string importance_table(const json& statistics) {
              with_interval(each, "partial_rank_correlation", "partial_low", "partial_high"),
              with_interval(each, "first_order", "first_order_low", "first_order_high"),
              bar_of(tornado, each.at("parameter"))});
-    std::string text = as_table({{"parameter", Align::left},
-                                 {"rank correlation", Align::left},
-                                 {"partial", Align::left},
-                                 {"share of variance", Align::left},
-                                 {"at p10 / p90", Align::left}},
-                                rows);
+    std::string text = as_table(
+        {{"parameter"}, {"rank correlation"}, {"partial"}, {"share of variance"}, {"at p10 / p90"}},
+        rows);
     if (tornado.contains("bars"))
         text += "at p10 / p90: by a polynomial (" + cell(tornado, "form") + ", Q2 " +
                 cell(tornado, "q2") +
@@ -96,8 +91,8 @@ std::string inverse_table(const json& inverse) {
                         std::to_string(each.at("results").size()), cell(each, "state")});
     return as_table({{cell(inverse, "vary"), Align::right},
                      {cell(inverse, "quantity"), Align::right},
-                     {"lattices", Align::right},
-                     {"state", Align::left}},
+                     {"lattices", right},
+                     {"state"}},
                     rows) +
            "\n";
 }
