@@ -1,3 +1,7 @@
+// Reads an element-test document: the schema completes it, this file checks what a schema cannot
+// express, and converts kilopascals and degrees. Faults are collected, so that one pass shows all.
+// run.cpp calls read_document() before the plan, and bench_of() in plan and run: a document that
+// was read is complete, so that .at() needs no defaults here.
 #include "element_bench/document.hpp"
 
 #include <algorithm>
@@ -28,18 +32,21 @@ constexpr double degree = std::numbers::pi / 180.0;
 SandLaw sand_of(const json& law) { return {scene::sand_parameters(law), scene::sand_options(law)}; }
 
 /// Completes a PM4Sand entry and reports contradictions.
+/// The schema gives each of e_max and e_min a range, but not their order.
 void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& faults) {
     scene::complete_sand(law);
     if (law.value("type", "") != "pm4sand" || law.at("e_max") > law.at("e_min")) return;
     faults.push_back({pointer + "/e_max", "is not above e_min", "give e_max > e_min"});
 }
 
+/// Associated flow (psi = phi) dissipates no friction work; more would create energy.
 void check_dilatancy(const json& law, std::vector<Fault>& faults) {
     if (!law.contains("psi_deg") || law.at("psi_deg") <= law.at("phi_deg")) return;
     faults.push_back({"/law/psi_deg", "is above phi_deg",
                       "such a soil would create energy; give psi_deg <= phi_deg"});
 }
 
+/// E in MPa, strengths in kPa, angles in degrees: converted here only.
 TestLaw law_of(const json& law) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_of(law);
@@ -100,6 +107,7 @@ Voigt initial_stress(const Consolidation& at, double sigma_v) {
     return {-sigma_h, -sigma_v, -sigma_h, at.static_shear * sigma_v};
 }
 
+/// S belongs to the test, not to the law: drained and undrained tests of one soil differ in it.
 norsand::Ready ready_for(const NorSandLaw& law, const Consolidation& consolidation) {
     norsand::Parameters parameters = law.parameters;
     parameters.S = consolidation.norsand->S;

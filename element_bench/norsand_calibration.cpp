@@ -1,3 +1,7 @@
+// The rounds of the calibration: fit the hardening, compute the law's curves, read them as the
+// tests were read, and correct the other values by the difference. Ends when no value moves any
+// more, or after 25 rounds with a flag. Called by norsand_run.cpp. The values belong to calibrate()
+// alone; TestReadings and Hardening do not change.
 #include "element_bench/norsand_calibration.hpp"
 
 #include <Eigen/Dense>
@@ -29,6 +33,8 @@ std::optional<Eigen::Matrix2d> covariance_of_line(const Points& seen, const Poin
     return sum / static_cast<double>(n - 2) * a.inverse;
 }
 
+/// Standard errors from the scatter between tests. Correlated pairs (Gamma with lambda, M_tc with
+/// N) are handed to the hardening as independent directions, the columns of their Cholesky factor.
 OfEach<Estimate> estimates(const TestReadings& tests, const Hardening& hardening,
                            const Values& values, const Readings& of_law) {
     OfEach<Estimate> out;
@@ -160,6 +166,7 @@ void warn(const TestReadings& tests, bool settled, NorSandFit& fit) {
 
 }  // namespace
 
+/// A law without a curve for a test drops that test from both sides of the comparison.
 NorSandFit calibrate(const NorSandProblem& problem, const std::function<void(int, double)>& seen) {
     constexpr int most_rounds = 25;
     constexpr double settled_at = 2e-4;  // largest relative move

@@ -1,3 +1,5 @@
+// Fits H by damped Gauss-Newton on the curves of the chosen tests. Uses the drained tests, or all if none is drained. Derivatives
+// are differences, as the law's curves have none in closed form.
 #include "element_bench/norsand_hardening.hpp"
 
 #include <Eigen/Dense>
@@ -8,6 +10,7 @@ namespace breach::element_bench {
 
 namespace norsand = materials::norsand;
 
+/// S softens undrained tests only; drained ones are computed without it.
 std::vector<std::optional<TriaxialCurve>> curves(const NorSandProblem& problem,
                                                  const Values& values, const Indices& which) {
     norsand::Parameters law = with(problem, values);
@@ -42,6 +45,7 @@ Deviation deviation_of(const TriaxialTest& test, const TriaxialCurve& curve) {
 
 namespace {
 
+/// The quantity that the fit reduces.
 double sum_of_squares(const std::vector<Eigen::VectorXd>& parts) {
     double sum = 0.0;
     for (const Eigen::VectorXd& each : parts) sum += each.squaredNorm();
@@ -124,6 +128,7 @@ Values Hardening::with_nodes(const Values& values, const Eigen::VectorXd& ln_H) 
     return out;
 }
 
+/// The clamp keeps the logarithm finite where a line through given values falls below the least H.
 Eigen::VectorXd Hardening::nodes(const Values& values) const {
     using enum sought::Name;
     Eigen::VectorXd out(static_cast<Eigen::Index>(node_psi_.size()));

@@ -1,3 +1,6 @@
+// Lines through readings of tests. Critical state line: e over ln p of the ends; M_tc and N: stress
+// ratio over dilatancy, eta = M_tc - (1 - N) D; chi_tc: D over psi at the peaks, through the
+// origin.
 #include "element_bench/norsand_readings.hpp"
 
 #include <Eigen/Dense>
@@ -30,6 +33,7 @@ Indices first(std::size_t n) {
     return out;
 }
 
+/// The pseudo-inverse gives the shortest solution where all points have one x, instead of failing.
 Regression line_through(const Points& points) {
     Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
     Eigen::Vector2d c = Eigen::Vector2d::Zero();
@@ -51,6 +55,7 @@ double slope_through_origin(const Points& points) {
     return xy / xx;
 }
 
+/// The calibration knows the semi-logarithmic critical state line only.
 norsand::Parameters with(const NorSandProblem& problem, const Values& values) {
     using enum Sought;
     norsand::Parameters law = problem.law;
@@ -60,10 +65,12 @@ norsand::Parameters with(const NorSandProblem& problem, const Values& values) {
     return law;
 }
 
+/// The line's reference pressure is 1 kPa, pressures are pascals: hence p / 1e3.
 double psi(const Values& values, double e, double p) {
     return e - (values[Sought::Gamma] - values[Sought::lambda] * std::log(p / 1e3));
 }
 
+/// The order matters: slope_held reads the points of the tests that were just chosen.
 TestReadings::TestReadings(const NorSandProblem& of) : problem(of) {
     constexpr double least_range = 0.3;  // of ln p, for a line
     constexpr std::size_t few = 3;
@@ -136,6 +143,9 @@ Points TestReadings::dilatancy_points(const Readings& readings, const Values& va
     return points;
 }
 
+/// Each value moves by measured minus computed reading and is clamped. M_tc alone moves where the
+/// ratios lie at one D: their slope is then unknown. chi_tc stays below
+/// most_chi_lambda M_tc / lambda: document.cpp refuses tests of steeper laws.
 Values TestReadings::corrected(const Values& old, const Readings& of_law) const {
     using enum Sought;
     const Readings seen_of = comparable(of_law);

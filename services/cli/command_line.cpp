@@ -102,6 +102,7 @@ ExitCode execute(const Program& program, const Connection& to) {
     return program.chosen(server, {std::cout, to.quiet ? nowhere : std::cerr, style, screen});
 }
 
+/// Everything may come from the server and passes through harmless().
 void tell(const std::string& summary, const std::vector<fault::Fault>& faults) {
     std::cerr << "breach: " << harmless(summary) << "\n";
     for (const fault::Fault& each : faults) {
@@ -111,6 +112,8 @@ void tell(const std::string& summary, const std::vector<fault::Fault>& faults) {
     }
 }
 
+/// The only place that turns exceptions into exit codes. An answer with another form counts as a
+/// fault of reading: the server may be newer.
 ExitCode guarded(const Program& program, const Connection& to) {
     try {
         return execute(program, to);

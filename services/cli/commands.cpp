@@ -1,5 +1,6 @@
-// Commands that are one or two requests: submit, list, show, cancel and the like. A refusal by
-// the server is an exception (cli/http/server.hpp), so each command reads as its good case.
+// Commands that are one or two requests: submit, list, show, cancel and the like. A refusal by the
+// server is an exception (cli/http/server.hpp), so each command reads as its good case. With --json
+// the answer is printed unchanged: programs see every field, also new ones.
 #include "services/cli/commands.hpp"
 
 #include <algorithm>
@@ -28,6 +29,8 @@ constexpr std::size_t length_of_ids = 26;  // of runs: ULIDs
 /// By the form alone, which saves a request to find out.
 bool names_task(const std::string& id) { return id.find('-') == length_of_ids; }
 
+/// The columns are those of the first line. Lists and objects have no place in a cell and are left
+/// out.
 void show_as_csv(const json& lines, const Console& console) {
     if (lines.empty()) return;
     std::vector<std::string> keys;
@@ -69,6 +72,8 @@ std::string run_named(Server& server, const std::string& name) {
 
 namespace {
 
+/// `route` decides what the server does with the study: run it, sweep it, or only say what it
+/// costs. So --dry-run refuses what a submission would.
 json post_submission(Server& server, const std::string& route, const SubmitOptions& options,
                      const Console& console) {
     json study = options.scene.empty() ? read_study(options.study, options.overrides)
@@ -83,6 +88,7 @@ json post_submission(Server& server, const std::string& route, const SubmitOptio
                       options.send_files ? Sending::always : Sending::where_needed, console);
 }
 
+/// Every order is answered with the run as it is then.
 ExitCode show_order(const json& answer, const Console& console) {
     if (!shown_as_json(answer, console)) console.out << as_progress_line(answer) << "\n";
     return ExitCode::done;
@@ -103,6 +109,7 @@ std::string submit(Server& server, const SubmitOptions& options, const Console& 
     return run.at("id");
 }
 
+/// One route for both, with one of two entries; the server says which were new.
 ExitCode extend(Server& server, const Extension& by, const Console& console) {
     const bool samples = by.samples > 0;
     const json answer =
@@ -166,6 +173,8 @@ ExitCode code_of_end(const json& run, Questionable questionable, const Console& 
     return questionable == Questionable::fails ? ExitCode::breakdown : ExitCode::done;
 }
 
+/// Rows of an unfinished run are shown as far as they are, with a note; only an ended run can fail
+/// the exit code.
 ExitCode results(Server& server, const ResultsOptions& options, const Console& console) {
     const std::string id = run_named(server, options.run);
     const bool csv = console.style == Style::csv;
@@ -266,6 +275,7 @@ ExitCode hydrograph(Server& server, const HydrographOptions& options, const Cons
     return ExitCode::done;
 }
 
+/// Of a study, its scene with the overrides for all variants.
 ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console) {
     const json scene =
         names_a_scene(document) ? scene_of_study(document) : read_scene_document(document);

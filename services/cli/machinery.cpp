@@ -1,3 +1,5 @@
+// `breach workers` and `breach transfers`: tables of what the server does at the moment and why it
+// made each transfer. The server decides what is listed and in which order.
 #include "services/cli/machinery.hpp"
 
 #include <map>

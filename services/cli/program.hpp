@@ -15,12 +15,14 @@ namespace breach::cli {
 
 using Command = std::function<fault::ExitCode(Server&, const Console&)>;
 
+/// A command and its options, for adding their words.
 template <class Options>
 struct Added {
     CLI::App& word;
     Options& options;  ///< filled by the parser; lives as long as the program
 };
 
+/// Lives in run() and is not moved: CLI11 and the callbacks keep its address.
 struct Program {
     CLI::App app{"Talks to a Breachline server: submits studies and shows their results.",
                  "breach"};

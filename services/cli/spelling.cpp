@@ -1,3 +1,5 @@
+// Words of the command line that are no command or option. Separate from command_line.cpp, because
+// it only reads the finished CLI::App: it knows every name that --help shows, and no command.
 #include "services/cli/spelling.hpp"
 
 #include <algorithm>
@@ -39,6 +41,7 @@ std::vector<std::string> options_of(const CLI::App& program, const CLI::App& app
     return names;
 }
 
+/// Empty where no name is near: a far suggestion would mislead.
 std::string meant(const std::string& word, const std::vector<std::string>& known) {
     const std::string nearest = words::nearest(word, known);
     return nearest.empty() ? "" : "; did you mean " + nearest + "?";
@@ -67,6 +70,8 @@ std::vector<std::string>::iterator command_in(const CLI::App& program,
     return words.end();
 }
 
+/// CLI11 would print "The following argument was not expected". Required and excluded options keep
+/// its message, which names the option.
 int explain(const CLI::App& program, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // help was requested
     const CLI::App& named = named_command(program);

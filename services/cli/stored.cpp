@@ -1,5 +1,5 @@
-// `breach rm` and what else changes the server's storage. Removal cannot be undone, so names are
-// resolved and shown with their sizes before the question.
+// `breach rm`, `du`, `files` and `open`. Removal cannot be undone: all names are resolved before
+// the first is removed, and shown with their sizes before the question.
 #include "services/cli/stored.hpp"
 
 #include <unistd.h>
@@ -70,6 +70,8 @@ bool wants(const std::vector<Removed>& all) {
 
 }  // namespace
 
+/// Without a terminal and without --yes it refuses, instead of waiting for an answer that cannot
+/// come. The cancelled run is waited for, as the server removes no run that goes on.
 ExitCode remove_all(Server& server, const Removal& removal, const Console& console) {
     const std::vector<Removed> all = meant(server, removal.names);
     if (!removal.confirmed && isatty(STDIN_FILENO) != 1)
@@ -137,6 +139,7 @@ ExitCode list_files(Server& server, const Console& console) {
     return ExitCode::done;
 }
 
+/// Flushes each line: a large file can take minutes.
 ExitCode send_files(Server& server, const std::vector<fs::path>& files, const Console& console) {
     for (const fs::path& each : files) console.out << send_file(server, each, console) << std::endl;
     return ExitCode::done;

@@ -75,6 +75,8 @@ std::string unusual_end(const json& task) {
     return "ended: entangled at " + cell(task, "end_time") + " s";
 }
 
+/// What a list has room for: an unusual end and the codes of flags; the page of the task has their
+/// messages.
 std::string note_of(const json& task) {
     std::string note = unusual_end(task);
     if (const std::string codes = codes_of(flags_of(task)); !codes.empty())

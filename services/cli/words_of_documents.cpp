@@ -1,4 +1,6 @@
-// Commands about files of the user: scenes, studies, records and drawings. Most need no server.
+// Commands about files of the user: scenes, studies, records and drawings. Called by
+// command_line.cpp. new, verify and import send no request; draw and motion ask a server only for
+// what the files do not say.
 #include "services/cli/commands.hpp"
 #include "services/cli/draw.hpp"
 #include "services/cli/import.hpp"
@@ -56,6 +58,7 @@ void add_motion(Program& program) {
         ->needs(scene);
 }
 
+/// "!--full" sets the same flag to false, so that the last of the two counts.
 void add_verify(Program& program) {
     const auto& [word, options] = program.add<VerifyOptions>(
         "verify", "compare the programs with closed forms, published tables and other programs",
@@ -67,6 +70,8 @@ void add_verify(Program& program) {
         ->check(CLI::ExistingDirectory);
 }
 
+/// Mistakes in values (units, tolerances) are left to services/import, so that the dashboard has
+/// the same messages. allow_extra_args(false): else --map would take the words after it.
 void add_import(Program& program) {
     const auto& [word, options] = program.add<ImportOptions>(
         "import", "a section drawn as DXF or CSV becomes a scene",

@@ -1,4 +1,5 @@
 // Commands that fetch what the tasks of a run left: logs, telemetry, flows past sections, files.
+// Called by command_line.cpp. Numbers that only the server can check stay texts here and are sent as given.
 #include "services/cli/commands.hpp"
 #include "services/cli/export_run.hpp"
 #include "services/cli/logs.hpp"
@@ -8,6 +9,7 @@ namespace breach::cli {
 
 namespace {
 
+/// One runout of a run with several.
 void take_runout(CLI::App& word, std::string& transfer_time, std::string& variant) {
     word.add_option("--transfer-time", transfer_time, "which of the sweep's runouts [s]");
     word.add_option("--variant", variant, "which of the study's variants");

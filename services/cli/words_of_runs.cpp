@@ -1,4 +1,6 @@
-// Commands that submit a study, extend, watch and direct its run, and show what it computed.
+// Commands that submit a study, extend, watch and direct its run, and show what it computed. Called
+// by command_line.cpp. Several commands end by watching: watch_run() does it for all, and --strict
+// decides in the exit code whether a questionable result is a failure.
 #include "services/cli/commands.hpp"
 #include "services/cli/program.hpp"
 #include "services/cli/watch.hpp"
@@ -15,6 +17,8 @@ struct Watching {
     Questionable questionable = Questionable::accepted;
 };
 
+/// For submit, sweep and accuracy. For accuracy `watch.run` may name a run that exists: then
+/// nothing is submitted.
 struct Submission {
     SubmitOptions submit;
     Watching watch;
@@ -22,11 +26,13 @@ struct Submission {
     std::string asked_error;  ///< of accuracy; empty: the study's
 };
 
+/// For commands that change one run; each uses its own field.
 struct Order {
     std::string run, word, title;
     std::int64_t priority = 0;
 };
 
+/// Takes the options of a command that may have been told to watch; done without.
 ExitCode watch_run(Server& server, const Watching& watching, const Console& console) {
     return watching.asked ? watch(server, watching.run, watching.questionable, console)
                           : ExitCode::done;
@@ -56,6 +62,7 @@ void take_strict(CLI::App& word, Questionable& questionable) {
         "exit code 70 when a result is questionable");
 }
 
+/// The group requires exactly one of its options: the caller adds the alternative to the file.
 CLI::Option_group& take_study_file(CLI::App& word, SubmitOptions& submit) {
     CLI::Option_group* what = word.add_option_group("what");
     what->add_option("STUDY", submit.study,
@@ -64,6 +71,8 @@ CLI::Option_group& take_study_file(CLI::App& word, SubmitOptions& submit) {
     return *what;
 }
 
+/// What a new run may have besides its study. accuracy excludes these where it shows an existing
+/// run.
 void take_changes(CLI::App& word, Submission& options) {
     word.add_option("--set", options.submit.overrides,
                     "/json/pointer=value, changes the scene; repeatable")
@@ -89,6 +98,7 @@ void take_study(Added<Submission> added) {
     take_strict(word, options.watch.questionable);
 }
 
+/// cancel, pause, resume and retry differ in the last part of their path only.
 Added<Order> add_order(Program& program, const std::string& name, const std::string& what,
                        const std::string& example,
                        ExitCode (*run)(Server&, const Order&, const Console&)) {
@@ -200,6 +210,7 @@ void add_uncertainty(Program& program) {
 
 }  // namespace
 
+/// A reader meets the commands in this order in `breach --help`.
 void add_words_of_runs(Program& program) {
     const auto submit = program.add<Submission>("submit", "submit a study; prints the run's id",
                                                 "study.json --watch", submit_and_watch);

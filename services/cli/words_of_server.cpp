@@ -1,4 +1,5 @@
-// Commands about the server itself: what its disk holds, what its workers do.
+// Commands about the server itself: what its disk holds, what its workers do. Called by
+// command_line.cpp.
 #include "services/cli/machinery.hpp"
 #include "services/cli/program.hpp"
 #include "services/cli/stored.hpp"

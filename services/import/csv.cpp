@@ -117,6 +117,7 @@ class CsvReader {
         stopped_ = drawing_.faults.size() >= 100;
     }
 
+    /// A blank line ends an outline: a region may have several.
     void take(std::string_view row) {
         if (row.starts_with('#')) return;
         if (row.empty()) return finish();
@@ -139,6 +140,7 @@ class CsvReader {
         return found.front();
     }
 
+    /// The separator is the first of tab, semicolon and comma that the header has.
     void take_header(std::string_view row) {
         for (const char each : {'\t', ';', ','})
             if (row.find(each) != std::string_view::npos) {
@@ -187,6 +189,7 @@ class CsvReader {
         drawing_.says_unit = true;
     }
 
+    /// Decimal commas only where semicolons separate: else 1,5 is two fields.
     std::optional<double> number(const std::vector<std::string>& fields, std::size_t column) {
         if (column >= fields.size()) {
             refuse("has only " + std::to_string(fields.size()) + " columns", shape);
@@ -236,6 +239,7 @@ class CsvReader {
         current_.points.emplace_back(*x, *y);
     }
 
+    /// Ends an outline where the region changes, at a blank line and at the end.
     void finish() {
         if (!begun_) return;
         begun_ = false;

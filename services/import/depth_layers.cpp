@@ -1,3 +1,6 @@
+// Cuts regions along the phreatic line moved down by each depth. The cut runs through the same
+// overlay as healing (arrangement.cpp), so that neighbours get its vertices. Called by fit() in
+// import.cpp once per request, on soils that are healed.
 #include "services/import/depth_layers.hpp"
 
 #include <algorithm>

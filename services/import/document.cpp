@@ -45,6 +45,7 @@ json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell
     return names;
 }
 
+/// Levels are multiples of the cell size, two cells beyond soil and terrain.
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
     geometry::Outlines all = outlines_of(soils);

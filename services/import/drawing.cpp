@@ -1,3 +1,5 @@
+// Words for places, lengths and entities in messages. One form for all readers: the drawing of
+// faults finds places by it.
 #include "services/import/drawing.hpp"
 
 #include <cmath>

@@ -85,6 +85,7 @@ class DxfReader {
         }
     }
 
+    /// A file without a unit goes on in metres, so that its other faults are found as well.
     void settle_unit() {
         if (settled_) return;
         settled_ = true;
@@ -112,6 +113,7 @@ class DxfReader {
         outlines_.metres = unit.metres;
     }
 
+    /// Off: a negative colour (62). Frozen: bit 1 of the flags (70).
     void take_layer(const Record& record) {
         bool hidden = false;
         for (const Group& each : record.groups) {
@@ -124,6 +126,8 @@ class DxfReader {
         if (hidden) hidden_.insert(lower(text_of(record, 2)));
     }
 
+    /// Blocks come before ENTITIES. What an INSERT places is not read; whether it holds soil
+    /// decides if that is a fault.
     void take_block(const Record& record) {
         if (record.type == "BLOCK") {
             block_ = text_of(record, 2);
@@ -138,6 +142,8 @@ class DxfReader {
 
     // ------------------------------------------------------------ entities
 
+    /// The order of the questions matters: paper space (67) and writing never count, hidden layers
+    /// only if the user maps them, and a layer left out ("none") is still known to exist.
     void take_entity(const Record& record) {
         if (record.type == "VERTEX") return outlines_.take_vertex(record);
         outlines_.end_polyline();
@@ -166,6 +172,8 @@ class DxfReader {
         area ? outlines_.take_area(record, layer) : outlines_.take_shape(record, layer);
     }
 
+    /// Writing on a layer with a meaning is remembered: if nothing else is drawn there, the layer
+    /// was probably meant for an outline.
     void pass_over(const Record& record, const std::string& layer, const Meaning& meaning) {
         ++passed_over_[std::string(record.type)];
         if (meaning.role == Role::unknown || meaning.role == Role::none) return;
@@ -200,6 +208,7 @@ class DxfReader {
         layer.origin = {record.line, entity_of(record)};
     }
 
+    /// A block on a layer left out ("none") is left out, too.
     void take_insert(const Record& record, const std::string& layer, const Meaning& meaning) {
         const std::string block = text_of(record, 2);
         const bool matters =

@@ -1,3 +1,7 @@
+// Turns DXF entities into outlines: corners in the entity's own plane and in units of the drawing,
+// then one pass (finish) that mirrors, scales and replaces arcs by chords. The group codes 210,
+// 220, 230 are the direction from which an entity is seen: (0, 0, -1) mirrors x, any tilt is a
+// fault.
 #include "services/import/dxf_outlines.hpp"
 
 #include <algorithm>
@@ -14,6 +18,7 @@ namespace {
 /// The import is refused already; the picture of the faults needs some line.
 constexpr double flatten_meanwhile = 0.05;  // m: for drawing arcs that are refused
 
+/// Two corners enclose an area only if one side is an arc.
 bool is_round(const std::vector<Corner>& corners) {
     return corners.size() == 2 && (corners[0].bulge != 0.0 || corners[1].bulge != 0.0);
 }
@@ -40,6 +45,7 @@ std::string entity_of(const Record& record) {
     return as_utf8(entity);
 }
 
+/// Bad numbers read as 0, and only the first 20 are reported: a broken export has thousands.
 double DxfOutlines::number(const Group& group) {
     const auto value = number_in(group.value);
     if (value && std::abs(*value) < 1e12) return *value;
@@ -62,10 +68,13 @@ Vec2 DxfOutlines::point(const Record& record, int code_of_x) {
     return {x, value_of(record, code_of_x + 10)};
 }
 
+/// Bits of group 70. POLYLINE: 1 closed, 8 in space, 4, 16 and 64 fitted curves and meshes, which
+/// are refused.
 long DxfOutlines::flags_of(const Record& record) {
     return static_cast<long>(std::clamp(value_of(record, 70), 0.0, 1e6));
 }
 
+/// Once for a drawing: the next entity would repeat it.
 void DxfOutlines::refuse_amount(const Record& record) {
     if (too_many_) return;
     too_many_ = true;
@@ -134,6 +143,8 @@ void DxfOutlines::take_area(const Record& record, const std::string& layer) {
     }
 }
 
+/// Group 10 begins a vertex; 20 and 42 belong to the last one. Values before the first vertex
+/// belong to the entity.
 void DxfOutlines::take_light_polyline(const Record& record) {
     for (const Group& each : record.groups) {
         if (each.code == 10) corners_.push_back({{number(each), 0.0}, 0.0, 0.0, each.line});
@@ -144,6 +155,7 @@ void DxfOutlines::take_light_polyline(const Record& record) {
     current_.closed = (flags_of(record) & 1) != 0;
 }
 
+/// Angles are degrees, counter-clockwise; an arc from 350 to 10 passes 0, hence fmod().
 void DxfOutlines::take_arc(const Record& record) {
     const Vec2 centre = point(record, 10);
     const double radius = std::abs(value_of(record, 40));
@@ -159,6 +171,7 @@ void DxfOutlines::take_arc(const Record& record) {
     corners_ = corners_of_arc(centre, radius, from, angle);
 }
 
+/// A VERTEX without an open POLYLINE belongs to one that was passed over or refused.
 void DxfOutlines::take_vertex(const Record& record) {
     if (!open_) return;
     const long flags = flags_of(record);
@@ -170,6 +183,7 @@ void DxfOutlines::take_vertex(const Record& record) {
     open_ = false;
 }
 
+/// LINE and 3DFACE have points in space; other entities have a plane with one elevation.
 void DxfOutlines::begin(const Record& record, const std::string& layer) {
     current_ = {layer, {}, false, {record.line, entity_of(record)}};
     corners_.clear();

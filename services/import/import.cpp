@@ -1,7 +1,7 @@
 // The order of an import: check the options, read the drawing, sort outlines by meaning, take
 // lines, heal, divide into depth layers, write the scene. A step that fails ends the import where
-// later faults would mislead. Called by `breach import` and by POST of the dashboard with bytes;
-// it writes no file.
+// later faults would mislead. Called by `breach import` and by POST of the dashboard with bytes; it
+// writes no file. Healing and layers are in fit(), the scene in section_scene.cpp.
 #include "services/import/import.hpp"
 
 #include <algorithm>
@@ -45,6 +45,7 @@ bool is_dxf(const Sent& sent) {
            sent.bytes.substr(0, 4096).find("SECTION") != std::string::npos;
 }
 
+/// For the motion's numbers, whose limits are those of services/earthquake.
 bool is_between(const char* option, double value, double least, double most,
                 const std::string& unit, Notes& notes) {
     if (value >= least && value <= most) return true;
@@ -135,6 +136,7 @@ bool is_turned(const std::vector<Soil>& soils, Notes& notes) {
     return !notes.request.confirmed;
 }
 
+/// A drawing without a known unit has a fault already: here it only ends the import.
 bool has_sound_size(const std::vector<Soil>& soils, bool knows_unit, Notes& notes) {
     if (soils.empty()) return false;
     const geometry::Box box = box_of(soils);
@@ -195,6 +197,7 @@ void tell_size(const std::vector<Soil>& soils, Notes& notes) {
         });
 }
 
+/// A region cut into layers is summed over its parts, which share its line and layer.
 void tell_areas(const std::vector<Soil>& soils, const std::vector<Soil>& drawn, Notes& notes) {
     for (const Soil& before : drawn) {
         double after = 0.0;
@@ -275,6 +278,7 @@ void give_up(const std::vector<Soil>& soils, Notes& notes) {
 
 }  // namespace
 
+/// Every way out passes the last two lines, so that a result has either a scene or faults.
 Imported import_section(const Request& request) {
     Notes notes{request};
     notes.result.report = {{"unit", request.unit},     {"tolerance", request.tolerance},

@@ -1,3 +1,5 @@
+// Numbers and units as drawings write them. The units are one table: names for users, codes for DXF
+// ($INSUNITS), metres.
 #include "services/import/numbers.hpp"
 
 #include <array>

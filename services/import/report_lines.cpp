@@ -1,4 +1,5 @@
-// Writes the import's report as text.
+// Writes the import's report as text, called by `breach import` after the scene is written. Unit
+// and size come first, because a wrong unit spoils all that follows.
 #include <algorithm>
 #include <cmath>
 #include <map>

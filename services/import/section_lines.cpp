@@ -1,3 +1,6 @@
+// The lines of a section. Drawn lines come first, so that a file for a line that is drawn is the
+// one refused. A file of its own is read as CSV with a layer of its own; its faults name the file,
+// as line numbers alone would point into the drawing.
 #include <algorithm>
 
 #include "services/import/csv.hpp"
@@ -9,6 +12,7 @@ namespace breach::importing {
 
 namespace {
 
+/// A line's role, its words in messages, and its places in Lines and Request.
 struct Kind {
     Role role;
     const char* layer;  ///< of a file of its own
@@ -52,6 +56,7 @@ void take_line(const std::vector<Outline>& pieces, const Kind& kind, const std::
     lines.*kind.line = std::move(line);
 }
 
+/// A file that names no unit, beside a drawing in another one, is legal: it becomes a remark.
 void read_line(const Sent& sent, const Kind& kind, const std::string& drawn_in, Lines& lines,
                Notes& notes) {
     const std::string file = as_utf8(sent.name) + " ", layer = kind.layer;

@@ -1,3 +1,6 @@
+// Makes a scene of the healed section and runs the scene's own check on it. Faults of
+// regions are moved back to lines of the drawing, where the user can correct them. Called by fit()
+// in import.cpp after all healing; only give_up() replaces what is written here.
 
 #include <algorithm>
 #include <filesystem>
@@ -20,6 +23,7 @@ check::Checked checked(json document, const Request& request) {
     return check::checked_document(std::move(document), request.drawing.name, ".", {});
 }
 
+/// The first layer reaches from the phreatic line to its depth.
 double thinnest_of(const std::vector<LayerRequest>& layers) {
     double thinnest = std::numeric_limits<double>::infinity();
     for (const LayerRequest& each : layers)
@@ -28,6 +32,7 @@ double thinnest_of(const std::vector<LayerRequest>& layers) {
     return thinnest;
 }
 
+/// `share`: of the usual cell size, see with_sound_cells().
 Document made(const Section& section, const Request& request, double share) {
     Document document =
         document_of(scene_name(request), request.materials, section.soils, section.lines, share);
@@ -126,6 +131,8 @@ bool can_be_shaken(Section& section, Notes& notes) {
     return true;
 }
 
+/// A scene without /lem is better than none: it is left out where the search that was guessed is
+/// at fault and there is no water to lose.
 void write_scene(const Section& section, Notes& notes) {
     const Request& request = notes.request;
     auto [document, read] = with_sound_cells(section, request);

@@ -18,6 +18,7 @@ namespace {
 /// document.cpp rounds to a micrometre.
 constexpr double same_place = 1e-6;  // m: rounding of a scene's vertices
 
+/// PM4Sand replaces frictional soil that drains; undrained strengths stay as they are.
 bool is_drained(const json& material) {
     const json& law = material.at("law");
     return law.at("type") == "mohr_coulomb" && !material.contains("strength") &&
@@ -135,6 +136,7 @@ std::pair<earthquake::Soil, std::string> like(const std::string& material,
     return {earthquake::foundation, "foundation of \"breach new\": it lies below the toe"};
 }
 
+/// What the user gives replaces what "breach new" assumes for such a soil.
 earthquake::Soil with_given(earthquake::Soil soil, const json& own) {
     const json& law = own.at("law");
     const json strength = own.value("limit_strength", law);

@@ -1,3 +1,6 @@
+// Sorts outlines by the meaning of their layers. Layers come in the order of the drawing, as
+// regions are numbered and healed in it. Called once by import_section(), after the drawing was
+// read; the outlines are moved, not copied.
 #include <algorithm>
 #include <cmath>
 
@@ -38,6 +41,8 @@ void take_areas(std::vector<Outline> areas, std::vector<Outline>& whole, double 
     }
 }
 
+/// Open outlines are kept as soils, too: the picture of the faults shows them. Names are unique in
+/// the scene, also where two layers differ only in characters that names cannot have.
 std::vector<Soil> soils_of(const std::vector<Outline>& outlines, const std::string& layer,
                            const std::string& material, std::set<std::string>& names,
                            Notes& notes) {
@@ -62,6 +67,7 @@ std::vector<Soil> soils_of(const std::vector<Outline>& outlines, const std::stri
 
 }  // namespace
 
+/// Each run of other characters becomes one "_", none at either end.
 std::string as_name(const std::string& text, const std::string& otherwise) {
     std::string name;
     for (const char each : text) {
