@@ -73,6 +73,7 @@ std::vector<double> scaled(const json& numbers, double unit) {
 
 Pace pace_of(const json& test) { return {.step = test.at("step"), .every = test.at("every")}; }
 
+/// The test is complete: the schema gave defaults, check_norsand_tests() gave S.
 TestPlan plan_of(const std::string& name, const json& test, const json& law) {
     TestPlan plan{name,
                   {.boundary = words::word_at<Boundary>(test, "boundary"),
@@ -114,10 +115,13 @@ norsand::Ready ready_for(const NorSandLaw& law, const Consolidation& consolidati
     return norsand::ready(parameters);
 }
 
+/// Of sigma_v and twice K0 sigma_v.
 double mean_stress(const Consolidation& at, double sigma_v) {
     return (1.0 + 2.0 * at.K0) / 3.0 * sigma_v;
 }
 
+/// The void ratio as given, or from psi_0 at this confinement: tests at several confinements then
+/// begin at several void ratios.
 norsand::Beginning begin(const norsand::Ready& law, const Consolidation& at, double sigma_v) {
     const scene::NorSandStart& start = at.norsand->start;
     const double p = mean_stress(at, sigma_v);
@@ -125,6 +129,7 @@ norsand::Beginning begin(const norsand::Ready& law, const Consolidation& at, dou
     return norsand::initialise(law, initial_stress(at, sigma_v), e_0, start.R);
 }
 
+/// Enough where repetitions follow each other.
 void add_name(std::string& names, const std::string& name) {
     if (names.ends_with(name)) return;
     names += (names.empty() ? "" : ", ") + name;
@@ -259,6 +264,7 @@ void check_tests(const json& document, std::vector<Fault>& faults) {
     }
 }
 
+/// Measured curves come first, then targets of the reference soil, which have no N.
 CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
     CalibrationProblem problem{.start = start.parameters,
                                .reference = {},
@@ -409,6 +415,8 @@ void check_what_it_is(const json& document, std::vector<Fault>& faults) {
     }
 }
 
+/// Completes before it checks: PM4Sand's defaults and the points of files are checked like given
+/// ones.
 void complete_law_and_tests(json& document, const std::filesystem::path& folder,
                             std::vector<Fault>& faults) {
     complete_sand(document.at("law"), "/law", faults);
@@ -426,6 +434,8 @@ void complete_law_and_tests(json& document, const std::filesystem::path& folder,
 
 }  // namespace
 
+/// Faults are thrown stage by stage (overrides and schema, kind of document, contents), as each
+/// stage relies on the one before.
 scene::Scene read_document(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides) {
     std::ifstream stream(file, std::ios::binary);
@@ -458,6 +468,7 @@ scene::Scene read_document(const std::filesystem::path& file,
     return scene;
 }
 
+/// Only for documents with a law: NorSand's calibration has norsand_problem_of() instead.
 Bench bench_of(const scene::Scene& scene) {
     const json document = json::parse(scene.completed);
     Bench bench{law_of(document.at("law")), {}, std::nullopt};

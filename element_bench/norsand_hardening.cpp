@@ -23,6 +23,7 @@ std::vector<std::optional<TriaxialCurve>> curves(const NorSandProblem& problem,
     return out;
 }
 
+/// Places on an axis of the root of strain: the beginning of a curve, where it bends, counts more.
 Deviation deviation_of(const TriaxialTest& test, const TriaxialCurve& curve) {
     const TriaxialCurve& seen = test.measured;
     const auto n = seen.q.size();
@@ -70,6 +71,8 @@ std::vector<Eigen::MatrixXd> jacobians(const At& at, const Eigen::VectorXd& x,
 
 }  // namespace
 
+/// Two nodes need three tests and a range of 0.03 in psi; else H_psi keeps its usual or given
+/// value.
 Hardening::Hardening(const NorSandProblem& problem, const Values& values) : problem_(problem) {
     using enum sought::Name;
     constexpr double least_range = 0.03;  // of psi_0
@@ -138,6 +141,7 @@ Eigen::VectorXd Hardening::nodes(const Values& values) const {
     return out;
 }
 
+/// Steps are limited to a factor e in H, and H to its bounds.
 Values Hardening::fitted(const Values& values, bool from_afar) const {
     using enum sought::Name;
     if (node_psi_.empty()) return values;

@@ -104,6 +104,7 @@ Values TestReadings::start() const {
     return corrected(values, {});
 }
 
+/// So that lines through measured and computed readings rest on the same tests.
 Readings TestReadings::comparable(const Readings& of_law) const {
     Readings out = measured;
     for (std::size_t i = 0; i < of_law.size(); ++i)

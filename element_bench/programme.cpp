@@ -129,6 +129,7 @@ class Test {
 
 }  // namespace
 
+/// Steps are equal and end on the target: about pace.step each.
 Record monotonic(const Specimen& start, Boundary boundary, double target, const Pace& pace) {
     Test test(start, boundary, pace);
     const double way = target - driven_strain(start, boundary);
@@ -153,6 +154,7 @@ namespace {
 
 /// The step in (0, d] with the response `target`, by the Illinois method. Every trial starts from
 /// the same specimen.
+/// Illinois halves the old end's value: plain false position would keep one end throughout.
 Trial step_onto(Test& test, Boundary boundary, double d, double target, double tolerance) {
     double a = 0.0, fa = test.answer() - target;
     double b = d;
@@ -177,6 +179,8 @@ Trial step_onto(Test& test, Boundary boundary, double d, double target, double t
 
 }  // namespace
 
+/// Strain is driven until the response passes the target; that step is repeated to end on it
+/// (step_onto), and the direction turns.
 CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const CyclicStress& load,
                            const Limit& limit, const Pace& pace) {
     CyclicResult result;

@@ -47,6 +47,7 @@ json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
             {"stalled", counts.stalled}};
 }
 
+/// Laws without memory have no such counts: zeros of PM4Sand's names stand there.
 json cost_of(const Record& record) {
     if (norsand_in(record.last)) return numbers_of(record.counts.norsand, record.calls);
     return numbers_of(record.counts.sand, record.calls);
@@ -101,6 +102,7 @@ void store_memory(Results& results, const std::string& curve, const Record& reco
 }
 
 /// Response at the critical state of constant volume, in closed form [Pa].
+/// To compare an undrained test with: its volume, and so its critical pressure, are constant.
 double critical_response(const NorSandPoint& point, Boundary boundary) {
     const norsand::Ready& law = point.law;
     const double p_c = norsand::critical_pressure(law, point.state.e);
@@ -148,6 +150,7 @@ void store(Results& results, const std::string& curve, const Record& record) {
 }
 
 /// Null if the limit was not reached.
+/// The programme counts -1 for "never".
 json reached(double N) { return N >= 0.0 ? json(N) : json(nullptr); }
 
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,

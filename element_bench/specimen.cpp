@@ -90,6 +90,7 @@ Voigt increment(Boundary boundary, double d, double free) {
 }
 
 /// Index of the stress that is constant and whose strain is free, or -1.
+/// Shear tests hold the vertical stress (yy), compression and extension the lateral one (xx).
 int held_component(Boundary boundary) {
     if (!is_drained(boundary)) return -1;
     return drives(boundary) == Drives::shear ? 1 : 0;
@@ -161,6 +162,7 @@ Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
     return trial;
 }
 
+/// 0 for undrained boundaries, which hold a volume and no stress.
 double held_stress(const Specimen& specimen, Boundary boundary) {
     const int component = held_component(boundary);
     return component < 0 ? 0.0 : stress(specimen)[component];

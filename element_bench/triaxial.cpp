@@ -31,6 +31,7 @@ double excess_pressure(const TriaxialTest& test, double q, double p) {
 namespace {
 
 /// Linear interpolation in an ascending table; constant beyond its ends.
+/// Rows of the law's path ascend, as its strain is driven in equal steps.
 double between(std::span<const double> xs, std::span<const double> ys, double x) {
     const auto next = std::upper_bound(xs.begin(), xs.end(), x) - xs.begin();
     if (next == 0) return ys.front();
@@ -45,6 +46,7 @@ struct Smoothed {
 };
 
 /// Value at `x` of the least-squares parabola (degree 2) or line through the points.
+/// Abscissae are centred and scaled to their range, for the condition of the fit.
 Smoothed smoothed(std::span<const double> xs, std::span<const double> ys, double x, int degree) {
     const auto n = static_cast<Eigen::Index>(xs.size());
     Eigen::MatrixXd A(n, degree + 1);

@@ -152,6 +152,7 @@ void Reader::check_row(std::size_t line) {
     }
 }
 
+/// Empty after a fault. Remarks (#), blank lines and rows of empty cells are skipped.
 json Reader::columns(std::istream& stream) {
     constexpr std::size_t least_rows = 20, most_rows = 20000, longest = 4096;
     std::string text;

@@ -22,6 +22,7 @@ std::string percent_of(const json& share) {
     return text;
 }
 
+/// A ladder may change several entries at once.
 std::string setting_of(const json& row) {
     std::string words;
     for (const json& each : row.at("setting")) words += (words.empty() ? "" : "  ") + cell(each);
@@ -51,6 +52,7 @@ std::string of_mean(const json& row, const char* key) {
     return mean.is_object() ? cell(mean, key) : "-";
 }
 
+/// The unit "1" marks quantities without one.
 std::string title_of(const json& answer) {
     std::string title = cell(answer, "quantity");
     if (answer.at("time").is_number()) title += " at " + cell(answer, "time") + " s";
@@ -58,6 +60,7 @@ std::string title_of(const json& answer) {
     return title;
 }
 
+/// Only the marks that occur.
 std::string legend_of(const json& answer) {
     std::string legend;
     const auto any = [&](const char* key) {

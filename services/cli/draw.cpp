@@ -57,6 +57,7 @@ std::optional<estimate::MeshCounts> counts_of(const std::optional<drawing::Drawn
                                 static_cast<double>(mesh->nodes.size())};
 }
 
+/// In the form of the server's answer, so that both are shown by the same code.
 json warnings_of(const drawing::Draft& draft) {
     json list = json::array();
     for (const fault::Flag& each : draft.scene.warnings)
@@ -90,6 +91,7 @@ Preview preview_of(Server& server, const json& document, const drawing::Draft& d
 
 }  // namespace
 
+/// A scene alone is checked as if in a study, but its faults keep the scene's own pointers.
 ExitCode draw(Server& server, const DrawOptions& options, const Console& console) {
     const bool is_study = names_a_scene(options.document);
     const json study = study_of(options, is_study);

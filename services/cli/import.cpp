@@ -40,6 +40,7 @@ std::string bytes_of(const std::filesystem::path& file) {
     return bytes;
 }
 
+/// Only the name goes along, not the path: it appears in messages and in the scene's name.
 std::optional<importing::Sent> sent(const std::filesystem::path& file) {
     if (file.empty()) return std::nullopt;
     return importing::Sent{file.filename().string(), bytes_of(file)};
@@ -73,6 +74,7 @@ Files beside(const std::filesystem::path& scene, importing::Imported& imported) 
 
 }  // namespace
 
+/// Nothing is written while there are faults, except the picture that shows them.
 ExitCode import_drawing(const ImportOptions& options, const Console& console) {
     importing::Request asked{
         .drawing = *sent(options.drawing),

@@ -16,6 +16,8 @@ using nlohmann::json;
 
 namespace {
 
+/// Read and scaled by the same code as a scene's motion (core/check), so that the measures are
+/// those of the run.
 motion::Recording acceleration_in(const std::filesystem::path& file, const MotionOptions& options) {
     motion::Recording motion =
         check::applied_motion({.file = file,
@@ -42,6 +44,7 @@ bool tell_warnings(const std::filesystem::path& file, motion::Recording motion,
     return !fault::is_questionable(flags);
 }
 
+/// One record: its measures, then its response spectrum.
 std::string as_text(const json& all) {
     const std::vector<Cells> rows{
         {"PGA", cell(all, "pga_g"), "g"},
@@ -59,6 +62,7 @@ std::string as_text(const json& all) {
     return text + "\n" + as_table({{"period s", right}, {"5 % S_a m/s2", right}}, spectrum);
 }
 
+/// A record and the measures of motion::as_json().
 struct Measured {
     std::filesystem::path file;
     json measures;
@@ -134,6 +138,7 @@ json study_of(const std::vector<Measured>& records, const MotionOptions& options
                {"pick", "midpoint"}}}}};
 }
 
+/// Several records: a line each, without spectra.
 std::string as_text(const std::vector<Measured>& records) {
     std::vector<Cells> rows;
     for (const auto& [file, all] : records)
@@ -151,12 +156,14 @@ std::string as_text(const std::vector<Measured>& records) {
                     rows);
 }
 
+/// A correlation with its bounds; "-" where the server gives none.
 std::string interval(const json& found) {
     return found.is_null() ? "-"
                            : cell(found, "value") + " (" + cell(found, "low") + " to " +
                                  cell(found, "high") + ")";
 }
 
+/// Sentences first: they are the answer, the table is their evidence.
 std::string found_as_text(const json& found) {
     std::string text;
     for (const json& each : found.at("sentences")) text += harmless(each.get<std::string>()) + "\n";
@@ -177,6 +184,8 @@ std::string found_as_text(const json& found) {
 
 }  // namespace
 
+/// Three uses by what was named: a run, a folder, one record. Only the first asks the server. A
+/// record that no earthquake can have is shown, and the exit code refuses it.
 fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console) {
     const auto show = [&](const json& answer, const auto& text) {
         if (!shown_as_json(answer, console)) console.out << text();

@@ -22,10 +22,12 @@ std::string flag_of(std::string name) {
     return "--" + name;
 }
 
+/// The unit "1" marks numbers without one.
 std::string with_unit(double value, const Option& option) {
     return words::text_of(value, 5) + (option.unit == "1" ? "" : " " + option.unit);
 }
 
+/// Range and default come from the template, so that help and faults agree.
 std::string help_of(const Option& option) {
     if (option.kind == Kind::yes_or_no)
         return option.help + " (default " + (option.value > 0.5 ? "yes" : "no") + ")";
@@ -41,6 +43,7 @@ json value_of(const std::string& text) {
     return value.is_number() ? value : json(text);
 }
 
+/// A yes-or-no option has two flags. The one that repeats the default is accepted and not listed.
 void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
     const std::string flag = flag_of(option.name);
     if (option.kind == Kind::yes_or_no) {
@@ -97,6 +100,7 @@ templates::Made made_of(const NewOptions& chosen, const json& options) {
 
 }  // namespace
 
+/// All at once, before the first file is written.
 void refuse_to_overwrite(const Files& files, const std::string& command) {
     std::vector<fault::Fault> faults;
     for (const auto& [path, text] : files)
@@ -130,6 +134,7 @@ void take_templates(CLI::App& word, NewOptions& chosen) {
     }
 }
 
+/// Without a template it lists them, so that `breach new` alone is a beginning.
 ExitCode make_new(const NewOptions& chosen, const Console& console) {
     if (chosen.made_from.empty()) {
         list_templates(console);

@@ -31,6 +31,7 @@ std::string marked(const json& value, const json& statistics) {
     return (bound.is_number() && value.is_number() && value >= bound ? ">= " : "") + cell(value);
 }
 
+/// The server may refuse percentiles; its reason stands where they would.
 std::string percentile_table(const std::string& name, const json& statistics) {
     const bool moves = statistics.value("bound_from", json()).is_number();
     std::vector<Cells> rows{{"mean", (moves ? ">= " : "") + cell(statistics, "mean"), ""},
@@ -56,6 +57,8 @@ std::string bar_of(const json& tornado, const json& parameter) {
     return "-";
 }
 
+/// One row per parameter and one column per measure of its influence, each with its interval; the
+/// sentence below says of which model p10 and p90 are.
 std::string importance_table(const json& statistics) {
     std::vector<Cells> rows;
     const json& tornado = statistics.at("tornado");
@@ -75,6 +78,7 @@ std::string importance_table(const json& statistics) {
     return text;
 }
 
+/// Samples without a result, and why.
 std::string left_out(const json& samples) {
     std::string text;
     for (const json& each : samples.at("left_out"))
@@ -83,6 +87,7 @@ std::string left_out(const json& samples) {
     return text.empty() ? text : text + "\n";
 }
 
+/// The values that the study tried, with the result of each.
 std::string inverse_table(const json& inverse) {
     if (!inverse.is_object()) return "";
     std::vector<Cells> rows;

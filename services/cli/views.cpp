@@ -35,6 +35,7 @@ std::string tasks_of(const json& run) {
     return text;
 }
 
+/// bar() knows how to round; the picture is cut off.
 std::string percent(const json& object) {
     const std::string text = bar(object.value("progress", 0.0));
     return text.substr(text.find(']') + 1);
@@ -85,6 +86,7 @@ std::string note_of(const json& task) {
     return note;
 }
 
+/// What a reader must know about a success comes before it.
 std::string state_shown(const json& task) {
     if (is_yes(task, "not_reached")) return "not_reached";
     return is_yes(task, "questionable") ? "questionable" : cell(task, "state");

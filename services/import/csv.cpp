@@ -92,6 +92,8 @@ std::string listed(const std::vector<std::string>& header,
     return as_utf8(std::string_view(all).substr(0, 60));
 }
 
+/// Reads line by line: the header first (columns_), then vertices. An outline is open (begun_)
+/// from its first vertex to finish(). Stops at a header that is ambiguous, and at 100 faults.
 class CsvReader {
   public:
     CsvReader(const LayerMap& layers, const std::optional<Unit>& asked, const std::string& alone)
@@ -112,6 +114,7 @@ class CsvReader {
     }
 
   private:
+    /// At the line that is being read.
     void refuse(std::string cause, std::string remedy) {
         drawing_.faults.push_back({at_line(line_), std::move(cause), std::move(remedy)});
         stopped_ = drawing_.faults.size() >= 100;
@@ -164,6 +167,8 @@ class CsvReader {
         stopped_ = true;
     }
 
+    /// Both columns name one unit, or none does. A unit asked for must agree, instead of
+    /// overruling the header in silence.
     void take_unit(const Title& x, const Title& y) {
         if (x.unit.empty() && y.unit.empty()) return;
         const auto stop = [&](std::string cause, std::string remedy) {
@@ -216,6 +221,8 @@ class CsvReader {
         return false;
     }
 
+    /// Checks the number of fields before their values, as a decimal comma between commas shifts
+    /// all that follow.
     void take_vertex(const std::vector<std::string>& fields) {
         if (!fits_header(fields)) return;
         std::string layer = alone_;

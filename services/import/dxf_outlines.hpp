@@ -2,8 +2,10 @@
 // open while its VERTEX records follow, and any other record ends it.
 #pragma once
 
+#include <optional>
+
 #include "services/import/arcs.hpp"
-#include "services/import/dxf.hpp"
+#include "services/import/drawing.hpp"
 #include "services/import/dxf_records.hpp"
 
 namespace breach::importing {

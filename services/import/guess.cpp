@@ -138,6 +138,7 @@ Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground) {
     return {entry, exit};
 }
 
+/// Round numbers, as a user would choose them.
 double element_size_for(double height) {
     const double wanted = std::max(height, 0.01) / 15.0;
     const double power = std::pow(10.0, std::floor(std::log10(wanted)));

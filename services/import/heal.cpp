@@ -158,7 +158,7 @@ bool is_within(const Polygon& ring, const Vec2& place) {
     return true;
 }
 
-/// Several edges may meet one node; each pair of outlines is told once per place. A vertex that
+/// Several edges may meet one node; each pair of outlines is listed once per place. A vertex that
 /// fits exactly is no change.
 void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
                    std::vector<Change>& changes) {

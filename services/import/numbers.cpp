@@ -55,6 +55,7 @@ std::optional<Unit> unit_named(const std::string& name) {
 
 std::string unit_names() { return words::list_of(units, &Known::name); }
 
+/// Codes of the DXF Reference, $INSUNITS.
 std::optional<Unit> unit_of_code(int code) {
     for (const Known& each : units)
         if (code == each.code) return Unit{each.name, each.metres};

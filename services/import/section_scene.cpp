@@ -1,6 +1,6 @@
 // Makes a scene of the healed section and runs the scene's own check on it. Faults of
 // regions are moved back to lines of the drawing, where the user can correct them. Called by fit()
-// in import.cpp after all healing; only give_up() replaces what is written here.
+// in steps.cpp after all healing; only give_up() replaces what is written here.
 
 #include <algorithm>
 #include <filesystem>

@@ -43,6 +43,7 @@ void check_slope(const std::optional<Slope>& slope, std::vector<Fault>& faults) 
                           "mirror the drawing: give -x for x"});
 }
 
+/// Only layers can liquefy, so that a section without any would shake for nothing.
 void check_layers(const std::vector<Soil>& soils, const Lines& lines, const json& materials,
                   std::vector<Fault>& faults) {
     if (lines.phreatic.empty()) {
@@ -108,6 +109,7 @@ void check_side(const std::vector<Soil>& soils, double x, const std::string& sid
 
 // ------------------------------------------------------------ materials
 
+/// All materials of the scene, and which become another one in the runout.
 struct Completed {
     json materials;
     std::map<std::string, std::string> runouts;

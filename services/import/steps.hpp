@@ -1,5 +1,5 @@
 // Inside services/import only: the steps of an import in their order, and what they hand on. Every
-// step adds its faults and remarks to the notes; import.cpp decides whether the next one follows.
+// step adds its faults and remarks to the notes; steps.cpp decides whether the next one follows.
 #pragma once
 
 #include "services/import/depth_layers.hpp"

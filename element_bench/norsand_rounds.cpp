@@ -2,7 +2,6 @@
 // tests were read, and correct the other values by the difference. Ends when no value moves any
 // more, or after 25 rounds with a flag. Called by norsand_run.cpp. The values belong to calibrate()
 // alone; TestReadings and Hardening do not change.
-#include "element_bench/norsand_calibration.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -2,7 +2,7 @@
 // lines, heal, divide into depth layers, write the scene. A step that fails ends the import where
 // later faults would mislead. Called by `breach import` and by POST of the dashboard with bytes; it
 // writes no file. Healing and layers are in fit(), the scene in section_scene.cpp.
-#include "services/import/import.hpp"
+#include "services/import/steps.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,6 @@
 #include "services/import/dxf_records.hpp"
 #include "services/import/guess.hpp"
 #include "services/import/shake.hpp"
-#include "services/import/steps.hpp"
 
 namespace breach::importing {
 
