@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/import/hatch.hpp"
+#include "services/import/numbers.hpp"
 
 namespace breach::importing {
 
