@@ -1,3 +1,6 @@
+// Finds PM4Sand's free parameters for run.cpp's run_calibration(). Each evaluation simulates whole tests, and there are no derivatives: the search samples
+// the box of the bounds first, descends from the three best samples, and ends with new simplices
+// around the best. Everything is deterministic: the same document gives the same parameters.
 #include "element_bench/calibration.hpp"
 
 #include <algorithm>
@@ -27,6 +30,8 @@ constexpr Named named[] = {
     {"R", &SandParameters::R},         {"phi_cv", &SandParameters::phi_cv},
 };
 
+/// A specimen at rest, consolidated to sigma_v [Pa, compression positive] at K0; the law counts
+/// tension positive.
 Specimen specimen(const SandParameters& parameters, const pm4sand::Options& options, double sigma_v,
                   double K0) {
     const pm4sand::Ready law = pm4sand::ready(parameters);
@@ -34,6 +39,7 @@ Specimen specimen(const SandParameters& parameters, const pm4sand::Options& opti
     return {SandPoint{law, options, pm4sand::initialise(law, sigma, 0.0, options.scheme)}};
 }
 
+/// For names of terms: whole kilopascals.
 std::string kPa(double stress) { return std::to_string(std::lround(stress / 1e3)) + " kPa"; }
 
 std::string two_digits(double number) {
@@ -91,6 +97,7 @@ Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(proble
     }
 }
 
+/// A soil that does not reach the strain counts as most_cycles: the misfit stays finite.
 double Calibration::cycles(const SandParameters& parameters, const CyclicTarget& target) const {
     const CyclicResult result =
         cyclic_stress(specimen(parameters, problem_.options, target.sigma_v, target.K0),
@@ -100,6 +107,8 @@ double Calibration::cycles(const SandParameters& parameters, const CyclicTarget&
     return result.N_strain > 0.0 ? result.N_strain : problem_.most_cycles;
 }
 
+/// Logarithmic deviations, so that half and double the strength weigh the same. The floor of 1 Pa
+/// keeps the logarithm finite for a soil that lost its strength.
 std::vector<Term> Calibration::strength_terms(const SandParameters& parameters) const {
     std::vector<Term> terms;
     for (const StrengthTarget& target : problem_.strength) {
@@ -115,6 +124,7 @@ std::vector<Term> Calibration::strength_terms(const SandParameters& parameters) 
     return terms;
 }
 
+/// A ratio of cycles becomes a ratio of stress: curves are flat, and a factor of two in N is about 13 % in CSR at the usual slope.
 std::vector<Term> Calibration::cyclic_terms(const SandParameters& parameters) const {
     std::vector<Term> terms;
     for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
@@ -137,6 +147,8 @@ SandParameters Calibration::with(const std::vector<double>& values) const {
     return parameters;
 }
 
+/// The start values may lie outside the bounds of a document; the search begins at the nearest
+/// allowed ones.
 std::vector<double> Calibration::start() const {
     SandParameters parameters = problem_.start;
     std::vector<double> values;
@@ -157,6 +169,7 @@ Fit Calibration::evaluate(const std::vector<double>& values) const {
 
 namespace {
 
+/// A sample of the search, before any descent.
 struct Start {
     std::vector<double> x;  ///< logarithms of the parameters
     double misfit;
@@ -179,6 +192,7 @@ std::vector<double> spread_point(int k, const std::vector<FreeParameter>& free) 
     return x;
 }
 
+/// Logarithms of the free parameters: steps are relative, and values stay positive.
 using Place = std::vector<double>;
 
 /// Nelder-Mead with edges `size` around `start`, until all corners are within `least_size` of the
@@ -206,6 +220,7 @@ CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen) {
     const auto& free = calibration.problem().free;
     CalibrationResult result{};
+    // The simplex may leave the box; its corners are evaluated at the nearest allowed values.
     const auto values_at = [&](const std::vector<double>& x) {
         std::vector<double> values(x.size());
         for (std::size_t i = 0; i < x.size(); ++i) {
@@ -213,6 +228,7 @@ CalibrationResult calibrate(const Calibration& calibration,
         }
         return values;
     };
+    // Every evaluation passes here: counts it, keeps the best, and reports it to `seen`.
     const auto fit_at = [&](const std::vector<double>& x) {
         Fit fit = calibration.evaluate(values_at(x));
         ++result.evaluations;

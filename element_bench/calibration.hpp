@@ -100,7 +100,7 @@ struct CalibrationResult {
     SandParameters parameters;
 };
 
-/// Damped Gauss-Newton in the logarithms of the parameters, then Nelder-Mead around its result.
+/// Samples the box of the bounds in logarithms, then Nelder-Mead from the best samples and around the best result.
 /// Calls `seen` after each evaluation, if not empty.
 CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen = {});

@@ -1,3 +1,7 @@
+// Reads an element-test document: the schema completes it, this file checks what a schema cannot
+// express, and converts kilopascals and degrees. Faults are collected, so that one pass shows all.
+// run.cpp calls read_document() before the plan, and bench_of() in plan and run: a document that
+// was read is complete, so that .at() needs no defaults here.
 #include "element_bench/document.hpp"
 
 #include <algorithm>
@@ -11,6 +15,7 @@
 
 #include "core/scene/sand.hpp"
 #include "core/scene/schema.hpp"
+#include "core/words/list.hpp"
 #include "element_bench/norsand_document.hpp"
 
 namespace breach::element_bench {
@@ -27,18 +32,21 @@ constexpr double degree = std::numbers::pi / 180.0;
 SandLaw sand_of(const json& law) { return {scene::sand_parameters(law), scene::sand_options(law)}; }
 
 /// Completes a PM4Sand entry and reports contradictions.
+/// The schema gives each of e_max and e_min a range, but not their order.
 void complete_sand(json& law, const std::string& pointer, std::vector<Fault>& faults) {
     scene::complete_sand(law);
     if (law.value("type", "") != "pm4sand" || law.at("e_max") > law.at("e_min")) return;
     faults.push_back({pointer + "/e_max", "is not above e_min", "give e_max > e_min"});
 }
 
+/// Associated flow (psi = phi) dissipates no friction work; more would create energy.
 void check_dilatancy(const json& law, std::vector<Fault>& faults) {
     if (!law.contains("psi_deg") || law.at("psi_deg") <= law.at("phi_deg")) return;
     faults.push_back({"/law/psi_deg", "is above phi_deg",
                       "such a soil would create energy; give psi_deg <= phi_deg"});
 }
 
+/// E in MPa, strengths in kPa, angles in degrees: converted here only.
 TestLaw law_of(const json& law) {
     const std::string type = law.at("type");
     if (type == "pm4sand") return sand_of(law);
@@ -65,6 +73,7 @@ std::vector<double> scaled(const json& numbers, double unit) {
 
 Pace pace_of(const json& test) { return {.step = test.at("step"), .every = test.at("every")}; }
 
+/// The test is complete: the schema gave defaults, check_norsand_tests() gave S.
 TestPlan plan_of(const std::string& name, const json& test, const json& law) {
     TestPlan plan{name,
                   {.boundary = words::word_at<Boundary>(test, "boundary"),
@@ -99,16 +108,20 @@ Voigt initial_stress(const Consolidation& at, double sigma_v) {
     return {-sigma_h, -sigma_v, -sigma_h, at.static_shear * sigma_v};
 }
 
+/// S belongs to the test, not to the law: drained and undrained tests of one soil differ in it.
 norsand::Ready ready_for(const NorSandLaw& law, const Consolidation& consolidation) {
     norsand::Parameters parameters = law.parameters;
     parameters.S = consolidation.norsand->S;
     return norsand::ready(parameters);
 }
 
+/// Of sigma_v and twice K0 sigma_v.
 double mean_stress(const Consolidation& at, double sigma_v) {
     return (1.0 + 2.0 * at.K0) / 3.0 * sigma_v;
 }
 
+/// The void ratio as given, or from psi_0 at this confinement: tests at several confinements then
+/// begin at several void ratios.
 norsand::Beginning begin(const norsand::Ready& law, const Consolidation& at, double sigma_v) {
     const scene::NorSandStart& start = at.norsand->start;
     const double p = mean_stress(at, sigma_v);
@@ -116,6 +129,7 @@ norsand::Beginning begin(const norsand::Ready& law, const Consolidation& at, dou
     return norsand::initialise(law, initial_stress(at, sigma_v), e_0, start.R);
 }
 
+/// Enough where repetitions follow each other.
 void add_name(std::string& names, const std::string& name) {
     if (names.ends_with(name)) return;
     names += (names.empty() ? "" : ", ") + name;
@@ -250,6 +264,7 @@ void check_tests(const json& document, std::vector<Fault>& faults) {
     }
 }
 
+/// Measured curves come first, then targets of the reference soil, which have no N.
 CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
     CalibrationProblem problem{.start = start.parameters,
                                .reference = {},
@@ -377,9 +392,8 @@ void check_calibration(const json& document, std::vector<Fault>& faults) {
     for (const auto& [name, bound] : document.at("calibration").at("free").items()) {
         const std::string pointer = "/calibration/free/" + name;
         if (std::find(names.begin(), names.end(), name) == names.end()) {
-            std::string known;
-            for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
-            faults.push_back({pointer, "is not a parameter that can be free", "use " + known});
+            faults.push_back(
+                {pointer, "is not a parameter that can be free", "use " + words::list_of(names)});
         }
         if (bound.at("least") >= bound.at("most")) {
             faults.push_back({pointer, "has least >= most", "give least < most"});
@@ -401,6 +415,8 @@ void check_what_it_is(const json& document, std::vector<Fault>& faults) {
     }
 }
 
+/// Completes before it checks: PM4Sand's defaults and the points of files are checked like given
+/// ones.
 void complete_law_and_tests(json& document, const std::filesystem::path& folder,
                             std::vector<Fault>& faults) {
     complete_sand(document.at("law"), "/law", faults);
@@ -418,6 +434,8 @@ void complete_law_and_tests(json& document, const std::filesystem::path& folder,
 
 }  // namespace
 
+/// Faults are thrown stage by stage (overrides and schema, kind of document, contents), as each
+/// stage relies on the one before.
 scene::Scene read_document(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides) {
     std::ifstream stream(file, std::ios::binary);
@@ -450,6 +468,7 @@ scene::Scene read_document(const std::filesystem::path& file,
     return scene;
 }
 
+/// Only for documents with a law: NorSand's calibration has norsand_problem_of() instead.
 Bench bench_of(const scene::Scene& scene) {
     const json document = json::parse(scene.completed);
     Bench bench{law_of(document.at("law")), {}, std::nullopt};

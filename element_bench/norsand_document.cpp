@@ -1,3 +1,6 @@
+// Converts the entry `norsand_calibration`: kilopascals to pascals, engineering strains to
+// logarithmic ones, columns of a laboratory (u, p or the cell pressure) to p and q. Checks what one
+// row cannot show: where a test begins, how strong the soil is, whether a radial stress is left.
 #include "element_bench/norsand_document.hpp"
 
 #include <algorithm>
@@ -16,8 +19,11 @@ namespace {
 
 using Column = std::vector<double>;
 
+/// Compression positive: a specimen that shortens by `engineering` has the length 1 - engineering.
 double logarithmic(double engineering) { return -std::log1p(-engineering); }
 
+/// p from the radial stress and q, unless the file has it: sigma_3 = cell pressure - u, p =
+/// sigma_3 + q / 3. Without a column cell_kPa the cell pressure is that after consolidation.
 TriaxialTest test_of(const std::string& name, const json& entry, bool engineering) {
     TriaxialTest test{.name = name,
                       .boundary = words::word_at<Boundary>(entry, "boundary"),
@@ -106,6 +112,7 @@ void take_in_triaxial_files(json& entry, const std::filesystem::path& folder,
     }
 }
 
+/// A document of read_document() is complete, so that only `given` may lack keys.
 NorSandProblem norsand_problem_of(const json& entry) {
     NorSandProblem problem{.law = {}, .options = {.tolerance = 1e-4}, .tests = {}};
     norsand::Parameters& law = problem.law;

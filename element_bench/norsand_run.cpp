@@ -1,3 +1,6 @@
+// Runs NorSand's calibration for run.cpp and writes each test twice, measured and computed, so that
+// figures need no other file. The number of rounds is not known before: progress approaches 1 with
+// every round.
 #include "element_bench/norsand_run.hpp"
 
 #include <spdlog/spdlog.h>
@@ -22,6 +25,7 @@ const char* const entry_key = "norsand_calibration";
 
 json entry_of(const scene::Scene& scene) { return json::parse(scene.completed).at(entry_key); }
 
+/// Names "TEST.measured.q"; e and u are derived from the columns, as figures show them.
 void store(exchange::Archive& archive, const TriaxialTest& test, const std::string& kind,
            const TriaxialCurve& curve) {
     const auto add = [&](const char* column, const char* unit, std::vector<double> values) {
@@ -51,6 +55,7 @@ json as_json(const PeakReading& peak) {
             {"e", peak.e}};
 }
 
+/// Null where a test has no peak, or the law no curve.
 json as_json(const TriaxialTest& test, const TestFit& fit) {
     const EndReading& end = fit.measured.end;
     json out{{"boundary", words::name_of(test.boundary)},

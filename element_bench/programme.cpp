@@ -1,3 +1,7 @@
+// Drives a specimen through a test and records readings. `Test` holds the specimen and the record;
+// the functions below it decide the next strain. Run by run.cpp for the tests of a document, by
+// calibration.cpp for each evaluation of PM4Sand, and by triaxial.cpp for NorSand's curves. A law
+// that cannot follow ends the test early, with the readings so far.
 #include "element_bench/programme.hpp"
 
 #include <algorithm>
@@ -9,6 +13,8 @@ namespace breach::element_bench {
 
 namespace {
 
+/// A specimen in a test and its record. advance() moves the specimen; attempt() only tries, and
+/// the caller decides by the trial whether to accept it. Both count as calls of the law.
 class Test {
   public:
     Test(const Specimen& start, Boundary boundary, const Pace& pace)
@@ -24,6 +30,7 @@ class Test {
     const Specimen& specimen() const { return record_.last; }
     double strain() const { return driven_strain(record_.last, boundary_); }
     double answer() const { return response(record_.last, boundary_); }
+    /// By the vertical stress alone: at constant total stress, what it loses is excess pore pressure.
     double r_u() const {
         return sigma_yy_0_ != 0.0 ? 1.0 + stress(record_.last)[1] / sigma_yy_0_ : 0.0;
     }
@@ -79,6 +86,7 @@ class Test {
     }
     double peak() const { return record_.peak; }
 
+    /// Whether the pace asks for a reading after this many accepted calls.
     bool due() const { return pace_.every > 0 && accepted_ % pace_.every == 0; }
     void read(double cycles) {
         const Voigt sigma = stress(record_.last);
@@ -96,12 +104,14 @@ class Test {
             record_.readings.back().norsand = point->state;
         }
     }
+    /// The last state is always read, whether the pace asks for it or not.
     Record finish(double cycles) {
         if (!due()) read(cycles);
         return std::move(record_);
     }
 
   private:
+    /// Also called within refined steps: the peak is not bound to readings.
     void note_peak(const Specimen& specimen) {
         const double here = response(specimen, boundary_);
         if (!(here > record_.peak)) return;
@@ -119,11 +129,15 @@ class Test {
 
 }  // namespace
 
+/// Steps are equal and end on the target: about pace.step each.
 Record monotonic(const Specimen& start, Boundary boundary, double target, const Pace& pace) {
     Test test(start, boundary, pace);
     const double way = target - driven_strain(start, boundary);
     const long steps = std::max(1L, std::lround(std::abs(way) / pace.step));
     const double d = way / static_cast<double>(steps);
+    // A step can hide a peak: the response rises at its beginning and falls at its end. Its height
+    // is at most the initial slope times the step, so that only steps which could exceed the known
+    // peak are repeated in parts.
     double rise = test.rise(d);
     for (long i = 0; i < steps; ++i) {
         const Specimen before = test.specimen();
@@ -140,6 +154,7 @@ namespace {
 
 /// The step in (0, d] with the response `target`, by the Illinois method. Every trial starts from
 /// the same specimen.
+/// Illinois halves the old end's value: plain false position would keep one end throughout.
 Trial step_onto(Test& test, Boundary boundary, double d, double target, double tolerance) {
     double a = 0.0, fa = test.answer() - target;
     double b = d;
@@ -164,6 +179,8 @@ Trial step_onto(Test& test, Boundary boundary, double d, double target, double t
 
 }  // namespace
 
+/// Strain is driven until the response passes the target; that step is repeated to end on it
+/// (step_onto), and the direction turns.
 CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const CyclicStress& load,
                            const Limit& limit, const Pace& pace) {
     CyclicResult result;
@@ -213,6 +230,7 @@ Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude,
     Test test(start, boundary, pace);
     double from = driven_strain(start, boundary);
     double N = 0.0;
+    /// N counts quarters of a cycle by the way that the strain has gone.
     // Turning points: up after a quarter, down, up, ..., and back to the middle.
     for (int leg = 0; leg <= 2 * cycles; ++leg) {
         const double side = leg % 2 == 0 ? 1.0 : -1.0;
@@ -229,6 +247,7 @@ Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude,
     return test.finish(N);
 }
 
+/// Runs one cycle more than is read, as cyclic_strain() ends in the middle and not at a peak.
 Loop hysteresis(const Specimen& start, Boundary boundary, double amplitude, int cycles, int steps) {
     const Record record = cyclic_strain(start, boundary, amplitude, cycles + 1,
                                         {.step = amplitude / steps, .every = 1});

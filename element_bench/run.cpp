@@ -1,3 +1,7 @@
+// Runs the tests or the calibration of a document as a phase and writes result.json and
+// element_tests.h5. Stresses are pascals in curves and kilopascals in result.json, as people read
+// the latter. Called by main.cpp through process::run_phase; report and breachline.plot read the
+// curves by the names that label() builds.
 #include "element_bench/run.hpp"
 
 #include <spdlog/spdlog.h>
@@ -21,6 +25,7 @@ using process::Use;
 
 namespace {
 
+/// The cost of a law is part of the result: it shows whether steps were forced or stresses floored.
 json numbers_of(const materials::norsand::Counts& counts, long calls) {
     return {{"calls", calls},
             {"evaluations", counts.evaluations},
@@ -42,16 +47,20 @@ json numbers_of(const materials::pm4sand::Counts& counts, long calls) {
             {"stalled", counts.stalled}};
 }
 
+/// Laws without memory have no such counts: zeros of PM4Sand's names stand there.
 json cost_of(const Record& record) {
     if (norsand_in(record.last)) return numbers_of(record.counts.norsand, record.calls);
     return numbers_of(record.counts.sand, record.calls);
 }
 
+/// What the tests of a document have added so far.
 struct Results {
     json numbers = json::object();
     exchange::Archive curves = empty_archive();
 };
 
+/// "cu1_sv100kPa_csr0.2": test, confinement and, for cyclic strength, the stress ratio. Each
+/// curve's columns follow after a point.
 std::string label(const std::string& test, double sigma_v, const char* what = "",
                   double value = 0.0) {
     char text[64];
@@ -93,6 +102,7 @@ void store_memory(Results& results, const std::string& curve, const Record& reco
 }
 
 /// Response at the critical state of constant volume, in closed form [Pa].
+/// To compare an undrained test with: its volume, and so its critical pressure, are constant.
 double critical_response(const NorSandPoint& point, Boundary boundary) {
     const norsand::Ready& law = point.law;
     const double p_c = norsand::critical_pressure(law, point.state.e);
@@ -117,6 +127,8 @@ void add_memory(const Record& record, Boundary boundary, json& row) {
     }
 }
 
+/// One column per field of Reading; members as pointers, so that name, unit and value stand in one
+/// row.
 void store(Results& results, const std::string& curve, const Record& record) {
     const struct {
         const char* name;
@@ -138,6 +150,7 @@ void store(Results& results, const std::string& curve, const Record& record) {
 }
 
 /// Null if the limit was not reached.
+/// The programme counts -1 for "never".
 json reached(double N) { return N >= 0.0 ? json(N) : json(nullptr); }
 
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
@@ -190,6 +203,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
     store(results, label(plan.name, sigma_v), record);
 }
 
+/// An amplitude at which the specimen failed has a row with nulls, and no point on the curve.
 void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
               const ModulusReductionTest& test, Results& results) {
     const std::string curve = label(plan.name, sigma_v);
@@ -216,6 +230,7 @@ void run_test(const Specimen& specimen, const TestPlan& plan, double sigma_v,
     results.curves.reals[curve + ".damping"] = damping;
 }
 
+/// A stop between two confinements loses the tests so far.
 Outcome run_tests(Session& session) {
     const Bench bench = bench_of(session.scene());
     for (fault::Flag& each : warnings_of(bench)) session.flag(std::move(each));
@@ -270,6 +285,7 @@ json as_json(const Fit& fit, const CalibrationProblem& problem) {
     return {{"parameters", parameters}, {"misfit", fit.misfit}, {"terms", terms}};
 }
 
+/// The path has the misfit of every improvement, without its terms.
 Outcome run_calibration(Session& session) {
     if (seeks_norsand(session.scene())) return run_norsand_calibration(session);
     const Bench bench = bench_of(session.scene());
@@ -317,6 +333,7 @@ process::Plan calibration_plan(const scene::Scene& scene) {
     return plan;
 }
 
+/// A calibration's document has no law to test; the message names the other command.
 scene::Scene read_tests(const std::filesystem::path& file,
                         const std::vector<std::string>& overrides) {
     scene::Scene scene = read_document(file, overrides);

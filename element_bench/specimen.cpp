@@ -1,3 +1,6 @@
+// Strains one material point under the boundary conditions of laboratory tests. The laws count
+// tension positive; driven strains and epsilon_v count compression positive, as a laboratory does.
+// increment() and strained() change the signs of strains.
 #include "element_bench/specimen.hpp"
 
 #include <algorithm>
@@ -11,6 +14,8 @@ namespace pm4sand = materials::pm4sand;
 
 namespace {
 
+/// The three kinds of law differ in where they keep stress, stiffness and failure; these overloads
+/// are all that the bench needs of a law.
 Voigt stress_of(const PlainPoint& point) { return point.state.sigma; }
 Voigt stress_of(const SandPoint& point) { return pm4sand::stress(point.law, point.state); }
 Voigt stress_of(const NorSandPoint& point) { return norsand::stress(point.state); }
@@ -19,10 +24,12 @@ double shear_modulus_of(const PlainPoint& point) {
     return std::visit([](const auto& law) { return law.elasticity.shear_modulus(); }, point.law);
 }
 double shear_modulus_of(const SandPoint& point) { return point.state.G; }
+/// NorSand stores no modulus: it depends on the present pressure.
 double shear_modulus_of(const NorSandPoint& point) {
     return norsand::read(point.law, point.state).G;
 }
 
+/// These laws always return a state: a strain that is no number must not reach them.
 Ending strain_point(PlainPoint& point, const Voigt& d, Counts&) {
     if (!d.allFinite()) return Ending::failed;
     point.state =
@@ -83,6 +90,7 @@ Voigt increment(Boundary boundary, double d, double free) {
 }
 
 /// Index of the stress that is constant and whose strain is free, or -1.
+/// Shear tests hold the vertical stress (yy), compression and extension the lateral one (xx).
 int held_component(Boundary boundary) {
     if (!is_drained(boundary)) return -1;
     return drives(boundary) == Drives::shear ? 1 : 0;
@@ -138,6 +146,7 @@ double driven_strain(const Specimen& specimen, Boundary boundary) {
     return 0.0;
 }
 
+/// The specimen is copied: a failed trial leaves the caller with the state before it.
 Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
     Trial trial{specimen, Ending::done, {}};
     trial.outcome =
@@ -153,11 +162,14 @@ Trial strained(const Specimen& specimen, const Voigt& d_epsilon) {
     return trial;
 }
 
+/// 0 for undrained boundaries, which hold a volume and no stress.
 double held_stress(const Specimen& specimen, Boundary boundary) {
     const int component = held_component(boundary);
     return component < 0 ? 0.0 : stress(specimen)[component];
 }
 
+/// Half the stress difference, because it is the largest shear stress in the plane, and comparable
+/// with tau of simple shear.
 double response(const Specimen& specimen, Boundary boundary) {
     const Voigt sigma = stress(specimen);
     switch (drives(boundary)) {

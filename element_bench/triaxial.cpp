@@ -1,3 +1,7 @@
+// Reads triaxial curves, measured and computed ones by the same rules, so that a bias of the
+// reading is in both and cancels in the calibration. Readings of single rows would follow the
+// scatter of a laboratory: values and slopes come from lines (end) and parabolas (peak) through
+// many rows.
 #include "element_bench/triaxial.hpp"
 
 #include <Eigen/Dense>
@@ -10,13 +14,16 @@ namespace breach::element_bench {
 
 namespace norsand = materials::norsand;
 
+/// From p = (sigma_a + 2 K0 sigma_a) / 3.
 double axial_stress(const TriaxialTest& test) { return 3.0 * test.p_0 / (1.0 + 2.0 * test.K0); }
 double radial_stress(const TriaxialTest& test) { return test.K0 * axial_stress(test); }
 
+/// Logarithmic strain: (1 + e) / (1 + e_0) = exp(-epsilon_v).
 double void_ratio(const TriaxialTest& test, double epsilon_v) {
     return (1.0 + test.e_0) * std::exp(-epsilon_v) - 1.0;
 }
 
+/// At constant total radial stress, u is what the effective radial stress p - q/3 has lost.
 double excess_pressure(const TriaxialTest& test, double q, double p) {
     return radial_stress(test) + q / 3.0 - p;
 }
@@ -24,6 +31,7 @@ double excess_pressure(const TriaxialTest& test, double q, double p) {
 namespace {
 
 /// Linear interpolation in an ascending table; constant beyond its ends.
+/// Rows of the law's path ascend, as its strain is driven in equal steps.
 double between(std::span<const double> xs, std::span<const double> ys, double x) {
     const auto next = std::upper_bound(xs.begin(), xs.end(), x) - xs.begin();
     if (next == 0) return ys.front();
@@ -38,6 +46,7 @@ struct Smoothed {
 };
 
 /// Value at `x` of the least-squares parabola (degree 2) or line through the points.
+/// Abscissae are centred and scaled to their range, for the condition of the fit.
 Smoothed smoothed(std::span<const double> xs, std::span<const double> ys, double x, int degree) {
     const auto n = static_cast<Eigen::Index>(xs.size());
     Eigen::MatrixXd A(n, degree + 1);
@@ -53,6 +62,7 @@ Smoothed smoothed(std::span<const double> xs, std::span<const double> ys, double
 }
 
 /// d epsilon_v / d epsilon_q from the slope d epsilon_v / d epsilon_1.
+/// epsilon_q = epsilon_1 - epsilon_v / 3 in triaxial compression.
 double dilatancy(double slope) { return slope / (1.0 - slope / 3.0); }
 
 /// Rows [from, to) of a column.
@@ -72,6 +82,7 @@ std::vector<double> stress_ratios(const TriaxialCurve& curve) {
     return eta;
 }
 
+/// A window of 15 % of the strain, or of five rows in a sparse file.
 EndReading read_end(const TriaxialTest& test, const TriaxialCurve& curve,
                     const std::vector<double>& eta) {
     constexpr double window = 0.15;
@@ -129,6 +140,7 @@ Smoothed around(const std::vector<double>& strain, const std::vector<double>& co
                     strain[row], 2);
 }
 
+/// `row` must have a window_around() it: peak_row() returns only such rows.
 PeakReading read_peak(const TriaxialTest& test, const TriaxialCurve& curve,
                       const std::vector<double>& eta, std::size_t row) {
     const Window window = *window_around(curve.epsilon_1, row);
@@ -145,6 +157,9 @@ PeakReading read_peak(const TriaxialTest& test, const TriaxialCurve& curve,
 
 }  // namespace
 
+/// The law runs at a step of its own and is interpolated to the measured strains: rows of a
+/// laboratory can be too far apart for the law. A state that initialise() had to change (shrunk,
+/// raised) is not the test's, and so has no curve.
 std::optional<TriaxialCurve> computed(const TriaxialTest& test, const norsand::Ready& law,
                                       const norsand::Options& options, double step) {
     const double axial = axial_stress(test), radial = radial_stress(test);
@@ -171,6 +186,8 @@ std::optional<TriaxialCurve> computed(const TriaxialTest& test, const norsand::R
     return out;
 }
 
+/// A peak is one where the soil both dilates and later softens: in loose soil the largest ratio is
+/// at the end of the test, and would be read twice.
 std::optional<std::size_t> peak_row(const TriaxialTest& test) {
     constexpr double least_dilation = 0.02, least_softening = 0.005;  // of D, of eta
     if (!is_drained(test.boundary)) return std::nullopt;

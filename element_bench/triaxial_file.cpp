@@ -1,3 +1,5 @@
+// Checks every line of a laboratory's file while it reads: a wrong unit or sign would otherwise
+// become a plausible but wrong parameter. The first faulty line ends a file, as later faults would follow from it. Called by norsand_document.cpp for each test.
 #include "element_bench/triaxial_file.hpp"
 
 #include <algorithm>
@@ -18,6 +20,8 @@ namespace {
 
 constexpr std::array column_names{"epsilon_1", "q_kPa", "epsilon_v", "u_kPa", "p_kPa", "cell_kPa"};
 
+/// Commas, semicolons or tabs. Decimal commas are not read: they give a row with too many cells,
+/// which read_row() refuses.
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     for (const char c : line) {
@@ -49,6 +53,7 @@ class Reader {
     json columns(std::istream& stream);
 
   private:
+    /// Faults point to the document's entry and name the line of the file.
     void fault(std::size_t line, const std::string& what, const std::string& remedy) {
         sound_ = false;
         faults_.push_back(
@@ -69,6 +74,8 @@ class Reader {
     std::map<std::string, std::vector<double>> columns_;
 };
 
+/// Columns with other names are skipped. Undrained tests need a pressure: q alone gives no stress
+/// path.
 void Reader::read_names(const std::string& text, std::size_t line) {
     names_ = cells_of(text);
     for (const std::string& each : names_) {
@@ -145,6 +152,7 @@ void Reader::check_row(std::size_t line) {
     }
 }
 
+/// Empty after a fault. Remarks (#), blank lines and rows of empty cells are skipped.
 json Reader::columns(std::istream& stream) {
     constexpr std::size_t least_rows = 20, most_rows = 20000, longest = 4096;
     std::string text;

@@ -4,9 +4,9 @@
 #include <limits>
 #include <optional>
 
-#include "core/check/findings.hpp"
 #include "core/check/region_strengths.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 
 namespace breach::check {
 
@@ -70,7 +70,7 @@ std::optional<std::array<double, 2>> left_out(const scene::Scene& scene, std::si
 
 void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std::size_t r,
                     const RegionStrengths& region, const std::string& liquefies,
-                    Findings& findings) {
+                    Problems& problems) {
     std::string levels;
     constexpr double any = std::numeric_limits<double>::infinity();
     std::array<double, 2> range{-any, any};
@@ -80,7 +80,7 @@ void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std:
         range = *gap;
         levels = "\"levels\": [" + text((*gap)[0]) + ", " + text((*gap)[1]) + "], ";
     }
-    warn(findings, "layers_differ", "/lem/liquefaction",
+    warn(problems, "layers_differ", "/lem/liquefaction",
          (levels.empty() ? "has no layer of " + quoted(region.name())
                          : "leaves out a part of " + quoted(region.name())) +
              ", which liquefies in the runout (" + liquefies +
@@ -91,8 +91,8 @@ void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std:
 }
 
 void warn_about_runout(const scene::Scene& scene, const RegionStrengths& region,
-                       Findings& findings) {
-    warn(findings, "layers_differ", scene.fem ? "/transfer/liquefied" : "/transfer/mapping",
+                       Problems& problems) {
+    warn(problems, "layers_differ", scene.fem ? "/transfer/liquefied" : "/transfer/mapping",
          "does not liquefy " + quoted(region.name()) +
              ", which a layer of /lem/liquefaction does: its soil keeps its drained strength, and "
              "the runout is too short; " +
@@ -186,7 +186,7 @@ std::vector<Vec2> highest_water(const scene::Scene& scene, double level) {
 
 /// Refuses layers that liquefy without water, and warns of other soil that is wet elsewhere.
 void check_dry_lem(const scene::Scene& scene, const std::vector<RegionStrengths>& strengths,
-                   Findings& findings) {
+                   Problems& problems) {
     const scene::Lem& lem = *scene.lem;
     const bool refused = !lem.liquefaction.empty() && !lem.has_water();
     std::vector<std::string> names;
@@ -213,17 +213,17 @@ void check_dry_lem(const scene::Scene& scene, const std::vector<RegionStrengths>
         "add " + as_entry(tables.empty() ? highest_water(scene, top) : *tables.front().line) +
         " to /lem, or, ";
     if (refused)
-        refuse(findings, "/lem/water", cause,
+        refuse(problems, "/lem/water", cause,
                remedy +
                    "if the soil is dry, leave /lem/liquefaction out: dry soil does not "
                    "liquefy");
     else
-        warn(findings, "missing_water", "/lem/water",
+        warn(problems, "missing_water", "/lem/water",
              cause + "; " + remedy + "if this soil is dry, \"pore_pressure_ratios\": [" + ratios +
                  "]");
 }
 
-void warn_about_dry_fem(const scene::Scene& scene, Findings& findings) {
+void warn_about_dry_fem(const scene::Scene& scene, Problems& problems) {
     std::vector<Table> tables = tables_besides_lem(scene);
     if (scene.lem && scene.lem->water) tables.push_back({"/lem/water", &scene.lem->water->line});
     if (tables.empty()) return;
@@ -235,7 +235,7 @@ void warn_about_dry_fem(const scene::Scene& scene, Findings& findings) {
             names.push_back(region.name);
     }
     if (names.empty()) return;
-    warn(findings, "missing_water", "/fem/water",
+    warn(problems, "missing_water", "/fem/water",
          "is missing, so the FEM has no pore pressure in " + listed(names) + ", although " +
              tables.front().pointer +
              " has a line there: the soil is too strong, and nothing liquefies; add " +
@@ -245,23 +245,23 @@ void warn_about_dry_fem(const scene::Scene& scene, Findings& findings) {
 
 }  // namespace
 
-void check_agreement(const scene::Scene& scene, Findings& findings) {
+void check_agreement(const scene::Scene& scene, Problems& problems) {
     if (!is_whole(scene)) return;
-    if (scene.fem && !scene.fem->water) warn_about_dry_fem(scene, findings);
+    if (scene.fem && !scene.fem->water) warn_about_dry_fem(scene, problems);
     if (!scene.lem) return;
     const scene::Ground ground(scene);
     std::vector<RegionStrengths> strengths;
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r)
         strengths.emplace_back(scene, ground, r);
-    check_dry_lem(scene, strengths, findings);
+    check_dry_lem(scene, strengths, problems);
     if (!scene.mpm) return;
     for (std::size_t r = 0; r < strengths.size(); ++r) {
         const RegionStrengths& region = strengths[r];
         const auto liquefies = region.liquefied_in_runout();
         if (liquefies && !region.is_undrained_in_lem())
-            warn_about_lem(scene, ground, r, region, *liquefies, findings);
+            warn_about_lem(scene, ground, r, region, *liquefies, problems);
         else if (region.is_liquefied_in_lem() && !region.is_weak_in_runout())
-            warn_about_runout(scene, region, findings);
+            warn_about_runout(scene, region, problems);
     }
 }
 

@@ -2,36 +2,36 @@
 
 #include <utility>
 
-#include "core/check/findings.hpp"
 #include "core/check/recordings.hpp"
+#include "core/check/subjects.hpp"
 #include "core/scene/reading.hpp"
 #include "core/scene/resolution.hpp"
 #include "core/scene/schema.hpp"
 
 namespace breach::check {
 
-Findings findings_of(const scene::Scene& scene) {
+Problems problems_of(const scene::Scene& scene) {
     Recordings recordings;
-    return findings_of(scene, recordings);
+    return problems_of(scene, recordings);
 }
 
-Findings findings_of(const scene::Scene& scene, Recordings& recordings) {
-    Findings findings;
-    if (!has_soil(scene)) return findings;  // the reader has already reported that
-    check_geometry(scene, findings);
-    if (scene.lem) check_stability(scene, findings);
+Problems problems_of(const scene::Scene& scene, Recordings& recordings) {
+    Problems problems;
+    if (!has_soil(scene)) return problems;  // the reader has already reported that
+    check_geometry(scene, problems);
+    if (scene.lem) check_stability(scene, problems);
     if (scene.fem) {
-        check_stages(scene, findings);
-        check_supports(scene, findings);
-        check_water(scene, findings);
-        check_motion(scene, recordings, findings);
+        check_stages(scene, problems);
+        check_supports(scene, problems);
+        check_water(scene, problems);
+        check_motion(scene, recordings, problems);
     }
-    check_soils(scene, findings);
-    check_strengths(scene, findings);
-    check_agreement(scene, findings);
-    if (scene.transfer) check_transfer(scene, findings);
-    if (scene.mpm) check_ground(scene, findings);
-    return findings;
+    check_soils(scene, problems);
+    check_strengths(scene, problems);
+    check_agreement(scene, problems);
+    if (scene.transfer) check_transfer(scene, problems);
+    if (scene.mpm) check_ground(scene, problems);
+    return problems;
 }
 
 /// Drops unit warnings about small cells that suit the section: a model of 10 cm has cells of
@@ -64,11 +64,11 @@ Checked checked_document(nlohmann::json document, const std::string& name,
                          const std::vector<std::string>& overrides, Recordings& recordings) {
     scene::Reading reading = scene::read_document(std::move(document), name, folder, overrides);
     drop_warnings_of_fitting_cells(reading.scene);
-    Findings findings = findings_of(reading.scene, recordings);
+    Problems problems = problems_of(reading.scene, recordings);
     Checked checked{std::move(reading.scene), std::move(reading.faults),
                     std::move(reading.completed)};
-    for (fault::Fault& each : findings.faults) checked.faults.push_back(std::move(each));
-    for (fault::Flag& each : findings.warnings) checked.scene.warnings.push_back(std::move(each));
+    for (fault::Fault& each : problems.faults) checked.faults.push_back(std::move(each));
+    for (fault::Flag& each : problems.warnings) checked.scene.warnings.push_back(std::move(each));
     return checked;
 }
 

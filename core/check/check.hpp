@@ -16,20 +16,20 @@ namespace breach::check {
 
 class Recordings;
 
-struct Findings {
+struct Problems {
     std::vector<fault::Fault> faults;   ///< the scene cannot run
     std::vector<fault::Flag> warnings;  ///< it can run, but is probably not what was meant
 };
 
 /// Checks a complete scene, or the valid parts of a faulty one (scene::Reading). Reads the motion
 /// and the head of the mesh file; takes a few milliseconds.
-Findings findings_of(const scene::Scene& scene);
+Problems problems_of(const scene::Scene& scene);
 /// The same for one of many scenes: reads each motion file once.
-Findings findings_of(const scene::Scene& scene, Recordings& recordings);
+Problems problems_of(const scene::Scene& scene, Recordings& recordings);
 
 /// A scene with the faults of its reader and of the checks.
 struct Checked {
-    scene::Scene scene;  ///< its warnings include those of the findings; use only without faults
+    scene::Scene scene;  ///< its warnings include those of the problems; use only without faults
     std::vector<fault::Fault> faults;
     nlohmann::json completed;  ///< with all defaults; use only without faults
 };

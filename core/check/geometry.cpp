@@ -2,8 +2,8 @@
 #include <cmath>
 #include <optional>
 
-#include "core/check/findings.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 
 namespace breach::check {
 
@@ -71,7 +71,7 @@ std::optional<Gap> gap_between(const scene::Scene& scene, const Side& one, const
     return std::nullopt;
 }
 
-void check_pair(const scene::Scene& scene, std::size_t i, std::size_t j, Findings& findings) {
+void check_pair(const scene::Scene& scene, std::size_t i, std::size_t j, Problems& problems) {
     const scene::Region& a = scene.section.regions[i];
     const scene::Region& b = scene.section.regions[j];
     const GapRange range = gap_range(scene, a, b);
@@ -89,19 +89,19 @@ void check_pair(const scene::Scene& scene, std::size_t i, std::size_t j, Finding
         }
     }
     if (!widest) return;
-    refuse(findings, region_pointer(j, "/polygon"),
+    refuse(problems, region_pointer(j, "/polygon"),
            "leaves a gap of " + metres(widest->width) + " to region \"" + a.name + "\" at " +
                text(widest->to),
            "regions that touch share their border: let \"" + b.name + "\" pass through " +
                text(widest->from) + ", or make it a valley wider than " + metres(range.largest));
 }
 
-void check_slivers(const scene::Region& region, std::size_t index, Findings& findings) {
+void check_slivers(const scene::Region& region, std::size_t index, Problems& problems) {
     const double size = element_size(region);
     for (const Side& side : sides_of(region.polygon)) {
         const double length = (side.b - side.a).norm();
         if (length >= short_side * size) continue;
-        warn(findings, "sliver", region_pointer(index, "/polygon"),
+        warn(problems, "sliver", region_pointer(index, "/polygon"),
              "\"" + region.name + "\" has a side of " + metres(length) + " at " + text(side.a) +
                  " among elements of " + metres(size) +
                  ": elements there are slivers; leave out one of its vertices");
@@ -111,13 +111,13 @@ void check_slivers(const scene::Region& region, std::size_t index, Findings& fin
 
 }  // namespace
 
-void check_geometry(const scene::Scene& scene, Findings& findings) {
+void check_geometry(const scene::Scene& scene, Problems& problems) {
     const auto& regions = scene.section.regions;
     for (std::size_t i = 0; i < regions.size(); ++i) {
         if (regions[i].polygon.empty()) continue;
         for (std::size_t j = i + 1; j < regions.size(); ++j)
-            if (!regions[j].polygon.empty()) check_pair(scene, i, j, findings);
-        if (scene.fem && !scene.fem->mesh.msh_file) check_slivers(regions[i], i, findings);
+            if (!regions[j].polygon.empty()) check_pair(scene, i, j, problems);
+        if (scene.fem && !scene.fem->mesh.msh_file) check_slivers(regions[i], i, problems);
     }
 }
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check/findings.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 #include "core/scene/resolution.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
@@ -14,7 +14,7 @@ namespace breach::check {
 namespace {
 
 /// Refuses terrain that cuts through the section: that soil would start inside the terrain.
-void check_terrain(const scene::Scene& scene, Findings& findings) {
+void check_terrain(const scene::Scene& scene, Problems& problems) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.terrain.empty()) return;
     // inaccuracy of a drawing: no material point is that deep
@@ -23,7 +23,7 @@ void check_terrain(const scene::Scene& scene, Findings& findings) {
         if (region.polygon.empty()) continue;
         const Depth deepest = deepest_below(region.polygon, mpm.terrain, straight_level_at);
         if (deepest.below <= allowed) continue;
-        refuse(findings, "/mpm/terrain",
+        refuse(problems, "/mpm/terrain",
                "passes through region \"" + region.name + "\", which reaches " +
                    metres(deepest.below) + " below it at " + text(deepest.place),
                "lower the terrain to " + metres(deepest.place.y()) +
@@ -69,13 +69,13 @@ Clearance clearance_below_section(const scene::Scene& scene, double told) {
     return gap;
 }
 
-void check_support(const scene::Scene& scene, Findings& findings) {
+void check_support(const scene::Scene& scene, Problems& problems) {
     const scene::Mpm& mpm = *scene.mpm;
     const Clearance gap = clearance_below_section(scene, 0.1 * mpm.cell_size);
     if (gap.size == 0.0) return;
     const bool on_floor = mpm.terrain.empty();
     const double support = on_floor ? mpm.floor.level : straight_level_at(mpm.terrain, gap.x);
-    warn(findings, "implausible", on_floor ? "/mpm/floor/level" : "/mpm/terrain",
+    warn(problems, "implausible", on_floor ? "/mpm/floor/level" : "/mpm/terrain",
          "the section lies up to " + metres(gap.size) + " above the " +
              (on_floor ? "floor" : "terrain") + " (from x = " + text(gap.from) + " to " +
              metres(gap.to) + ", most at x = " + metres(gap.x) +
@@ -86,7 +86,7 @@ void check_support(const scene::Scene& scene, Findings& findings) {
 }
 
 /// Flags stiffness so low that the flow compresses the soil.
-void check_stiffness(const scene::Scene& scene, Findings& findings) {
+void check_stiffness(const scene::Scene& scene, Problems& problems) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.stiffness_scale == 1.0) return;
     const double flow = scene::fall_speed(scene, mpm);
@@ -95,20 +95,20 @@ void check_stiffness(const scene::Scene& scene, Findings& findings) {
     const double enough = mpm.stiffness_scale * std::pow(flow / (scene::refused_mach * wave), 2);
     const double unit = std::pow(10.0, std::floor(std::log10(enough)) - 1.0);
     const auto shown = [](double value) { return words::text_of(value, 3); };
-    refuse(findings, "/mpm/stiffness_scale",
+    refuse(problems, "/mpm/stiffness_scale",
            "leaves the fastest wave " + shown(wave) + " m/s, and soil can fall at " + shown(flow) +
                " m/s: Mach " + shown(flow / wave) + ", more than " + shown(scene::refused_mach),
            "write at least " + shown(std::min(std::ceil(enough / unit) * unit, 1.0)) +
                ", or \"auto\"");
 }
 
-void check_toe(const scene::Scene& scene, Findings& findings) {
+void check_toe(const scene::Scene& scene, Problems& problems) {
     const scene::Mpm& mpm = *scene.mpm;
     const Vec2& toe = mpm.runout.toe;
     const bool inside = toe.x() >= mpm.domain_x[0] && toe.x() <= mpm.domain_x[1] &&
                         toe.y() >= mpm.domain_y[0] && toe.y() <= mpm.domain_y[1];
     if (!inside)
-        refuse(findings, "/mpm/runout/toe", text(toe) + " lies outside the grid",
+        refuse(problems, "/mpm/runout/toe", text(toe) + " lies outside the grid",
                "give a point inside /mpm/domain_x, " + text(mpm.domain_x[0]) + " to " +
                    metres(mpm.domain_x[1]) + ", and /mpm/domain_y, " + text(mpm.domain_y[0]) +
                    " to " + metres(mpm.domain_y[1]));
@@ -116,7 +116,7 @@ void check_toe(const scene::Scene& scene, Findings& findings) {
 
 /// Warns of an upstream face that is held in the FEM and free in the MPM: the MPM's wall supports
 /// the soil only if it touches it.
-void check_upstream_end(const scene::Scene& scene, Findings& findings) {
+void check_upstream_end(const scene::Scene& scene, Problems& problems) {
     if (!scene.fem) return;
     const scene::Mpm& mpm = *scene.mpm;
     const double end = extent(scene.section).low.x();
@@ -133,7 +133,7 @@ void check_upstream_end(const scene::Scene& scene, Findings& findings) {
         }
     }
     if (face <= 2.0 * mpm.cell_size) return;
-    warn(findings, "free_upstream_end", "/mpm/domain_x",
+    warn(problems, "free_upstream_end", "/mpm/domain_x",
          "begins " + metres(gap) + " before the section, whose soil ends at x = " + metres(end) +
              " in a free face of " + metres(face) +
              ": the FEM supports it there, but in the runout it falls upstream, which shortens the "
@@ -157,14 +157,14 @@ double crest_of(const scene::Scene& scene) {
 }
 
 /// A flow section records what leaves the dam: not upstream of its crest.
-void check_flow_sections(const scene::Scene& scene, Findings& findings) {
+void check_flow_sections(const scene::Scene& scene, Problems& problems) {
     const scene::Mpm& mpm = *scene.mpm;
     if (mpm.sections.empty()) return;
     const double crest = crest_of(scene);
     for (std::size_t i = 0; i < mpm.sections.size(); ++i) {
         const double x = mpm.sections[i].x;
         if (!(x < crest - mpm.cell_size)) continue;
-        warn(findings, "section_upstream", "/mpm/sections/" + std::to_string(i) + "/x",
+        warn(problems, "section_upstream", "/mpm/sections/" + std::to_string(i) + "/x",
              "is " + metres(x) + ", upstream of the crest at x = " + metres(crest) + ": \"" +
                  mpm.sections[i].name +
                  "\" records what moves within the pond, not what leaves the dam; for the toe " +
@@ -174,14 +174,14 @@ void check_flow_sections(const scene::Scene& scene, Findings& findings) {
 }
 
 /// Warns of runs that end while soil could only have begun to collapse.
-void check_duration(const scene::Scene& scene, Findings& findings) {
+void check_duration(const scene::Scene& scene, Problems& problems) {
     const scene::Mpm& mpm = *scene.mpm;
     const double H = scene::mobile_height(scene, mpm);
     if (!(H > 0.0) || !(scene.gravity > 0.0)) return;
     const double fall = std::sqrt(2.0 * H / scene.gravity);
     const double least = std::ceil(20.0 * fall) / 10.0;  // a granular column collapses in 2 falls
     if (mpm.duration >= least) return;
-    warn(findings, "short_runout", mpm.until_rest ? "/mpm/longest_duration" : "/mpm/duration",
+    warn(problems, "short_runout", mpm.until_rest ? "/mpm/longest_duration" : "/mpm/duration",
          "is " + text(mpm.duration) + " s, and soil needs " + words::text_of(fall, 2) +
              " s to fall " + words::text_of(H, 3) + " m" +
              " freely: the run ends before the soil has collapsed, and its runout is too short; " +
@@ -191,14 +191,14 @@ void check_duration(const scene::Scene& scene, Findings& findings) {
 
 }  // namespace
 
-void check_ground(const scene::Scene& scene, Findings& findings) {
-    check_terrain(scene, findings);
-    check_support(scene, findings);
-    check_toe(scene, findings);
-    check_stiffness(scene, findings);
-    check_upstream_end(scene, findings);
-    check_flow_sections(scene, findings);
-    check_duration(scene, findings);
+void check_ground(const scene::Scene& scene, Problems& problems) {
+    check_terrain(scene, problems);
+    check_support(scene, problems);
+    check_toe(scene, problems);
+    check_stiffness(scene, problems);
+    check_upstream_end(scene, problems);
+    check_flow_sections(scene, problems);
+    check_duration(scene, problems);
 }
 
 }  // namespace breach::check

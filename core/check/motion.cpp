@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "core/check/applied_motion.hpp"
-#include "core/check/findings.hpp"
 #include "core/check/recordings.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 #include "core/motion/plausibility.hpp"
 #include "core/words/remedy.hpp"
 
@@ -19,11 +19,11 @@ using motion::Recording;
 constexpr const char* file_pointer = "/fem/motion/file";
 
 std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Recordings& recordings,
-                                      Findings& findings) {
+                                      Problems& problems) {
     const std::string file = wanted.file.string();
     std::error_code ignored;  // an overlong path counts as missing
     if (!std::filesystem::exists(wanted.file, ignored)) {
-        refuse(findings, file_pointer, "does not exist: " + file,
+        refuse(problems, file_pointer, "does not exist: " + file,
                "give a path relative to the scene file, or the absolute path on the machine that "
                "computes");
         return std::nullopt;
@@ -34,26 +34,26 @@ std::optional<Recording> recording_of(const scene::BaseMotion& wanted, Recording
         return recordings.of(wanted.file);
     } catch (const fault::BadInput& error) {
         for (const fault::Fault& each : error.faults())
-            refuse(findings, file_pointer, file + ", " + each.pointer + ": " + each.cause,
+            refuse(problems, file_pointer, file + ", " + each.pointer + ": " + each.cause,
                    each.remedy);
     } catch (const fault::IoError& error) {
-        refuse(findings, file_pointer, error.what(), "give a motion that can be read");
+        refuse(problems, file_pointer, error.what(), "give a motion that can be read");
     }
     return std::nullopt;
 }
 
 /// Refuses operations that this kind of recording does not allow.
-void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Findings& findings) {
+void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Problems& problems) {
     if (quantity == Quantity::displacement)
-        refuse(findings, file_pointer, "is a displacement",
+        refuse(problems, file_pointer, "is a displacement",
                "give the acceleration or the velocity of the same motion");
     if (quantity != Quantity::velocity) return;
     if (wanted.scale_to_pga_g)
-        refuse(findings, "/fem/motion/scale_to_pga_g",
+        refuse(problems, "/fem/motion/scale_to_pga_g",
                "scales an acceleration; the file holds a velocity",
                "give the acceleration, or leave the scale out");
     if (wanted.baseline == scene::Baseline::corrected)
-        refuse(findings, "/fem/motion/baseline",
+        refuse(problems, "/fem/motion/baseline",
                "is corrected in an acceleration only; the file holds a velocity",
                "give the acceleration, or take it as recorded");
 }
@@ -65,17 +65,17 @@ double dynamic_duration(const scene::Fem& fem) {
 }
 
 /// Warns of time steps that skip samples of the motion.
-void check_steps(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
+void check_steps(const scene::Fem& fem, const motion::Series& series, Problems& problems) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         if (fem.stages[i].kind != scene::StageKind::dynamic) continue;
         auto warning = motion::warning_about_step(
             series, fem.stages[i].time_step, "/fem/stages/" + std::to_string(i) + "/time_step");
-        if (warning) findings.warnings.push_back(std::move(*warning));
+        if (warning) problems.warnings.push_back(std::move(*warning));
     }
 }
 
 /// Warns of stages that end before most of the shaking.
-void check_length(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
+void check_length(const scene::Fem& fem, const motion::Series& acceleration, Problems& problems) {
     const double end = dynamic_duration(fem);
     motion::Series felt = acceleration;
     felt.values.resize(std::min(felt.values.size(), static_cast<std::size_t>(end / felt.dt) + 1));
@@ -85,7 +85,7 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
     const double enough = motion::strong_part(acceleration).end;
     std::size_t last = fem.stages.size() - 1;
     while (last > 0 && fem.stages[last].kind != scene::StageKind::dynamic) --last;
-    warn(findings, "motion_cut", "/fem/stages",
+    warn(problems, "motion_cut", "/fem/stages",
          "the dynamic stages end at " + text(end) + " s, when " + text(100.0 * share) +
              " % of the motion's Arias intensity have arrived; its strong part lasts until " +
              text(enough) + " s: " +
@@ -94,14 +94,14 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Fin
 }
 
 /// Warns of stages that go on long after the motion has ended.
-void check_rest(const scene::Fem& fem, const motion::Series& series, Findings& findings) {
+void check_rest(const scene::Fem& fem, const motion::Series& series, Problems& problems) {
     constexpr double most = 2.0;  // motions: some soil fails after the shaking
     const double end = dynamic_duration(fem), length = series.duration();
     if (end <= most * length) return;
     std::size_t last = fem.stages.size();
     while (fem.stages[last - 1].kind != scene::StageKind::dynamic) --last;
     const double before = end - fem.stages[last - 1].duration;
-    warn(findings, "beyond_motion", "/fem/stages/" + std::to_string(last - 1) + "/duration",
+    warn(problems, "beyond_motion", "/fem/stages/" + std::to_string(last - 1) + "/duration",
          "the dynamic stages end at " + text(end) + " s, and the motion at " + text(length) +
              " s: the rest is computed without shaking, which costs time and strains the mesh; " +
              (before < length ? words::set("/fem/stages/" + std::to_string(last - 1) + "/duration",
@@ -114,13 +114,13 @@ void check_rest(const scene::Fem& fem, const motion::Series& series, Findings& f
 
 /// Warns of damping given at a frequency outside the motion's band: other frequencies have other
 /// ratios.
-void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Findings& findings) {
+void check_damping(const scene::Fem& fem, const motion::Series& acceleration, Problems& problems) {
     if (!fem.damping_frequency) return;
     const motion::Band band = motion::band(acceleration);
     const double low = 0.5 * band.low, high = 2.0 * band.high;
     if (!(high > 0.0)) return;  // no motion at all: core/motion warns of it
     if (*fem.damping_frequency >= low && *fem.damping_frequency <= high) return;
-    refuse(findings, "/fem/damping/frequency_Hz",
+    refuse(problems, "/fem/damping/frequency_Hz",
            "is " + text(*fem.damping_frequency) + " Hz, and the motion has its power from " +
                text(band.low) + " to " + text(band.high) + " Hz",
            "give a frequency within the motion's, as a rule that of the dam's first mode");
@@ -137,30 +137,30 @@ motion::Series acceleration_of(const Recording& shaking) {
 
 }  // namespace
 
-void check_motion(const scene::Scene& scene, Recordings& recordings, Findings& findings) {
+void check_motion(const scene::Scene& scene, Recordings& recordings, Problems& problems) {
     const scene::Fem& fem = *scene.fem;
     if (!fem.motion) return;
     if (dynamic_duration(fem) == 0.0)
-        refuse(findings, "/fem/motion", "has no dynamic stage in which it could shake",
+        refuse(problems, "/fem/motion", "has no dynamic stage in which it could shake",
                "add a stage of type \"dynamic\", or leave the motion out");
-    const auto recording = recording_of(*fem.motion, recordings, findings);
+    const auto recording = recording_of(*fem.motion, recordings, problems);
     if (!recording) return;
-    check_kind(*fem.motion, recording->quantity, findings);
+    check_kind(*fem.motion, recording->quantity, problems);
     if (recording->quantity == Quantity::displacement) return;
     if (auto constant = motion::fault_of_constant(*recording, file_pointer)) {
-        findings.faults.push_back(std::move(*constant));
+        problems.faults.push_back(std::move(*constant));
         return;
     }
     const Recording shaking = applied(*fem.motion, *recording);
     motion::Remarks remarks = motion::remarks_about(shaking, file_pointer);
-    for (fault::Fault& each : remarks.faults) findings.faults.push_back(std::move(each));
-    for (fault::Flag& each : remarks.flags) findings.warnings.push_back(std::move(each));
+    for (fault::Fault& each : remarks.faults) problems.faults.push_back(std::move(each));
+    for (fault::Flag& each : remarks.flags) problems.warnings.push_back(std::move(each));
     if (!remarks.faults.empty()) return;
-    check_steps(fem, shaking.series, findings);
+    check_steps(fem, shaking.series, problems);
     const motion::Series acceleration = acceleration_of(shaking);
-    check_length(fem, acceleration, findings);
-    check_rest(fem, acceleration, findings);
-    check_damping(fem, acceleration, findings);
+    check_length(fem, acceleration, problems);
+    check_rest(fem, acceleration, problems);
+    check_damping(fem, acceleration, problems);
 }
 
 motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording) {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <limits>
 
-#include "core/check/findings.hpp"
+#include "core/check/subjects.hpp"
 
 namespace breach::check {
 
@@ -78,10 +78,10 @@ std::string reach_of_ground(const scene::Scene& scene) {
 }
 
 bool check_beside(const scene::Scene& scene, double from, double to, const std::string& pointer,
-                  Findings& findings) {
+                  Problems& problems) {
     const geometry::Box box = extent(scene.section);
     if (to >= box.low.x() && from <= box.high.x()) return true;
-    refuse(findings, pointer, "lies beside the section: x from " + text(from) + " to " + metres(to),
+    refuse(problems, pointer, "lies beside the section: x from " + text(from) + " to " + metres(to),
            reach_of_ground(scene) + ": give a range on it");
     return false;
 }

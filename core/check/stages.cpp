@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "core/check/findings.hpp"
 #include "core/check/mesh_file.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 
 namespace breach::check {
 
@@ -19,13 +19,13 @@ const char* name_of_law_with_memory(const scene::Scene& scene) {
 }
 
 /// Refuses an elastic stage after the law has begun: the memory of points would be lost.
-void check_memory(const scene::Scene& scene, const std::string& law, Findings& findings) {
+void check_memory(const scene::Scene& scene, const std::string& law, Problems& problems) {
     const scene::Fem& fem = *scene.fem;
     bool began = false;
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const bool elastic = fem.stages[i].laws == scene::StageLaws::elastic;
         if (began && elastic)
-            refuse(findings, "/fem/stages/" + std::to_string(i) + "/laws",
+            refuse(problems, "/fem/stages/" + std::to_string(i) + "/laws",
                    "is elastic after " + law + " has begun",
                    "put elastic stages first: the soil's memory would be lost");
         began = began || !elastic;
@@ -33,13 +33,13 @@ void check_memory(const scene::Scene& scene, const std::string& law, Findings& f
 }
 
 /// Warns of sudden changes in a dynamic stage: without a ramp they act as an impact.
-void warn_about_blows(const scene::Fem& fem, Findings& findings) {
+void warn_about_blows(const scene::Fem& fem, Problems& problems) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const scene::Stage& stage = fem.stages[i];
         const bool changes =
             !stage.activates.empty() || !stage.removes.empty() || !stage.releases.empty();
         if (stage.kind != scene::StageKind::dynamic || !changes || stage.ramp > 0.0) continue;
-        warn(findings, "sudden_change", "/fem/stages/" + std::to_string(i),
+        warn(problems, "sudden_change", "/fem/stages/" + std::to_string(i),
              "places or removes soil or supports at once, which shakes the body like an impact; "
              "give the stage a ramp");
     }
@@ -48,31 +48,31 @@ void warn_about_blows(const scene::Fem& fem, Findings& findings) {
 constexpr const char* mesh_pointer = "/fem/msh_file";
 /// Checks the head of the mesh file: its format, and a surface for every region.
 void check_mesh_file(const scene::Scene& scene, const std::filesystem::path& file,
-                     Findings& findings) {
+                     Problems& problems) {
     MeshHead head;
     try {
         head = read_mesh_head(file);
     } catch (const fault::IoError& error) {
-        refuse(findings, mesh_pointer, error.what(),
+        refuse(problems, mesh_pointer, error.what(),
                "give a path relative to the scene file, or the absolute path on the machine that "
                "computes");
         return;
     } catch (const fault::BadInput& error) {
         for (const fault::Fault& each : error.faults())
-            refuse(findings, mesh_pointer, each.cause, each.remedy);
+            refuse(problems, mesh_pointer, each.cause, each.remedy);
         return;
     }
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const std::string& name = scene.section.regions[r].name;
         if (head.surfaces.contains(name)) continue;
-        refuse(findings, region_pointer(r),
+        refuse(problems, region_pointer(r),
                "\"" + name + "\" has no physical surface in " + file.string(),
                "add a physical surface of that name to the mesh");
     }
 }
 
 /// Undrained stages need water at rest before them, and no changes that need drainage.
-void check_undrained(const scene::Scene& scene, Findings& findings) {
+void check_undrained(const scene::Scene& scene, Problems& problems) {
     const scene::Fem& fem = *scene.fem;
     const bool remembers = name_of_law_with_memory(scene) != nullptr;
     bool began = false;
@@ -83,31 +83,31 @@ void check_undrained(const scene::Scene& scene, Findings& findings) {
         began = began || begins;
         if (stage.undrained.empty()) continue;
         if (!fem.water)
-            refuse(findings, pointer + "/undrained", "has no water that could be held back",
+            refuse(problems, pointer + "/undrained", "has no water that could be held back",
                    "give /fem/water, or leave it out");
         if (i == 0)
-            refuse(findings, pointer + "/undrained",
+            refuse(problems, pointer + "/undrained",
                    "is the first stage's: no pressure is there yet",
                    "put a drained stage before it");
         if (begins && remembers)
-            refuse(findings, pointer + "/undrained",
+            refuse(problems, pointer + "/undrained",
                    "is of the stage in which the scene's laws begin",
                    "put a drained stage with \"laws\": \"scene\" before it");
         if (stage.phreatic_line)
-            refuse(findings, pointer + "/phreatic_line", "moves in a stage that does not drain",
+            refuse(problems, pointer + "/phreatic_line", "moves in a stage that does not drain",
                    "move the water in a stage of its own");
     }
 }
 
 /// Softening by region needs a law with a state parameter.
 void check_softening(const scene::Scene& scene, const scene::Stage& stage,
-                     const std::string& pointer, Findings& findings) {
+                     const std::string& pointer, Problems& problems) {
     for (std::size_t r = 0; r < stage.S_of_region.size(); ++r) {
         const scene::Material* material = material_of(scene, scene.section.regions[r]);
         if (!stage.S_of_region[r] || material == nullptr ||
             materials::has_state_parameter(material->law))
             continue;
-        refuse(findings, pointer,
+        refuse(problems, pointer,
                "softens \"" + scene.section.regions[r].name + "\", which is of " +
                    materials::traits(material->law).name,
                "name regions of NorSand");
@@ -116,7 +116,7 @@ void check_softening(const scene::Scene& scene, const scene::Stage& stage,
 
 /// Warns of S in a stage with drainage: S is the additional softening of undrained soil.
 void check_drained_softening(const scene::Scene& scene, const scene::Stage& stage,
-                             const std::string& pointer, Findings& findings) {
+                             const std::string& pointer, Problems& problems) {
     if (stage.kind != scene::StageKind::static_equilibrium) return;
     const auto softens = [&](std::size_t r) {
         const auto of_region =
@@ -126,7 +126,7 @@ void check_drained_softening(const scene::Scene& scene, const scene::Stage& stag
     };
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (!softens(r)) continue;
-        warn(findings, "drained_softening", pointer,
+        warn(problems, "drained_softening", pointer,
              "softens \"" + scene.section.regions[r].name +
                  "\", which drains in this stage: S is of undrained soil; name its region in "
                  "/undrained, or leave S to the stages in motion");
@@ -135,7 +135,7 @@ void check_drained_softening(const scene::Scene& scene, const scene::Stage& stag
 }
 
 /// Each region may be placed and removed once, in a possible order.
-void check_changes(const scene::Scene& scene, Findings& findings) {
+void check_changes(const scene::Scene& scene, Problems& problems) {
     const scene::Fem& fem = *scene.fem;
     if (!fem.changes_the_body()) return;
     const auto& regions = scene.section.regions;
@@ -147,23 +147,23 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
         const scene::Stage& stage = fem.stages[i];
         const std::string pointer = "/fem/stages/" + std::to_string(i);
         if (stage.changes_the_body() && fem.free_field)
-            refuse(findings, pointer, "changes the body between free-field columns",
+            refuse(problems, pointer, "changes the body between free-field columns",
                    "leave out /fem/free_field: it is for shaking");
         if (stage.phreatic_line && !fem.water)
-            refuse(findings, pointer + "/phreatic_line", "moves water that the scene does not have",
+            refuse(problems, pointer + "/phreatic_line", "moves water that the scene does not have",
                    "give /fem/water with the line before this stage");
         for (std::size_t k = 0; k < stage.activates.size(); ++k) {
             const std::size_t r = stage.activates[k];
             if (r >= there.size()) continue;
             const std::string here = pointer + "/activate/" + std::to_string(k);
             if (there[r])
-                refuse(findings, here, "\"" + regions[r].name + "\" is there already",
+                refuse(problems, here, "\"" + regions[r].name + "\" is there already",
                        "activate a region once");
             there[r] = true;
             const scene::Material* material = material_of(scene, regions[r]);
             if (material != nullptr && materials::remembers(material->law) &&
                 stage.laws == scene::StageLaws::scene)
-                refuse(findings, here,
+                refuse(problems, here,
                        "places \"" + regions[r].name + "\" with " +
                            materials::traits(material->law).name +
                            ", which cannot begin without stress",
@@ -173,39 +173,39 @@ void check_changes(const scene::Scene& scene, Findings& findings) {
             const std::size_t r = stage.removes[k];
             if (r >= there.size()) continue;
             if (!there[r])
-                refuse(findings, pointer + "/remove/" + std::to_string(k),
+                refuse(problems, pointer + "/remove/" + std::to_string(k),
                        "\"" + regions[r].name + "\" is not there in this stage",
                        "remove a region that is there, once");
             there[r] = false;
         }
         if (std::ranges::find(there, true) == there.end())
-            refuse(findings, pointer, "leaves no region", "keep one");
+            refuse(problems, pointer, "leaves no region", "keep one");
     }
 }
 
 void check_surcharges(const scene::Scene& scene, const std::vector<scene::Surcharge>& loads,
-                      const std::string& pointer, Findings& findings) {
+                      const std::string& pointer, Problems& problems) {
     for (std::size_t k = 0; k < loads.size(); ++k)
         check_beside(scene, loads[k].from, loads[k].to, pointer + "/surcharge/" + std::to_string(k),
-                     findings);
+                     problems);
 }
 
 }  // namespace
 
-void check_stages(const scene::Scene& scene, Findings& findings) {
-    check_surcharges(scene, scene.fem->surcharge, "/fem", findings);
-    if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, findings);
-    check_undrained(scene, findings);
+void check_stages(const scene::Scene& scene, Problems& problems) {
+    check_surcharges(scene, scene.fem->surcharge, "/fem", problems);
+    if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, problems);
+    check_undrained(scene, problems);
     for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
         const scene::Stage& stage = scene.fem->stages[i];
         const std::string pointer = "/fem/stages/" + std::to_string(i);
-        check_softening(scene, stage, pointer + "/S", findings);
-        check_drained_softening(scene, stage, pointer + "/S", findings);
-        if (stage.surcharge) check_surcharges(scene, *stage.surcharge, pointer, findings);
+        check_softening(scene, stage, pointer + "/S", problems);
+        check_drained_softening(scene, stage, pointer + "/S", problems);
+        if (stage.surcharge) check_surcharges(scene, *stage.surcharge, pointer, problems);
     }
-    check_changes(scene, findings);
-    warn_about_blows(*scene.fem, findings);
-    if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, findings);
+    check_changes(scene, problems);
+    warn_about_blows(*scene.fem, problems);
+    if (scene.fem->mesh.msh_file) check_mesh_file(scene, *scene.fem->mesh.msh_file, problems);
 }
 
 }  // namespace breach::check

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <optional>
 
-#include "core/check/findings.hpp"
 #include "core/check/region_strengths.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::check {
@@ -72,7 +72,7 @@ std::string kilopascals(const Shear& shear) {
 enum class Which { peak, residual };
 
 void compare(const std::vector<View>& views, const std::string& region, Which which,
-             const std::vector<Place>& places, Findings& findings) {
+             const std::vector<Place>& places, Problems& problems) {
     const bool residual = which == Which::residual;
     for (std::size_t i = 0; i < views.size(); ++i) {
         for (std::size_t j = i + 1; j < views.size(); ++j) {
@@ -82,7 +82,7 @@ void compare(const std::vector<View>& views, const std::string& region, Which wh
             const auto& [a, b] = *means;
             if (!differ(a, b) && !(residual && (is_far_from_ends(a, b) || is_far_from_ends(b, a))))
                 continue;
-            warn(findings, "strengths_differ", views[i].pointer,
+            warn(problems, "strengths_differ", views[i].pointer,
                  "\"" + region + "\" has two " + (residual ? "residual" : "peak") +
                      " strengths, averaged over it: " + kilopascals(a) + " here (" +
                      views[i].phase + ") and " + kilopascals(b) + " by " + views[j].pointer + " (" +
@@ -95,7 +95,7 @@ void compare(const std::vector<View>& views, const std::string& region, Which wh
 }
 
 void check_relation(const materials::BySounding& by, const std::string& pointer,
-                    double largest_stress, Findings& findings) {
+                    double largest_stress, Problems& problems) {
     const materials::RelationFacts& facts = materials::facts_of(by.relation);
     const std::string range = std::string(facts.name) + " is for " + facts.sounding + " from " +
                               text(facts.range[0]) + " to " + text(facts.range[1]) +
@@ -105,17 +105,17 @@ void check_relation(const materials::BySounding& by, const std::string& pointer,
     };
     const auto& points = by.sounding.points;
     if (const auto found = std::ranges::find_if(points, outside); found != points.end())
-        warn(findings, "outside_relation", pointer,
+        warn(problems, "outside_relation", pointer,
              "the sounding's " + text((*found)[1]) + " is outside the relation's range (" + range +
                  "): the value at the range's end is used");
     if (largest_stress > facts.largest_stress)
-        warn(findings, "outside_relation", pointer,
+        warn(problems, "outside_relation", pointer,
              "sigma'_v0 reaches " + kilopascals(largest_stress) + " in this soil (" + range +
                  "): the relation is extrapolated there");
 }
 
 /// Refuses a residual strength above the peak.
-void check_fall(const scene::Material& soil, const std::vector<Place>& places, Findings& findings) {
+void check_fall(const scene::Material& soil, const std::vector<Place>& places, Problems& problems) {
     double peak = 0.0;
     double residual = 0.0;
     for (const Place& place : places) {
@@ -124,7 +124,7 @@ void check_fall(const scene::Material& soil, const std::vector<Place>& places, F
     }
     if (residual <= peak * (1.0 + 1e-9)) return;
     const auto n = static_cast<double>(places.size());
-    refuse(findings, at_material(soil, "/strength/residual"),
+    refuse(problems, at_material(soil, "/strength/residual"),
            "is above the peak: " + kilopascals(residual / n) + " against " + kilopascals(peak / n) +
                ", averaged over its soil",
            "soil softens, it does not harden: lower the residual, or raise the peak");
@@ -140,7 +140,7 @@ std::optional<double> mean_of(const View& view, const std::vector<Place>& places
 
 /// Warns of residual strengths of single phases above the region's peak.
 void warn_about_residuals(const RegionStrengths& region, const std::vector<Place>& places,
-                          Findings& findings) {
+                          Problems& problems) {
     const std::vector<View> peaks = region.peaks();
     if (peaks.empty()) return;
     const auto peak = mean_of(peaks.front(), places);
@@ -149,7 +149,7 @@ void warn_about_residuals(const RegionStrengths& region, const std::vector<Place
         if (!peak || !left || *left <= *peak * (1.0 + same) || *left - *peak < least_difference)
             continue;
         if (residual.phase == "profile") continue;  // reported by check_fall
-        warn(findings, "implausible", residual.pointer,
+        warn(problems, "implausible", residual.pointer,
              "the residual strength of \"" + region.name() +
                  "\" is above its peak: " + kilopascals(*left) + " against " + kilopascals(*peak) +
                  " by " + peaks.front().pointer +
@@ -159,12 +159,12 @@ void warn_about_residuals(const RegionStrengths& region, const std::vector<Place
 }
 
 /// Warns of a cohesion that looks like a friction angle, or the reverse.
-void warn_about_swapped(const scene::Material& soil, Findings& findings) {
+void warn_about_swapped(const scene::Material& soil, Problems& problems) {
     const auto look = [&](double c_Pa, double phi_rad, const char* entry) {
         const double c = c_Pa / 1e3, phi = phi_rad * 180.0 / std::numbers::pi;
         if (c < 20.0 || c > 45.0 || phi < 1.0 || phi > 12.0) return;
         const std::string angle = words::text_of(phi, 3), cohesion = words::text_of(c, 3);
-        warn(findings, "implausible", at_material(soil, entry),
+        warn(problems, "implausible", at_material(soil, entry),
              "c_kPa " + cohesion + " and phi_deg " + angle +
                  " look swapped: write \"c_kPa\": " + angle + ", \"phi_deg\": " + cohesion);
     };
@@ -174,7 +174,7 @@ void warn_about_swapped(const scene::Material& soil, Findings& findings) {
 }
 
 /// The FEM uses one strength per material.
-void check_fem(const scene::Scene& scene, Findings& findings) {
+void check_fem(const scene::Scene& scene, Problems& problems) {
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         const scene::Material& soil = scene.materials[scene.section.regions[r].material];
         if (!materials::has_strength_of_points(soil.law)) continue;
@@ -182,7 +182,7 @@ void check_fem(const scene::Scene& scene, Findings& findings) {
             materials::is_uniform(soil.strength->peak) &&
             (!soil.strength->softening || materials::is_uniform(*soil.strength->residual));
         if (uniform) continue;
-        refuse(findings, at_material(soil, "/law"),
+        refuse(problems, at_material(soil, "/law"),
                "leaves its strength to a profile that differs from place to place, and the FEM "
                "computes \"" +
                    scene.section.regions[r].name + "\" with one strength",
@@ -193,7 +193,7 @@ void check_fem(const scene::Scene& scene, Findings& findings) {
 
 }  // namespace
 
-void check_strengths(const scene::Scene& scene, Findings& findings) {
+void check_strengths(const scene::Scene& scene, Problems& problems) {
     if (!is_whole(scene)) return;
     const scene::Ground ground(scene);
     std::vector<std::vector<Place>> places_of(scene.materials.size());
@@ -203,9 +203,9 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
             places.push_back(ground.at(each, r));
         if (places.empty()) continue;
         const RegionStrengths region(scene, ground, r);
-        compare(region.peaks(), region.name(), Which::peak, places, findings);
-        compare(region.residuals(), region.name(), Which::residual, places, findings);
-        warn_about_residuals(region, places, findings);
+        compare(region.peaks(), region.name(), Which::peak, places, problems);
+        compare(region.residuals(), region.name(), Which::residual, places, problems);
+        warn_about_residuals(region, places, problems);
         for (const scene::Soil& soil : scene::soils_of(scene))
             if (soil.region == r && soil.material < scene.materials.size()) {
                 auto& all = places_of[soil.material];
@@ -216,15 +216,15 @@ void check_strengths(const scene::Scene& scene, Findings& findings) {
     }
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         const scene::Material& soil = scene.materials[m];
-        if (!places_of[m].empty()) warn_about_swapped(soil, findings);
+        if (!places_of[m].empty()) warn_about_swapped(soil, problems);
         if (!soil.strength || !soil.strength->residual || places_of[m].empty()) continue;
         const double largest =
             std::ranges::max_element(places_of[m], {}, &Place::sigma_v0)->sigma_v0;
         if (const auto* by = std::get_if<materials::BySounding>(&soil.strength->residual->kind))
-            check_relation(*by, at_material(soil, "/strength/residual"), largest, findings);
-        check_fall(soil, places_of[m], findings);
+            check_relation(*by, at_material(soil, "/strength/residual"), largest, problems);
+        check_fall(soil, places_of[m], problems);
     }
-    if (scene.fem) check_fem(scene, findings);
+    if (scene.fem) check_fem(scene, problems);
 }
 
 }  // namespace breach::check

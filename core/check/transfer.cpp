@@ -3,9 +3,9 @@
 #include <iterator>
 #include <numbers>
 
-#include "core/check/findings.hpp"
 #include "core/check/measured.hpp"
 #include "core/check/section.hpp"
+#include "core/check/subjects.hpp"
 #include "core/criteria/expression.hpp"
 #include "core/scene/ground.hpp"
 #include "core/telemetry/columns.hpp"
@@ -22,7 +22,7 @@ std::vector<std::string> recorded_fields() {
     return names;
 }
 
-void check_window(const scene::Scene& scene, Findings& findings) {
+void check_window(const scene::Scene& scene, Problems& problems) {
     const scene::AdviceWindow& window = *scene.transfer->window;
     const std::vector<std::string> known = recorded_fields();
     const auto look = [&](const std::string& condition, const std::string& pointer) {
@@ -31,9 +31,9 @@ void check_window(const scene::Scene& scene, Findings& findings) {
                 criteria::parse(condition, criteria::Kind::condition, pointer, known);
             if (!scene.fem) return;
             std::ranges::move(unmeasured(parsed.fields, scene, pointer),
-                              std::back_inserter(findings.faults));
+                              std::back_inserter(problems.faults));
         } catch (const fault::BadInput& error) {
-            for (const fault::Fault& each : error.faults()) findings.faults.push_back(each);
+            for (const fault::Fault& each : error.faults()) problems.faults.push_back(each);
         }
     };
     look(window.lower, "/transfer/window/lower");
@@ -41,7 +41,7 @@ void check_window(const scene::Scene& scene, Findings& findings) {
 }
 
 /// Effective stress without pore pressure is refused: material points would lose the pore pressure.
-void check_stress(const scene::Scene& scene, Findings& findings) {
+void check_stress(const scene::Scene& scene, Problems& problems) {
     if (scene.transfer->stress != scene::TransferredStress::effective) return;
     if (!scene.mpm || !scene.fem || !scene.fem->water) return;
     for (const scene::Soil& soil : scene::soils_of(scene)) {
@@ -50,7 +50,7 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
         const bool frictional =
             materials::is_for_particles(material.law) && materials::traits(material.law).frictional;
         if (!frictional) continue;
-        refuse(findings, "/transfer/stress",
+        refuse(problems, "/transfer/stress",
                "is effective, and \"" + material.name +
                    "\" has friction: its points would come with pore pressure, which the MPM does "
                    "not carry",
@@ -61,16 +61,16 @@ void check_stress(const scene::Scene& scene, Findings& findings) {
 
 /// Points that fill the section have one material per region. Warns of entries that only a transfer
 /// applies.
-void warn_about_what_a_transfer_decides(const scene::Scene& scene, Findings& findings) {
+void warn_about_what_a_transfer_decides(const scene::Scene& scene, Problems& problems) {
     if (scene.fem || !scene.mpm) return;
     const scene::Transfer& transfer = *scene.transfer;
     if (transfer.liquefied)
-        warn(findings, "needs_fem", "/transfer/liquefied",
+        warn(problems, "needs_fem", "/transfer/liquefied",
              "asks what has liquefied in an FEM, and the scene has none: in points that fill the "
              "section nothing has; map the region to its liquefied material");
     for (std::size_t i = 0; i < transfer.mapping.size(); ++i)
         if (transfer.mapping[i].saturated)
-            warn(findings, "needs_fem", "/transfer/mapping/" + std::to_string(i) + "/saturated",
+            warn(problems, "needs_fem", "/transfer/mapping/" + std::to_string(i) + "/saturated",
                  "is used by a transfer alone, and the scene has no FEM: points that fill the "
                  "section become \"to\" everywhere; draw what lies below the line as a region of "
                  "its own");
@@ -98,7 +98,7 @@ double degrees(double tan_phi) { return std::atan(tan_phi) * 180.0 / std::number
 /// on the region's base, below that of limit_strength, is sound. After a FEM, liquefied soil is
 /// flagged instead.
 void warn_about_friction_under_water(const scene::Scene& scene,
-                                     const std::vector<scene::Soil>& soils, Findings& findings) {
+                                     const std::vector<scene::Soil>& soils, Problems& problems) {
     if (scene.fem || !is_whole(scene) || (scene.mpm && scene.mpm->water)) return;
     const std::vector<Vec2>* line = water_table_of(scene);
     if (line == nullptr) return;
@@ -120,7 +120,7 @@ void warn_about_friction_under_water(const scene::Scene& scene,
         if (limit && strength.tan_phi <= rounding * sound) continue;
         told.push_back(become);
         const double c = limit ? limit->c : strength.c;
-        warn(findings, "total_stress", "/materials/" + material.name,
+        warn(problems, "total_stress", "/materials/" + material.name,
              "has friction, and \"" + region.name + "\" reaches " + metres(deepest.below) +
                  " below the water table: material points carry no pore pressure, so that friction "
                  "acts on the total stress there and the soil is too strong; give it the friction "
@@ -137,7 +137,7 @@ void warn_about_friction_under_water(const scene::Scene& scene,
 /// is hydrostatic and pushes sideways with the whole slope, more than seepage does. A FEM gives the
 /// pressure of seepage instead.
 void warn_about_steep_pool(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
-                           Findings& findings) {
+                           Problems& problems) {
     if (scene.fem || !scene.mpm || !scene.mpm->water || !is_whole(scene)) return;
     constexpr double steep = 0.5;
     const std::vector<Vec2>& line = scene.mpm->water->line;
@@ -150,7 +150,7 @@ void warn_about_steep_pool(const scene::Scene& scene, const std::vector<scene::S
                 strength_of(scene.materials[soils[r].material]).tan_phi == 0.0 ||
                 !geometry::contains(region.polygon, middle))
                 continue;
-            warn(findings, "steep_water", "/mpm/water/line",
+            warn(problems, "steep_water", "/mpm/water/line",
                  "falls by " + metres(std::abs(run.y())) + " over " + metres(run.x()) +
                      " in the frictional soil \"" + region.name +
                      "\": hydrostatic pressure below it pushes sideways by that slope, more than "
@@ -176,11 +176,11 @@ double deepest_pond(const scene::Scene& scene, const std::vector<Vec2>& line) {
 }
 
 /// Warns of FEM loads that do not act in the runout.
-void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
+void warn_about_loads_that_end(const scene::Scene& scene, Problems& problems) {
     if (!scene.fem || !scene.mpm) return;
     const scene::Fem& fem = *scene.fem;
     const auto tell = [&](const std::string& pointer, const std::string& what) {
-        warn(findings, "load_ends", pointer,
+        warn(problems, "load_ends", pointer,
              what +
                  " ends at the transfer: material points run out under gravity alone; what goes "
                  "with the soil must be drawn as soil");
@@ -204,7 +204,7 @@ void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
     const double shallow = 0.02 * (box.high.y() - box.low.y());
     const double pond = deepest_pond(scene, fem.water_in(fem.stages.size() - 1)->line);
     if (pond > shallow && !scene.mpm->water)
-        warn(findings, "load_ends", "/fem/water/line",
+        warn(problems, "load_ends", "/fem/water/line",
              "free water up to " + metres(pond) +
                  " deep ends at the transfer: the runout is in air; draw it as /mpm/water to keep "
                  "its pressure");
@@ -212,7 +212,7 @@ void warn_about_loads_that_end(const scene::Scene& scene, Findings& findings) {
 
 /// Warns of a mapping to a material of another density: points keep their mass.
 void warn_about_densities(const scene::Scene& scene, const std::vector<scene::Soil>& soils,
-                          Findings& findings) {
+                          Problems& problems) {
     std::vector<std::size_t> told;
     for (const scene::Soil& soil : soils) {
         const scene::Material* own = material_of(scene, scene.section.regions[soil.region]);
@@ -221,7 +221,7 @@ void warn_about_densities(const scene::Scene& scene, const std::vector<scene::So
         if (std::abs(become.density - own->density) <= 1e-3 * own->density) continue;
         if (std::ranges::find(told, soil.material) != told.end()) continue;
         told.push_back(soil.material);
-        warn(findings, "unused_density", "/materials/" + become.name + "/density",
+        warn(problems, "unused_density", "/materials/" + become.name + "/density",
              "is not used in \"" + scene.section.regions[soil.region].name +
                  "\": points keep the mass of \"" + own->name + "\", " + text(own->density) +
                  " kg/m3, which the region is drawn of");
@@ -230,20 +230,20 @@ void warn_about_densities(const scene::Scene& scene, const std::vector<scene::So
 
 }  // namespace
 
-void check_soils(const scene::Scene& scene, Findings& findings) {
+void check_soils(const scene::Scene& scene, Problems& problems) {
     // /transfer always exists by default: the MPM or a mapping shows that points are used.
     if (!scene.mpm && (!scene.transfer || scene.transfer->mapping.empty())) return;
     const std::vector<scene::Soil> soils = scene::soils_of(scene);
-    warn_about_friction_under_water(scene, soils, findings);
-    warn_about_steep_pool(scene, soils, findings);
-    warn_about_loads_that_end(scene, findings);
-    warn_about_densities(scene, soils, findings);
+    warn_about_friction_under_water(scene, soils, problems);
+    warn_about_steep_pool(scene, soils, problems);
+    warn_about_loads_that_end(scene, problems);
+    warn_about_densities(scene, soils, problems);
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
         if (soils[r].material >= scene.materials.size()) continue;
         const scene::Material& material = scene.materials[soils[r].material];
         if (materials::is_for_particles(material.law)) continue;
         const std::string& name = scene.section.regions[r].name;
-        refuse(findings, region_pointer(r, "/material"),
+        refuse(problems, region_pointer(r, "/material"),
                "\"" + name + "\" is of \"" + material.name + "\", whose law is " +
                    materials::traits(material.law).type + ", which material points cannot have",
                "map it in /transfer/mapping to a material of " +
@@ -252,24 +252,24 @@ void check_soils(const scene::Scene& scene, Findings& findings) {
     }
 }
 
-void check_transfer(const scene::Scene& scene, Findings& findings) {
+void check_transfer(const scene::Scene& scene, Problems& problems) {
     const scene::Transfer& transfer = *scene.transfer;
-    check_stress(scene, findings);
-    warn_about_what_a_transfer_decides(scene, findings);
+    check_stress(scene, problems);
+    warn_about_what_a_transfer_decides(scene, problems);
     if (transfer.liquefied && scene.fem && !scene.fem->water)
-        refuse(findings, "/transfer/liquefied",
+        refuse(problems, "/transfer/liquefied",
                "asks what has liquefied, and the FEM has no pore water",
                "add /fem/water, or leave this out");
     if (!transfer.phreatic_line.empty()) {
         const Depth deepest = deepest_below(scene.section, transfer.phreatic_line, level_at);
         if (deepest.below <= 0.0)
-            refuse(findings, "/transfer/phreatic_line",
+            refuse(problems, "/transfer/phreatic_line",
                    "runs below all soil, by at least " + metres(-deepest.below) +
                        ": nothing would be saturated",
                    "raise the line above the section's lowest level, " +
                        metres(extent(scene.section).low.y()) + ", or leave it out");
     }
-    if (transfer.window) check_window(scene, findings);
+    if (transfer.window) check_window(scene, problems);
 }
 
 }  // namespace breach::check

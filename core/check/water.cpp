@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check/findings.hpp"
 #include "core/check/segment.hpp"
+#include "core/check/subjects.hpp"
 
 namespace breach::check {
 
@@ -18,7 +18,7 @@ double certainly_wet(const GroundWater& water, const scene::Region& region) {
 }
 
 void check_wet_soil(const scene::Scene& scene, const GroundWater& water,
-                    std::vector<std::size_t>& told, Findings& findings) {
+                    std::vector<std::size_t>& told, Problems& problems) {
     for (const scene::Region& region : scene.section.regions) {
         const scene::Material* material = material_of(scene, region);
         if (region.polygon.empty() || material == nullptr) continue;
@@ -30,21 +30,21 @@ void check_wet_soil(const scene::Scene& scene, const GroundWater& water,
         const std::string lacks = material->void_ratio     ? "permeability"
                                   : material->permeability ? "void_ratio"
                                                            : "void_ratio and permeability";
-        refuse(findings, "/materials/" + material->name,
+        refuse(problems, "/materials/" + material->name,
                "lacks " + lacks + ", and \"" + region.name + "\" reaches " + metres(deepest.below) +
                    " below the phreatic line at " + text(deepest.place),
                "give " + lacks + ", lower the line there, or leave out /fem/water");
     }
 }
 
-void check_boundaries(const scene::Scene& scene, const GroundWater& water, Findings& findings) {
+void check_boundaries(const scene::Scene& scene, const GroundWater& water, Problems& problems) {
     if (scene.fem->mesh.msh_file) return;
     const double tolerance = 1e-6 * least_element_size(scene);
     for (std::size_t i = 0; i < water.boundaries.size(); ++i) {
         const scene::PressureBoundary& boundary = water.boundaries[i];
         const Side segment{boundary.from, boundary.to};
         if (may_hold_nodes(scene, segment, tolerance)) continue;
-        refuse(findings, "/fem/water/boundaries/" + std::to_string(i),
+        refuse(problems, "/fem/water/boundaries/" + std::to_string(i),
                "\"" + boundary.name + "\" " + how_it_misses(scene, segment),
                "let the segment run along an edge of a region, ends included");
     }
@@ -57,7 +57,7 @@ bool lies_between(const scene::Region& region, const std::array<double, 2>& x) {
     return box.high.x() >= x[0] && box.low.x() <= x[1];
 }
 
-void check_watch(const scene::Scene& scene, Findings& findings) {
+void check_watch(const scene::Scene& scene, Problems& problems) {
     const scene::LiquefactionWatch& watch = *scene.fem->liquefaction;
     bool seen = false, wet = false;
     for (const std::size_t r : watch.regions) {
@@ -68,14 +68,14 @@ void check_watch(const scene::Scene& scene, Findings& findings) {
         wet = wet || deepest_below(region.polygon, scene.fem->water->line, level_at).below > 0.0;
     }
     if (!seen) {
-        refuse(findings, "/fem/liquefaction/x",
+        refuse(problems, "/fem/liquefaction/x",
                "no soil of these regions lies between " + metres(watch.x[0]) + " and " +
                    metres(watch.x[1]),
                "the section reaches from " + metres(extent(scene.section).low.x()) + " to " +
                    metres(extent(scene.section).high.x()) +
                    ": give a range that holds these regions");
     } else if (!wet) {
-        refuse(findings, "/fem/liquefaction/regions", "lie above the phreatic line throughout",
+        refuse(problems, "/fem/liquefaction/regions", "lie above the phreatic line throughout",
                "name regions that have soil below /fem/water/line");
     }
 }
@@ -87,21 +87,21 @@ bool is_beside(const scene::Scene& scene, const std::vector<Vec2>& line) {
 }
 
 /// Water lines of stages: only within soil that exists in the stage.
-void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Findings& findings) {
+void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Problems& problems) {
     const auto& regions = scene.section.regions;
     for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
         const auto& line = scene.fem->stages[i].phreatic_line;
         if (!line || line->empty()) continue;
         const std::string pointer = "/fem/stages/" + std::to_string(i) + "/phreatic_line";
-        if (!check_table(scene, *line, pointer, findings)) continue;
+        if (!check_table(scene, *line, pointer, problems)) continue;
         const GroundWater water = *scene.fem->water_in(i);
-        check_wet_soil(scene, water, told, findings);
+        check_wet_soil(scene, water, told, problems);
         const std::vector<bool> gone = scene.fem->regions_gone(regions.size(), i);
         for (std::size_t r = 0; r < regions.size(); ++r) {
             if (!gone[r] || regions[r].polygon.empty()) continue;
             const Depth depth = deepest_below(regions[r].polygon, *line, level_at);
             if (depth.below <= certainly_wet(water, regions[r])) continue;
-            refuse(findings, pointer,
+            refuse(problems, pointer,
                    "stands " + metres(depth.below) + " above " + text(depth.place) + " of \"" +
                        regions[r].name + "\", which is not there in this stage",
                    "draw the line below \"" + regions[r].name +
@@ -113,10 +113,10 @@ void check_lines(const scene::Scene& scene, std::vector<std::size_t>& told, Find
 }  // namespace
 
 bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
-                 const std::string& pointer, Findings& findings) {
+                 const std::string& pointer, Problems& problems) {
     const geometry::Box box = extent(scene.section);
     if (is_beside(scene, line)) {
-        refuse(findings, pointer,
+        refuse(problems, pointer,
                "runs from x = " + metres(line.front().x()) + " to " + metres(line.back().x()) +
                    ", beside the section",
                "the section reaches from " + metres(box.low.x()) + " to " + metres(box.high.x()) +
@@ -125,7 +125,7 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
     }
     const Depth deepest = deepest_below(scene.section, line, level_at);
     if (deepest.below >= -1e-9 * (box.high.y() - box.low.y())) return true;
-    refuse(findings, pointer,
+    refuse(problems, pointer,
            "runs below all soil, by at least " + metres(-deepest.below) +
                " at x = " + metres(deepest.place.x()),
            "raise the line above the section's lowest level, " + metres(box.low.y()));
@@ -133,7 +133,7 @@ bool check_table(const scene::Scene& scene, const std::vector<Vec2>& line,
 }
 
 void warn_about_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
-                     const std::string& pointer, Findings& findings) {
+                     const std::string& pointer, Problems& problems) {
     if (line.empty()) return;
     const geometry::Box box = extent(scene.section);
     const double shallow = 0.02 * (box.high.y() - box.low.y());
@@ -141,7 +141,7 @@ void warn_about_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
         if (from >= to) return;
         const double depth = end.y() - ground_over(scene.section, from, to).lowest;
         if (depth <= shallow) return;
-        warn(findings, "undrawn_water", pointer,
+        warn(problems, "undrawn_water", pointer,
              "ends at " + text(end) + " and continues level from there: the water is up to " +
                  metres(depth) + " above the ground between x = " + text(from) + " and " +
                  metres(to) +
@@ -152,13 +152,13 @@ void warn_about_ends(const scene::Scene& scene, const std::vector<Vec2>& line,
     look(line.back(), std::max(line.back().x(), box.low.x()), box.high.x());
 }
 
-void check_water(const scene::Scene& scene, Findings& findings) {
+void check_water(const scene::Scene& scene, Problems& problems) {
     if (!scene.fem->water || scene.fem->water->line.empty()) return;
     const GroundWater& water = *scene.fem->water;
-    check_boundaries(scene, water, findings);
+    check_boundaries(scene, water, problems);
     const Depth deepest = deepest_below(scene.section, water.line, level_at);
     if (deepest.below <= 0.0) {
-        refuse(findings, "/fem/water/line",
+        refuse(problems, "/fem/water/line",
                "runs below all soil, by at least " + metres(-deepest.below) +
                    " at x = " + metres(deepest.place.x()),
                "raise the line above the section's lowest level, " +
@@ -166,10 +166,10 @@ void check_water(const scene::Scene& scene, Findings& findings) {
         return;
     }
     std::vector<std::size_t> told;
-    check_wet_soil(scene, water, told, findings);
-    warn_about_ends(scene, water.line, "/fem/water/line", findings);
-    check_lines(scene, told, findings);
-    if (scene.fem->liquefaction) check_watch(scene, findings);
+    check_wet_soil(scene, water, told, problems);
+    warn_about_ends(scene, water.line, "/fem/water/line", problems);
+    check_lines(scene, told, problems);
+    if (scene.fem->liquefaction) check_watch(scene, problems);
 }
 
 }  // namespace breach::check

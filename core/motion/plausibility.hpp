@@ -26,7 +26,7 @@ struct Remarks {
     std::vector<fault::Flag> flags;    ///< "implausible", "drifting_motion"
 };
 
-/// For an acceleration or a velocity as it is applied (scaled, baseline-corrected). All findings
+/// For an acceleration or a velocity as it is applied (scaled, baseline-corrected). All remarks
 /// have this `pointer`; a refused motion is not flagged in addition.
 Remarks remarks_about(const Recording& motion, const std::string& pointer);
 

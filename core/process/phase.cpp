@@ -298,7 +298,7 @@ scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
         if (known.scene.mpm) known.scene.mpm = grid_alone(*known.scene.mpm);
         return std::move(known.scene);
     }
-    for (fault::Flag& each : check::findings_of(known.scene).warnings)
+    for (fault::Flag& each : check::problems_of(known.scene).warnings)
         known.scene.warnings.push_back(std::move(each));
     return std::move(known.scene);
 }

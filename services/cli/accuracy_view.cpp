@@ -22,6 +22,7 @@ std::string percent_of(const json& share) {
     return text;
 }
 
+/// A ladder may change several entries at once.
 std::string setting_of(const json& row) {
     std::string words;
     for (const json& each : row.at("setting")) words += (words.empty() ? "" : "  ") + cell(each);
@@ -51,6 +52,7 @@ std::string of_mean(const json& row, const char* key) {
     return mean.is_object() ? cell(mean, key) : "-";
 }
 
+/// The unit "1" marks quantities without one.
 std::string title_of(const json& answer) {
     std::string title = cell(answer, "quantity");
     if (answer.at("time").is_number()) title += " at " + cell(answer, "time") + " s";
@@ -58,6 +60,7 @@ std::string title_of(const json& answer) {
     return title;
 }
 
+/// Only the marks that occur.
 std::string legend_of(const json& answer) {
     std::string legend;
     const auto any = [&](const char* key) {
@@ -85,19 +88,19 @@ std::string as_accuracy_table(const json& answer) {
                         of_mean(row, "cpu_seconds"), note_of(row, answer)});
     }
     std::string text =
-        as_table({{"ladder", Align::left},
-                  {"setting", Align::left},
+        as_table({{"ladder"},
+                  {"setting"},
                   {title_of(answer), Align::right},
-                  {"+-", Align::right},
-                  {"repeats", Align::right},
-                  {"error", Align::right},
-                  {"of a run", Align::right},
-                  {"CPU [s]", Align::right},
-                  {"wall [s]", Align::right},
-                  {"memory [MB]", Align::right},
+                  {"+-", right},
+                  {"repeats", right},
+                  {"error", right},
+                  {"of a run", right},
+                  {"CPU [s]", right},
+                  {"wall [s]", right},
+                  {"memory [MB]", right},
                   {"repeats for " + percent_of(answer.at("asked_error")), Align::right},
-                  {"their CPU [s]", Align::right},
-                  {"", Align::left}},
+                  {"their CPU [s]", right},
+                  {""}},
                  rows);
     text += "errors relative to " + cell(answer, "reference") +
             "; \"of a run\": including the error of the reference, of the other ladders at the "

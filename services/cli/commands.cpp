@@ -1,5 +1,6 @@
-// Commands that are one or two requests: submit, list, show, cancel and the like. A refusal by
-// the server is an exception (cli/http/server.hpp), so each command reads as its good case.
+// Commands that are one or two requests: submit, list, show, cancel and the like. A refusal by the
+// server is an exception (cli/http/server.hpp), so each command reads as its good case. With --json
+// the answer is printed unchanged: programs see every field, also new ones.
 #include "services/cli/commands.hpp"
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "core/exchange/csv.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/words/list.hpp"
 #include "services/cli/accuracy_view.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
@@ -27,6 +29,8 @@ constexpr std::size_t length_of_ids = 26;  // of runs: ULIDs
 /// By the form alone, which saves a request to find out.
 bool names_task(const std::string& id) { return id.find('-') == length_of_ids; }
 
+/// The columns are those of the first line. Lists and objects have no place in a cell and are left
+/// out.
 void show_as_csv(const json& lines, const Console& console) {
     if (lines.empty()) return;
     std::vector<std::string> keys;
@@ -59,17 +63,17 @@ std::string run_named(Server& server, const std::string& name) {
         if (each.at("id").get<std::string>().starts_with(name)) begun.push_back(each.at("id"));
     }
     if (begun.size() == 1) return begun.front();
-    std::string which;
-    for (const std::string& each : begun) which += (which.empty() ? "" : ", ") + each;
     throw Refused(404,
                   begun.empty()
                       ? "no run has the name or id \"" + name + "\"; `breach list` shows the runs"
-                      : "several ids begin with \"" + name + "\": " + which,
+                      : "several ids begin with \"" + name + "\": " + words::list_of(begun),
                   {});
 }
 
 namespace {
 
+/// `route` decides what the server does with the study: run it, sweep it, or only say what it
+/// costs. So --dry-run refuses what a submission would.
 json post_submission(Server& server, const std::string& route, const SubmitOptions& options,
                      const Console& console) {
     json study = options.scene.empty() ? read_study(options.study, options.overrides)
@@ -84,73 +88,47 @@ json post_submission(Server& server, const std::string& route, const SubmitOptio
                       options.send_files ? Sending::always : Sending::where_needed, console);
 }
 
+/// Every order is answered with the run as it is then.
 ExitCode show_order(const json& answer, const Console& console) {
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
-        console.out << as_progress_line(answer) << "\n";
-    }
+    if (!shown_as_json(answer, console)) console.out << as_progress_line(answer) << "\n";
     return ExitCode::done;
-}
-
-void show_added(const json& added, const std::string& none, const Console& console) {
-    for (const json& each : added)
-        console.out << (each.is_string() ? each.get<std::string>() : each.dump()) << "\n";
-    if (added.empty()) console.notes << none << "\n";
 }
 
 }  // namespace
 
 ExitCode show_plan(Server& server, const SubmitOptions& options, const Console& console) {
     const json cost = post_submission(server, "/v1/cost", options, console);
-    if (console.style == Style::json) {
-        show_json(cost, console);
-    } else {
+    if (!shown_as_json(cost, console))
         for (const json& each : cost.at("lines")) console.out << each.get<std::string>() << "\n";
-    }
     return ExitCode::done;
 }
 
 std::string submit(Server& server, const SubmitOptions& options, const Console& console) {
     const json run = post_submission(server, options.route, options, console);
-    if (console.style == Style::json) {
-        show_json(run, console);
-    } else {
-        console.out << cell(run, "id") << std::endl;
-    }
+    if (!shown_as_json(run, console)) console.out << cell(run, "id") << std::endl;
     return run.at("id");
 }
 
-ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
-                const Console& console) {
-    const json answer = server.post(path_of({"sweeps", run_named(server, sweep), "extend"}),
-                                    {{"transfer_times", times}});
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
-        show_added(answer.at("added"), "the sweep has all of them", console);
-    }
-    return ExitCode::done;
-}
-
-ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
-                        const Console& console) {
+/// One route for both, with one of two entries; the server says which were new.
+ExitCode extend(Server& server, const Extension& by, const Console& console) {
+    const bool samples = by.samples > 0;
     const json answer =
-        server.post(path_of({"sweeps", run_named(server, run), "extend"}), {{"samples", samples}});
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
-        show_added(answer.at("added_samples"), "the run has as many", console);
-    }
+        server.post(path_of({"sweeps", run_named(server, by.run), "extend"}),
+                    samples ? json{{"samples", by.samples}} : json{{"transfer_times", by.times}});
+    if (shown_as_json(answer, console)) return ExitCode::done;
+    const json& added = answer.at(samples ? "added_samples" : "added");
+    for (const json& each : added)
+        console.out << (each.is_string() ? each.get<std::string>() : each.dump()) << "\n";
+    if (added.empty())
+        console.notes << (samples ? "the run has as many" : "the sweep has all of them") << "\n";
     return ExitCode::done;
 }
 
 ExitCode list_runs(Server& server, std::size_t most, const Console& console) {
     const json runs =
         server.get("/v1/runs" + query_of({{"limit", std::to_string(most)}})).at("runs");
-    if (console.style == Style::json) {
-        show_json(runs, console);
-    } else if (runs.empty()) {
+    if (shown_as_json(runs, console)) return ExitCode::done;
+    if (runs.empty()) {
         console.notes << "no runs\n";
     } else {
         console.out << as_run_table(runs);
@@ -162,11 +140,8 @@ ExitCode show(Server& server, const std::string& id, const Console& console) {
     const bool task = names_task(id);
     const json answer =
         server.get(task ? path_of({"tasks", id}) : path_of({"runs", run_named(server, id)}));
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
+    if (!shown_as_json(answer, console))
         console.out << (task ? as_task_page(answer) : as_run_page(answer));
-    }
     return ExitCode::done;
 }
 
@@ -198,6 +173,8 @@ ExitCode code_of_end(const json& run, Questionable questionable, const Console& 
     return questionable == Questionable::fails ? ExitCode::breakdown : ExitCode::done;
 }
 
+/// Rows of an unfinished run are shown as far as they are, with a note; only an ended run can fail
+/// the exit code.
 ExitCode results(Server& server, const ResultsOptions& options, const Console& console) {
     const std::string id = run_named(server, options.run);
     const bool csv = console.style == Style::csv;
@@ -229,11 +206,7 @@ ExitCode show_accuracy(Server& server, const std::string& run, const std::string
     const std::string id = run_named(server, run);
     const json answer =
         server.get(path_of({"runs", id, "accuracy"}) + query_of({{"asked_error", asked_error}}));
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
-        console.out << as_accuracy_table(answer);
-    }
+    if (!shown_as_json(answer, console)) console.out << as_accuracy_table(answer);
     return ExitCode::done;
 }
 
@@ -245,11 +218,7 @@ ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
         return ExitCode::done;
     }
     const json answer = server.get(path + query_of({{"quantity", options.quantity}}));
-    if (console.style == Style::json) {
-        show_json(answer, console);
-    } else {
-        console.out << as_uncertainty_view(answer);
-    }
+    if (!shown_as_json(answer, console)) console.out << as_uncertainty_view(answer);
     return ExitCode::done;
 }
 
@@ -306,14 +275,12 @@ ExitCode hydrograph(Server& server, const HydrographOptions& options, const Cons
     return ExitCode::done;
 }
 
+/// Of a study, its scene with the overrides for all variants.
 ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console) {
     const json scene =
         names_a_scene(document) ? scene_of_study(document) : read_scene_document(document);
     const json plans = server.post("/v1/scenes/plan", scene).at("plans");
-    if (console.style == Style::json) {
-        show_json(plans, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(plans, console)) return ExitCode::done;
     for (const auto& [phase, text] : plans.items())
         console.out << phase << "\n" << text.get<std::string>() << "\n";
     return ExitCode::done;

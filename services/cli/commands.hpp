@@ -31,13 +31,14 @@ std::string submit(Server& server, const SubmitOptions& options, const Console& 
 /// nothing, but reports the same faults as a submission.
 fault::ExitCode show_plan(Server& server, const SubmitOptions& options, const Console& console);
 
-/// Extends an uncertainty study to this number of samples in all; prints the new ones.
-fault::ExitCode extend_samples(Server& server, const std::string& run, std::size_t samples,
-                               const Console& console);
+struct Extension {
+    std::string run;
+    std::vector<double> times;  ///< more transfer times of a sweep [s]
+    std::size_t samples = 0;    ///< an uncertainty study's samples in all; 0: not these
+};
 
-/// Adds transfer times [s] to a sweep; prints the new ones.
-fault::ExitCode extend(Server& server, const std::string& sweep, const std::vector<double>& times,
-                       const Console& console);
+/// Prints what was added; what was computed stays.
+fault::ExitCode extend(Server& server, const Extension& by, const Console& console);
 
 fault::ExitCode list_runs(Server& server, std::size_t most, const Console& console);
 /// `id`: of a run or of a task

@@ -30,6 +30,7 @@ std::string words_below(const CLI::App& word) {
     return words;
 }
 
+/// take_run() in program.hpp and similar positionals name it RUN.
 bool takes_a_run(const CLI::App& word) {
     for (const CLI::Option* each : word.get_options())
         if (each->get_positional() && each->get_name().starts_with("RUN")) return true;
@@ -55,6 +56,7 @@ void add_fish_options(const CLI::App& word, const std::string& when, std::string
     }
 }
 
+/// In fish each option is a line, with the command as its condition.
 std::string fish_completion(const CLI::App& program) {
     std::string script =
         "# Completes the words of breach in fish; made by: breach completion fish\n";
@@ -77,6 +79,8 @@ std::string fish_completion(const CLI::App& program) {
     return script;
 }
 
+/// The first word that is no option is the command; the tables of commands and options are written
+/// into the script, so that completing needs no call of breach except for ids of runs.
 std::string bash_completion(const CLI::App& program) {
     std::string words;
     std::string cases;

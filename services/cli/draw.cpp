@@ -10,6 +10,7 @@
 #include "core/phases/phases.hpp"
 #include "services/cli/sending.hpp"
 #include "services/cli/study_file.hpp"
+#include "services/cli/table.hpp"
 #include "services/drawing/mesh_question.hpp"
 #include "services/estimate/cost.hpp"
 
@@ -56,6 +57,7 @@ std::optional<estimate::MeshCounts> counts_of(const std::optional<drawing::Drawn
                                 static_cast<double>(mesh->nodes.size())};
 }
 
+/// In the form of the server's answer, so that both are shown by the same code.
 json warnings_of(const drawing::Draft& draft) {
     json list = json::array();
     for (const fault::Flag& each : draft.scene.warnings)
@@ -89,6 +91,7 @@ Preview preview_of(Server& server, const json& document, const drawing::Draft& d
 
 }  // namespace
 
+/// A scene alone is checked as if in a study, but its faults keep the scene's own pointers.
 ExitCode draw(Server& server, const DrawOptions& options, const Console& console) {
     const bool is_study = names_a_scene(options.document);
     const json study = study_of(options, is_study);
@@ -108,11 +111,8 @@ ExitCode draw(Server& server, const DrawOptions& options, const Console& console
         cost = std::move(preview.cost);
         faults = additions.faults = std::move(preview.faults);
         additions.foot = cost.at("lines");
-        if (console.style == Style::json) {
-            console.out << cost.dump(2) << "\n";
-        } else {
+        if (!shown_as_json(cost, console))
             for (const std::string& each : additions.foot) console.out << each << "\n";
-        }
     }
     show_warnings(cost, console);
     for (const json& each : cost.at("warnings"))

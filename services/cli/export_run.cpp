@@ -37,6 +37,7 @@ void claim(const fs::path& folder, const std::string& run) {
         throw IoError(folder.string() + ": holds something else; give a new or an empty folder");
 }
 
+/// Bytes that are not UTF-8 are replaced: a log's message must not end an export.
 void write_json(const fs::path& file, const json& content) {
     exchange::publish_text(file,
                            content.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
@@ -57,6 +58,7 @@ bool fetch(Server& server, const char* kind, const std::string& promised, const 
     return true;
 }
 
+/// Artifacts come after all tables, so that an interrupted export already has the results. A second export recognises its folder by run.json.
 class Export {
   public:
     Export(Server& server, fs::path folder, const Console& console)
@@ -115,6 +117,7 @@ class Export {
         ++kept_;
     }
 
+    /// Every attempt's log is kept, as the failed ones say why there was another.
     void task(const std::string& id) {
         const json task = server_.get(path_of({"tasks", id}));
         const std::string name = "tasks/" + task.at("label").get<std::string>() + "/";
@@ -152,6 +155,7 @@ class Export {
 
 }  // namespace
 
+/// Names come from a server that need not be ours: none may write outside the folder.
 fs::path path_below(const fs::path& folder, const std::string& name) {
     const fs::path relative(name);
     bool leads_out = relative.is_absolute() || name.find('\0') != std::string::npos;

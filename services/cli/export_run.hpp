@@ -1,5 +1,5 @@
-// One run as a self-describing folder: results, study, tasks with logs and every artifact, RO-Crate
-// metadata.
+// One run as a self-describing folder: results, study, tasks with logs and every artifact, and the
+// files that were sent for its scene.
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,9 @@
 namespace breach::cli {
 
 /// Downloads into `folder`:
-///     ro-crate-metadata.json  run.json  study.json  results.json  results.csv
+///     run.json  study.json  results.json  results.csv
+///     means.csv  accuracy.json  uncertainty.json  samples.csv  envelopes.json  motions.json
+///         (those that the study has)
 ///     tasks/<label>/task.json  tasks/<label>/log.<attempt>.txt  tasks/<label>/<artifact>
 /// Each artifact appears under its name only when its SHA-256 is the one in the
 /// server's list. Complete artifacts that exist are kept, so that an interrupted export

@@ -12,6 +12,7 @@
 #include "core/exchange/publish.hpp"
 #include "core/scene/schema.hpp"
 #include "services/cli/new_scene.hpp"
+#include "services/cli/table.hpp"
 #include "services/drawing/section_drawing.hpp"
 #include "services/import/import.hpp"
 
@@ -39,6 +40,7 @@ std::string bytes_of(const std::filesystem::path& file) {
     return bytes;
 }
 
+/// Only the name goes along, not the path: it appears in messages and in the scene's name.
 std::optional<importing::Sent> sent(const std::filesystem::path& file) {
     if (file.empty()) return std::nullopt;
     return importing::Sent{file.filename().string(), bytes_of(file)};
@@ -72,6 +74,7 @@ Files beside(const std::filesystem::path& scene, importing::Imported& imported) 
 
 }  // namespace
 
+/// Nothing is written while there are faults, except the picture that shows them.
 ExitCode import_drawing(const ImportOptions& options, const Console& console) {
     importing::Request asked{
         .drawing = *sent(options.drawing),
@@ -110,10 +113,7 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
     if (!options.force) refuse_to_overwrite(files, "breach import");
     files[options.output] = imported.scene.dump(1) + "\n";
     for (const auto& [path, text] : files) exchange::publish_text(path, text);
-    if (console.style == Style::json) {
-        console.out << imported.report.dump(2) << "\n";
-        return ExitCode::done;
-    }
+    if (shown_as_json(imported.report, console)) return ExitCode::done;
     for (const std::string& each : importing::lines_of(imported.report, most_lines))
         console.notes << each << "\n";
     for (const auto& [path, text] : files) console.out << path.string() << "\n";

@@ -39,6 +39,7 @@ std::string more_of(Server& server, const std::string& task, std::int64_t attemp
     }
 }
 
+/// Attempts are in their order; a task that waits has none.
 std::int64_t newest_attempt(const json& task) {
     if (task.at("attempts").empty())
         throw Refused(404, "the task has not been started: it has no log", {});
@@ -63,6 +64,8 @@ std::string read_log(Server& server, const std::string& task, std::int64_t attem
     return more_of(server, task, attempt, offset);
 }
 
+/// With --attempt it stays with that attempt; else it goes on to the next one when a task is
+/// retried.
 ExitCode show_log(Server& server, const LogOptions& options, const Console& console) {
     const std::string path = path_of({"tasks", options.task});
     std::int64_t attempt = options.attempt ? *options.attempt : newest_attempt(server.get(path));

@@ -1,9 +1,12 @@
+// `breach workers` and `breach transfers`: tables of what the server does at the moment and why it
+// made each transfer. The server decides what is listed and in which order.
 #include "services/cli/machinery.hpp"
 
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/words/list.hpp"
 #include "services/cli/table.hpp"
 
 namespace breach::cli {
@@ -26,10 +29,9 @@ std::string counts_of(const json& counts) {
 }
 
 std::string runouts_of(const json& transfer) {
-    std::string text;
-    for (const json& each : transfer.at("runouts"))
-        text += (text.empty() ? "" : ", ") +
-                (each.at("runout").is_number() ? cell(each, "runout") : cell(each, "state"));
+    const std::string text = words::list_of(transfer.at("runouts"), [](const json& each) {
+        return cell(each, each.at("runout").is_number() ? "runout" : "state");
+    });
     return text.empty() ? "-" : text;
 }
 
@@ -37,10 +39,7 @@ std::string runouts_of(const json& transfer) {
 
 ExitCode workers(Server& server, const Console& console) {
     const json answer = server.get("/v1/workers");
-    if (console.style == Style::json) {
-        show_json(answer, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(answer, console)) return ExitCode::done;
     std::vector<Cells> rows;
     for (const json& each : answer.at("workers")) {
         std::string note = cell(each, "message") == "-" ? "" : cell(each, "message");
@@ -51,16 +50,16 @@ ExitCode workers(Server& server, const Console& console) {
                         cell(each, "cpu_seconds"), cell(each, "memory_used_MB"), note});
     }
     if (!rows.empty())
-        console.out << as_table({{"task", Align::left},
-                                 {"label", Align::left},
-                                 {"state", Align::left},
-                                 {"since (UTC)", Align::left},
-                                 {"host", Align::left},
-                                 {"pid or job", Align::right},
-                                 {"cores", Align::right},
-                                 {"CPU [s]", Align::right},
-                                 {"memory [MB]", Align::right},
-                                 {"", Align::left}},
+        console.out << as_table({{"task"},
+                                 {"label"},
+                                 {"state"},
+                                 {"since (UTC)"},
+                                 {"host"},
+                                 {"pid or job", right},
+                                 {"cores", right},
+                                 {"CPU [s]", right},
+                                 {"memory [MB]", right},
+                                 {""}},
                                 rows)
                     << "\n";
     const json& queue = answer.at("queue");
@@ -85,10 +84,7 @@ ExitCode transfers(Server& server, const TransfersOptions& options, const Consol
     if (answer.at("next").is_string())
         console.notes << "only the newest " << list.size()
                       << " transfers, there are more: -n shows up to 500\n";
-    if (console.style == Style::json) {
-        show_json(list, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(list, console)) return ExitCode::done;
     std::vector<Cells> rows;
     for (const json& each : list)
         rows.push_back({cell(each, "task"), cell(each, "variant"),
@@ -99,15 +95,15 @@ ExitCode transfers(Server& server, const TransfersOptions& options, const Consol
     if (rows.empty())
         console.notes << "no transfers\n";
     else
-        console.out << as_table({{"transfer", Align::left},
-                                 {"variant", Align::left},
-                                 {"t_T [s]", Align::right},
-                                 {"why", Align::left},
-                                 {"condition", Align::left},
-                                 {"values", Align::left},
-                                 {"start [ms]", Align::right},
-                                 {"state", Align::left},
-                                 {"runout [m]", Align::left}},
+        console.out << as_table({{"transfer"},
+                                 {"variant"},
+                                 {"t_T [s]", right},
+                                 {"why"},
+                                 {"condition"},
+                                 {"values"},
+                                 {"start [ms]", right},
+                                 {"state"},
+                                 {"runout [m]"}},
                                 rows);
     return ExitCode::done;
 }

@@ -16,6 +16,8 @@ using nlohmann::json;
 
 namespace {
 
+/// Read and scaled by the same code as a scene's motion (core/check), so that the measures are
+/// those of the run.
 motion::Recording acceleration_in(const std::filesystem::path& file, const MotionOptions& options) {
     motion::Recording motion =
         check::applied_motion({.file = file,
@@ -42,6 +44,7 @@ bool tell_warnings(const std::filesystem::path& file, motion::Recording motion,
     return !fault::is_questionable(flags);
 }
 
+/// One record: its measures, then its response spectrum.
 std::string as_text(const json& all) {
     const std::vector<Cells> rows{
         {"PGA", cell(all, "pga_g"), "g"},
@@ -51,16 +54,15 @@ std::string as_text(const json& all) {
         {"D5-95", cell(all, "strong_duration"), "s, from " + cell(all, "strong_from") + " s"},
         {"CAV", cell(all, "cav"), "m/s"},
         {"MASI", cell(all, "masi"), "m/s (5 %, 0.1 to 2 s)"}};
-    std::string text =
-        as_table({{"measure", Align::left}, {"value", Align::right}, {"unit", Align::left}}, rows);
+    std::string text = as_table({{"measure"}, {"value", right}, {"unit"}}, rows);
     std::vector<Cells> spectrum;
     const json& of = all.at("spectrum");
     for (std::size_t i = 0; i < of.at("period").size(); ++i)
         spectrum.push_back({cell(of.at("period")[i]), cell(of.at("acceleration")[i])});
-    return text + "\n" +
-           as_table({{"period s", Align::right}, {"5 % S_a m/s2", Align::right}}, spectrum);
+    return text + "\n" + as_table({{"period s", right}, {"5 % S_a m/s2", right}}, spectrum);
 }
 
+/// A record and the measures of motion::as_json().
 struct Measured {
     std::filesystem::path file;
     json measures;
@@ -136,29 +138,32 @@ json study_of(const std::vector<Measured>& records, const MotionOptions& options
                {"pick", "midpoint"}}}}};
 }
 
+/// Several records: a line each, without spectra.
 std::string as_text(const std::vector<Measured>& records) {
     std::vector<Cells> rows;
     for (const auto& [file, all] : records)
         rows.push_back({file.filename().string(), cell(all, "pga_g"), cell(all, "pgv"),
                         cell(all, "pgd"), cell(all, "arias"), cell(all, "strong_duration"),
                         cell(all, "cav"), cell(all, "masi")});
-    return as_table({{"record", Align::left},
-                     {"PGA g", Align::right},
-                     {"PGV m/s", Align::right},
-                     {"PGD m", Align::right},
-                     {"Arias m/s", Align::right},
-                     {"D5-95 s", Align::right},
-                     {"CAV m/s", Align::right},
-                     {"MASI m/s", Align::right}},
+    return as_table({{"record"},
+                     {"PGA g", right},
+                     {"PGV m/s", right},
+                     {"PGD m", right},
+                     {"Arias m/s", right},
+                     {"D5-95 s", right},
+                     {"CAV m/s", right},
+                     {"MASI m/s", right}},
                     rows);
 }
 
+/// A correlation with its bounds; "-" where the server gives none.
 std::string interval(const json& found) {
     return found.is_null() ? "-"
                            : cell(found, "value") + " (" + cell(found, "low") + " to " +
                                  cell(found, "high") + ")";
 }
 
+/// Sentences first: they are the answer, the table is their evidence.
 std::string found_as_text(const json& found) {
     std::string text;
     for (const json& each : found.at("sentences")) text += harmless(each.get<std::string>()) + "\n";
@@ -173,21 +178,17 @@ std::string found_as_text(const json& found) {
                                   " (" + cell(curve, "low") + " to " + cell(curve, "high") + ")"});
     }
     return text + "\n" +
-           as_table({{"measure", Align::left},
-                     {"with liquefied depth", Align::left},
-                     {"with runout", Align::left},
-                     {"half past the toe", Align::left}},
+           as_table({{"measure"}, {"with liquefied depth"}, {"with runout"}, {"half past the toe"}},
                     rows);
 }
 
 }  // namespace
 
+/// Three uses by what was named: a run, a folder, one record. Only the first asks the server. A
+/// record that no earthquake can have is shown, and the exit code refuses it.
 fault::ExitCode show_motion(Server& server, const MotionOptions& options, const Console& console) {
     const auto show = [&](const json& answer, const auto& text) {
-        if (console.style == Style::json)
-            show_json(answer, console);
-        else
-            console.out << text();
+        if (!shown_as_json(answer, console)) console.out << text();
     };
     if (!options.run.empty()) {
         const json found = server.get(path_of({"runs", run_named(server, options.run), "motions"}));

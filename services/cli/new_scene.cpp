@@ -22,10 +22,12 @@ std::string flag_of(std::string name) {
     return "--" + name;
 }
 
+/// The unit "1" marks numbers without one.
 std::string with_unit(double value, const Option& option) {
     return words::text_of(value, 5) + (option.unit == "1" ? "" : " " + option.unit);
 }
 
+/// Range and default come from the template, so that help and faults agree.
 std::string help_of(const Option& option) {
     if (option.kind == Kind::yes_or_no)
         return option.help + " (default " + (option.value > 0.5 ? "yes" : "no") + ")";
@@ -41,6 +43,7 @@ json value_of(const std::string& text) {
     return value.is_number() ? value : json(text);
 }
 
+/// A yes-or-no option has two flags. The one that repeats the default is accepted and not listed.
 void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
     const std::string flag = flag_of(option.name);
     if (option.kind == Kind::yes_or_no) {
@@ -77,10 +80,7 @@ std::string name_for(const std::filesystem::path& folder) {
 }
 
 void list_templates(const Console& console) {
-    if (console.style == Style::json) {
-        console.out << templates::as_json(templates::catalogue()).dump(2) << "\n";
-        return;
-    }
+    if (shown_as_json(templates::as_json(templates::catalogue()), console)) return;
     for (const templates::Template& each : templates::catalogue())
         console.out << each.name << std::string(18 - each.name.size(), ' ') << each.title << "\n";
     console.notes << "`breach new NAME --help` says what can be asked of each\n";
@@ -100,6 +100,7 @@ templates::Made made_of(const NewOptions& chosen, const json& options) {
 
 }  // namespace
 
+/// All at once, before the first file is written.
 void refuse_to_overwrite(const Files& files, const std::string& command) {
     std::vector<fault::Fault> faults;
     for (const auto& [path, text] : files)
@@ -133,6 +134,7 @@ void take_templates(CLI::App& word, NewOptions& chosen) {
     }
 }
 
+/// Without a template it lists them, so that `breach new` alone is a beginning.
 ExitCode make_new(const NewOptions& chosen, const Console& console) {
     if (chosen.made_from.empty()) {
         list_templates(console);
@@ -156,14 +158,10 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
         exchange::publish_text(path, text);
         written.push_back(path.string());
     }
-    if (console.style == Style::json) {
-        console.out << json{{"template", chosen.made_from},
-                            {"options", made.options},
-                            {"files", written}}
-                           .dump(2)
-                    << "\n";
+    if (shown_as_json(
+            {{"template", chosen.made_from}, {"options", made.options}, {"files", written}},
+            console))
         return ExitCode::done;
-    }
     for (const json& each : written) console.out << each.get<std::string>() << "\n";
     const std::string study = (folder / "study.json").string();
     console.notes << "The notes of scene.json list the assumptions. Next:\n"

@@ -22,6 +22,7 @@ namespace {
 constexpr int most_tries = 3;
 
 /// Visits the path of every entry that names a file, in the scene and in overrides.
+/// The keys come from core/scene, as the server checks the same ones.
 void change_files(json& study, const scene::ChangeOfPath& changed) {
     if (!study.is_object()) return;
     for (const std::string& entry : scene::file_entries) {
@@ -32,6 +33,8 @@ void change_files(json& study, const scene::ChangeOfPath& changed) {
     scene::change_override_files(study, changed);
 }
 
+/// A proxy or container may answer on loopback and not see the files: post_with_files() then sends
+/// them after the refusal.
 bool is_this_machine(const std::string& origin) {
     return words::is_loopback_authority(origin.substr(origin.find("//") + 2));
 }
@@ -63,6 +66,7 @@ std::size_t send_files_of(Server& server, json& study, const Console& console) {
 
 }  // namespace
 
+/// Goes on where an interrupted upload ended. Waits one second longer after each try.
 std::string send_file(Server& server, const fs::path& file, const Console& console) {
     const std::string sha256 = exchange::sha256_of_file(file);
     bool from_its_beginning = false;
@@ -117,6 +121,7 @@ json post_with_files(Server& server, json study, Sending sending, const Console&
 
 }  // namespace
 
+/// A pointer in the scene ends with the entry; a fault of an override quotes it in its text.
 bool is_about_a_file(const fault::Fault& fault) {
     return std::ranges::any_of(scene::file_entries, [&](const std::string& entry) {
         return fault.pointer.ends_with(entry) || fault.cause.find(entry) != std::string::npos;

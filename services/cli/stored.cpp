@@ -1,5 +1,5 @@
-// `breach rm` and what else changes the server's storage. Removal cannot be undone, so names are
-// resolved and shown with their sizes before the question.
+// `breach rm`, `du`, `files` and `open`. Removal cannot be undone: all names are resolved before
+// the first is removed, and shown with their sizes before the question.
 #include "services/cli/stored.hpp"
 
 #include <unistd.h>
@@ -70,40 +70,35 @@ bool wants(const std::vector<Removed>& all) {
 
 }  // namespace
 
-ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
-                    Confirm confirm, const Console& console) {
-    const std::vector<Removed> all = meant(server, names);
-    if (confirm == Confirm::ask && isatty(STDIN_FILENO) != 1)
+/// Without a terminal and without --yes it refuses, instead of waiting for an answer that cannot
+/// come. The cancelled run is waited for, as the server removes no run that goes on.
+ExitCode remove_all(Server& server, const Removal& removal, const Console& console) {
+    const std::vector<Removed> all = meant(server, removal.names);
+    if (!removal.confirmed && isatty(STDIN_FILENO) != 1)
         throw fault::BadInput("breach rm", {{"", "there is no terminal to ask on",
                                              "give --yes to remove without being asked"}});
-    if (confirm == Confirm::ask && !wants(all)) return ExitCode::done;
+    if (!removal.confirmed && !wants(all)) return ExitCode::done;
     for (const auto& [kind, id, name, bytes] : all) {
         const std::string path = path_of({kind, id});
         json answer;
         try {
             answer = server.remove(path);
         } catch (const Refused& refused) {
-            if (refused.type() != "/problems/going-on" || options == IfItRuns::refuse) throw;
+            if (refused.type() != "/problems/going-on" || !removal.cancel_first) throw;
             server.post(path + "/cancel", json::object());
             wait_for_the_end(server, id);
             answer = server.remove(path);
         }
-        if (console.style == Style::json) {
-            show_json(answer, console);
-        } else {
+        if (!shown_as_json(answer, console))
             console.out << id << "  " << in_bytes(answer.at("freed_bytes").get<double>())
                         << " freed" << std::endl;
-        }
     }
     return ExitCode::done;
 }
 
 ExitCode disk_use(Server& server, const Console& console) {
     const json storage = server.get("/v1/storage");
-    if (console.style == Style::json) {
-        show_json(storage, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(storage, console)) return ExitCode::done;
     const auto bytes = [](const json& of, const char* key) {
         return of.at(key).is_number() ? in_bytes(of.at(key).get<double>()) : std::string("-");
     };
@@ -111,13 +106,9 @@ ExitCode disk_use(Server& server, const Console& console) {
     for (const json& run : storage.at("runs"))
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), bytes(run, "bytes"),
                         bytes(run, "shared_bytes"), bytes(run, "freed_bytes")});
-    console.out << as_table({{"run", Align::left},
-                             {"name", Align::left},
-                             {"state", Align::left},
-                             {"holds", Align::right},
-                             {"shared", Align::right},
-                             {"rm frees", Align::right}},
-                            rows);
+    console.out << as_table(
+        {{"run"}, {"name"}, {"state"}, {"holds", right}, {"shared", right}, {"rm frees", right}},
+        rows);
     console.out << "\nruns " << bytes(storage, "runs_bytes") << ", files that were sent "
                 << bytes(storage, "files_bytes") << ", database "
                 << bytes(storage, "database_bytes") << ": " << bytes(storage, "total_bytes")
@@ -134,10 +125,7 @@ ExitCode disk_use(Server& server, const Console& console) {
 
 ExitCode list_files(Server& server, const Console& console) {
     const json files = server.get("/v1/files").at("files");
-    if (console.style == Style::json) {
-        show_json(files, console);
-        return ExitCode::done;
-    }
+    if (shown_as_json(files, console)) return ExitCode::done;
     std::vector<Cells> rows;
     for (const json& file : files)
         rows.push_back({cell(file, "reference"), cell(file, "name"),
@@ -146,15 +134,12 @@ ExitCode list_files(Server& server, const Console& console) {
     if (rows.empty())
         console.notes << "no files were sent\n";
     else
-        console.out << as_table({{"reference", Align::left},
-                                 {"name", Align::left},
-                                 {"size", Align::right},
-                                 {"runs", Align::right},
-                                 {"", Align::left}},
+        console.out << as_table({{"reference"}, {"name"}, {"size", right}, {"runs", right}, {""}},
                                 rows);
     return ExitCode::done;
 }
 
+/// Flushes each line: a large file can take minutes.
 ExitCode send_files(Server& server, const std::vector<fs::path>& files, const Console& console) {
     for (const fs::path& each : files) console.out << send_file(server, each, console) << std::endl;
     return ExitCode::done;

@@ -9,12 +9,12 @@
 
 namespace breach::cli {
 
-/// For runs; names of files are "file:sha256/...". cancel_first: cancels it and waits.
-enum class IfItRuns { refuse, cancel_first };
-/// ask: prints what will be removed and the disk space freed, and asks at a terminal.
-enum class Confirm { ask, given };
-fault::ExitCode remove_all(Server& server, const std::vector<std::string>& names, IfItRuns options,
-                           Confirm confirm, const Console& console);
+struct Removal {
+    std::vector<std::string> names;  ///< runs, or files as "file:sha256/..."
+    bool cancel_first = false;       ///< a run that goes on is cancelled; else it is refused
+    bool confirmed = false;          ///< else prints what will be freed, and asks at a terminal
+};
+fault::ExitCode remove_all(Server& server, const Removal& removal, const Console& console);
 fault::ExitCode disk_use(Server& server, const Console& console);
 fault::ExitCode list_files(Server& server, const Console& console);
 /// Sends files and prints their references.

@@ -18,6 +18,7 @@ using nlohmann::json;
 
 namespace {
 
+/// A folder can be opened as a stream on Linux, and would read as empty.
 json read_json(const std::filesystem::path& file) {
     std::ostringstream text;
     std::ifstream stream(file, std::ios::binary);
@@ -72,6 +73,7 @@ json scene_of_study(const std::filesystem::path& file) {
     return drawing::draft_of(std::move(base), std::move(checked)).base.scene;
 }
 
+/// A file that is no object is sent as it is: the server's fault names the place.
 json study_around(const std::filesystem::path& scene, const std::vector<std::string>& overrides) {
     const json document = read_scene_document(scene);
     json study{{"format", "breachline-study/1"}, {"scene", document}};

@@ -90,6 +90,11 @@ void show_json(const json& answer, const Console& console) {
     console.out << answer.dump(2, ' ', false, json::error_handler_t::replace) << "\n";
 }
 
+bool shown_as_json(const json& answer, const Console& console) {
+    if (console.style == Style::json) show_json(answer, console);
+    return console.style == Style::json;
+}
+
 std::string harmless(std::string_view text) {
     std::string safe(text);
     for (char& each : safe) {

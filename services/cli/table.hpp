@@ -11,10 +11,11 @@
 namespace breach::cli {
 
 enum class Align { left, right };
+using enum Align;
 
 struct Column {
     std::string title;
-    Align align;
+    Align align = left;
 };
 
 using Cells = std::vector<std::string>;
@@ -32,6 +33,8 @@ std::string whole_cell(const nlohmann::json& object, const char* key);
 
 /// Prints the server's answer unchanged.
 void show_json(const nlohmann::json& answer, const Console& console);
+/// The same with --json only. False: the caller prints the answer for people, or as CSV.
+bool shown_as_json(const nlohmann::json& answer, const Console& console);
 
 /// Removes control characters, so that a text from the server cannot move the cursor.
 std::string harmless(std::string_view text);

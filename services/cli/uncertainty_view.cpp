@@ -31,6 +31,7 @@ std::string marked(const json& value, const json& statistics) {
     return (bound.is_number() && value.is_number() && value >= bound ? ">= " : "") + cell(value);
 }
 
+/// The server may refuse percentiles; its reason stands where they would.
 std::string percentile_table(const std::string& name, const json& statistics) {
     const bool moves = statistics.value("bound_from", json()).is_number();
     std::vector<Cells> rows{{"mean", (moves ? ">= " : "") + cell(statistics, "mean"), ""},
@@ -41,10 +42,8 @@ std::string percentile_table(const std::string& name, const json& statistics) {
             rows.push_back({"p" + cell(each, "p"), marked(each.at("value"), statistics),
                             marked(each.at("low"), statistics) + " to " +
                                 marked(each.at("high"), statistics)});
-    std::string text = as_table({{title_of(name, statistics), Align::left},
-                                 {"", Align::right},
-                                 {"90 % interval", Align::left}},
-                                rows);
+    std::string text =
+        as_table({{title_of(name, statistics), Align::left}, {"", right}, {"90 % interval"}}, rows);
     if (percentiles.is_object()) text += cell(percentiles, "refused") + "\n";
     return text;
 }
@@ -58,6 +57,8 @@ std::string bar_of(const json& tornado, const json& parameter) {
     return "-";
 }
 
+/// One row per parameter and one column per measure of its influence, each with its interval; the
+/// sentence below says of which model p10 and p90 are.
 std::string importance_table(const json& statistics) {
     std::vector<Cells> rows;
     const json& tornado = statistics.at("tornado");
@@ -67,12 +68,9 @@ std::string importance_table(const json& statistics) {
              with_interval(each, "partial_rank_correlation", "partial_low", "partial_high"),
              with_interval(each, "first_order", "first_order_low", "first_order_high"),
              bar_of(tornado, each.at("parameter"))});
-    std::string text = as_table({{"parameter", Align::left},
-                                 {"rank correlation", Align::left},
-                                 {"partial", Align::left},
-                                 {"share of variance", Align::left},
-                                 {"at p10 / p90", Align::left}},
-                                rows);
+    std::string text = as_table(
+        {{"parameter"}, {"rank correlation"}, {"partial"}, {"share of variance"}, {"at p10 / p90"}},
+        rows);
     if (tornado.contains("bars"))
         text += "at p10 / p90: by a polynomial (" + cell(tornado, "form") + ", Q2 " +
                 cell(tornado, "q2") +
@@ -80,6 +78,7 @@ std::string importance_table(const json& statistics) {
     return text;
 }
 
+/// Samples without a result, and why.
 std::string left_out(const json& samples) {
     std::string text;
     for (const json& each : samples.at("left_out"))
@@ -88,6 +87,7 @@ std::string left_out(const json& samples) {
     return text.empty() ? text : text + "\n";
 }
 
+/// The values that the study tried, with the result of each.
 std::string inverse_table(const json& inverse) {
     if (!inverse.is_object()) return "";
     std::vector<Cells> rows;
@@ -96,8 +96,8 @@ std::string inverse_table(const json& inverse) {
                         std::to_string(each.at("results").size()), cell(each, "state")});
     return as_table({{cell(inverse, "vary"), Align::right},
                      {cell(inverse, "quantity"), Align::right},
-                     {"lattices", Align::right},
-                     {"state", Align::left}},
+                     {"lattices", right},
+                     {"state"}},
                     rows) +
            "\n";
 }

@@ -35,6 +35,7 @@ std::string tasks_of(const json& run) {
     return text;
 }
 
+/// bar() knows how to round; the picture is cut off.
 std::string percent(const json& object) {
     const std::string text = bar(object.value("progress", 0.0));
     return text.substr(text.find(']') + 1);
@@ -75,6 +76,8 @@ std::string unusual_end(const json& task) {
     return "ended: entangled at " + cell(task, "end_time") + " s";
 }
 
+/// What a list has room for: an unusual end and the codes of flags; the page of the task has their
+/// messages.
 std::string note_of(const json& task) {
     std::string note = unusual_end(task);
     if (const std::string codes = codes_of(flags_of(task)); !codes.empty())
@@ -83,6 +86,7 @@ std::string note_of(const json& task) {
     return note;
 }
 
+/// What a reader must know about a success comes before it.
 std::string state_shown(const json& task) {
     if (is_yes(task, "not_reached")) return "not_reached";
     return is_yes(task, "questionable") ? "questionable" : cell(task, "state");
@@ -146,13 +150,13 @@ std::string as_task_table(const json& tasks) {
         rows.push_back({cell(task, "id"), cell(task, "phase"), whole_cell(task, "transfer_time"),
                         state_shown(task), percent(task), cpu_seconds(task), note_of(task)});
     }
-    return as_table({{"task", Align::left},
-                     {"phase", Align::left},
-                     {"t_T [s]", Align::right},
-                     {"state", Align::left},
-                     {"done", Align::right},
-                     {"CPU [s]", Align::right},
-                     {"", Align::left}},
+    return as_table({{"task"},
+                     {"phase"},
+                     {"t_T [s]", right},
+                     {"state"},
+                     {"done", right},
+                     {"CPU [s]", right},
+                     {""}},
                     rows);
 }
 
@@ -189,13 +193,7 @@ std::string as_run_table(const json& runs) {
         rows.push_back({cell(run, "id"), cell(run, "name"), cell(run, "state"), percent(run),
                         moment(run, "created"), note_of_run(run)});
     }
-    return as_table({{"run", Align::left},
-                     {"name", Align::left},
-                     {"state", Align::left},
-                     {"done", Align::right},
-                     {"created (UTC)", Align::left},
-                     {"", Align::left}},
-                    rows);
+    return as_table({{"run"}, {"name"}, {"state"}, {"done", right}, {"created (UTC)"}, {""}}, rows);
 }
 
 std::string as_verdict(const json& headline, const json& verdict, const json& results) {
@@ -250,13 +248,13 @@ std::string as_task_page(const json& task) {
                             moment(each, "finished"), cell(each, "exit_code"),
                             cell(each, "wall_seconds"), cell(each, "cpu_seconds")});
     }
-    text += "\n" + as_table({{"attempt", Align::right},
-                             {"state", Align::left},
-                             {"started (UTC)", Align::left},
-                             {"finished (UTC)", Align::left},
-                             {"exit code", Align::right},
-                             {"wall [s]", Align::right},
-                             {"CPU [s]", Align::right}},
+    text += "\n" + as_table({{"attempt", right},
+                             {"state"},
+                             {"started (UTC)"},
+                             {"finished (UTC)"},
+                             {"exit code", right},
+                             {"wall [s]", right},
+                             {"CPU [s]", right}},
                             attempts);
     for (const json& each : flags_of(task))
         text += "\n" + cell(each, "code") + " (" + cell(each, "severity") + ")\n   " +
@@ -265,9 +263,7 @@ std::string as_task_page(const json& task) {
     std::vector<Cells> artifacts;
     for (const json& each : task.at("artifacts"))
         artifacts.push_back({cell(each, "name"), cell(each, "bytes"), cell(each, "sha256")});
-    return text + "\n" +
-           as_table({{"artifact", Align::left}, {"bytes", Align::right}, {"sha256", Align::left}},
-                    artifacts);
+    return text + "\n" + as_table({{"artifact"}, {"bytes", right}, {"sha256"}}, artifacts);
 }
 
 namespace {
@@ -331,7 +327,7 @@ std::string as_result_table(const json& answer) {
     for (const json& each : shown)
         columns.push_back(
             {heading_of(each), each.at("kind") == "number" ? Align::right : Align::left});
-    columns.push_back({"", Align::left});
+    columns.push_back({""});
     Legend legend;
     for (const char* severity : {"questionable", "warning"})
         for (const json& row : rows)
@@ -360,12 +356,12 @@ std::string as_mean_table(const json& answer) {
     const bool variants =
         std::ranges::any_of(means, [](const json& row) { return row.value("variant", "") != ""; });
     std::vector<Column> columns;
-    if (variants) columns.push_back({"variant", Align::left});
+    if (variants) columns.push_back({"variant"});
     for (const char* each : {"t_T [s]", "state", "repeats"}) columns.push_back({each, Align::left});
     for (const char* each : {"mean runout [m]", "+-", "beyond toe [m]", "+-", "largest [m]", "+-"})
         columns.push_back({each, Align::right});
-    columns.push_back({"mean is off by [m]", Align::right});
-    columns.push_back({"", Align::left});
+    columns.push_back({"mean is off by [m]", right});
+    columns.push_back({""});
     std::vector<Cells> lines;
     for (const json& row : means) {
         Cells line;

@@ -45,6 +45,8 @@ class EventTail {
     }
 
   private:
+    /// Reads from the first event of the server: it has no list by run. Past events come in parts
+    /// without waiting; then each call waits for one. With "reset" the server gives a number from which to go on, also a lower one.
     std::vector<json> take() {
         std::vector<json> found;
         do {
@@ -65,11 +67,14 @@ class EventTail {
     bool caught_up_ = false;  // read past events without waiting
 };
 
+/// Asked at each drawing, as a window can be resized. A longer line would wrap, and the cursor's
+/// way back would be wrong.
 std::size_t terminal_width() {
     winsize size{};
     return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
+/// States in which a task has progress to show.
 bool is_busy(const json& task) {
     const std::string state = task.at("state");
     return state == "starting" || state == "running" || state == "finalizing" ||
@@ -127,6 +132,8 @@ class Diary {
     std::map<std::string, std::string> states_;
 };
 
+/// Chooses how news is printed: events for --json, a picture on a terminal, a diary in a file.
+/// Each needs the events: they pace the requests for the run.
 class Onlooker {
   public:
     Onlooker(Server& server, const std::string& run, const Console& console)

@@ -18,6 +18,7 @@ std::vector<Corner> corners_of_arc(const Vec2& centre, double radius, double fro
             {on_circle(from + angle)}};
 }
 
+/// Two chords at least: one alone would be the straight side.
 std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, double sagitta) {
     const Vec2 chord = to - from;
     const double length = chord.norm();

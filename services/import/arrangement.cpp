@@ -24,6 +24,7 @@ constexpr std::size_t most_nodes = 8000, most_steps = 40000;  // limits where li
 
 // ---------------------------------------------------------------- snapping
 
+/// Nodes only are added, never moved: a drawing settles, or the limit on passes ends it.
 class Snapping {
   public:
     Snapping(const std::vector<Chain>& chains, double tolerance)
@@ -65,6 +66,7 @@ class Snapping {
         return nearest;
     }
 
+    /// In the order of the outlines: the node of the first one stays.
     void join_vertices(std::size_t c) {
         std::vector<std::size_t> along;
         for (const Vec2& each : chains_[c].points) {
@@ -80,6 +82,7 @@ class Snapping {
         result_.chains.push_back(std::move(along));
     }
 
+    /// A closed chain has an edge from its last node to its first.
     std::size_t edges_in(std::size_t c) const {
         const std::size_t n = result_.chains[c].size();
         return n < 2 ? 0 : chains_[c].closed ? n : n - 1;
@@ -101,6 +104,7 @@ class Snapping {
         return changed;
     }
 
+    /// The box around the edge, widened by the tolerance, spares the distance for most nodes.
     std::vector<Insertion> nodes_beside(std::size_t c, std::size_t e) {
         const auto& chain = result_.chains[c];
         const std::size_t a = chain[e], b = chain[(e + 1) % chain.size()];
@@ -124,6 +128,7 @@ class Snapping {
         return found;
     }
 
+    /// True if the chain got longer: another pass is due.
     bool insert(std::size_t c, std::vector<std::vector<Insertion>> insertions) {
         bool changed = false;
         std::vector<std::size_t> along;
@@ -146,6 +151,8 @@ class Snapping {
         std::size_t chain, edge, a, b;
     };
 
+    /// A sweep from left to right: only segments that overlap in x are compared. Two edges shared
+    /// by several chains get one node, not one per pair of chains.
     bool cross_edges() {
         std::vector<Segment> segments;
         std::vector<std::vector<std::vector<Insertion>>> insertions(result_.chains.size());
@@ -246,6 +253,7 @@ std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
     return rings;
 }
 
+/// To the ring's sides, not only to its vertices.
 double least_distance(const Vec2& place, const Polygon& ring) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -323,6 +331,8 @@ Polygon polygon_of(const std::vector<Vec2>& nodes, const std::vector<std::size_t
     return polygon;
 }
 
+/// Each edge is walked once in either direction; faces lie to the left, and the walk around the
+/// outside has a negative area.
 std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edge>& edges) {
     std::vector<Edge> directed;
     for (const auto& [a, b] : edges) {
@@ -350,6 +360,7 @@ std::vector<Face> faces_of(const std::vector<Vec2>& nodes, const std::vector<Edg
     return faces;
 }
 
+/// An edge between two of the faces is walked in both directions and cancels.
 std::vector<std::vector<std::size_t>> union_of(const std::vector<Vec2>& nodes,
                                                const std::vector<const Face*>& faces) {
     std::set<Edge> border;

@@ -92,6 +92,8 @@ std::string listed(const std::vector<std::string>& header,
     return as_utf8(std::string_view(all).substr(0, 60));
 }
 
+/// Reads line by line: the header first (columns_), then vertices. An outline is open (begun_)
+/// from its first vertex to finish(). Stops at a header that is ambiguous, and at 100 faults.
 class CsvReader {
   public:
     CsvReader(const LayerMap& layers, const std::optional<Unit>& asked, const std::string& alone)
@@ -112,11 +114,13 @@ class CsvReader {
     }
 
   private:
+    /// At the line that is being read.
     void refuse(std::string cause, std::string remedy) {
         drawing_.faults.push_back({at_line(line_), std::move(cause), std::move(remedy)});
         stopped_ = drawing_.faults.size() >= 100;
     }
 
+    /// A blank line ends an outline: a region may have several.
     void take(std::string_view row) {
         if (row.starts_with('#')) return;
         if (row.empty()) return finish();
@@ -139,6 +143,7 @@ class CsvReader {
         return found.front();
     }
 
+    /// The separator is the first of tab, semicolon and comma that the header has.
     void take_header(std::string_view row) {
         for (const char each : {'\t', ';', ','})
             if (row.find(each) != std::string_view::npos) {
@@ -162,6 +167,8 @@ class CsvReader {
         stopped_ = true;
     }
 
+    /// Both columns name one unit, or none does. A unit asked for must agree, instead of
+    /// overruling the header in silence.
     void take_unit(const Title& x, const Title& y) {
         if (x.unit.empty() && y.unit.empty()) return;
         const auto stop = [&](std::string cause, std::string remedy) {
@@ -187,6 +194,7 @@ class CsvReader {
         drawing_.says_unit = true;
     }
 
+    /// Decimal commas only where semicolons separate: else 1,5 is two fields.
     std::optional<double> number(const std::vector<std::string>& fields, std::size_t column) {
         if (column >= fields.size()) {
             refuse("has only " + std::to_string(fields.size()) + " columns", shape);
@@ -213,6 +221,8 @@ class CsvReader {
         return false;
     }
 
+    /// Checks the number of fields before their values, as a decimal comma between commas shifts
+    /// all that follow.
     void take_vertex(const std::vector<std::string>& fields) {
         if (!fits_header(fields)) return;
         std::string layer = alone_;
@@ -236,6 +246,7 @@ class CsvReader {
         current_.points.emplace_back(*x, *y);
     }
 
+    /// Ends an outline where the region changes, at a blank line and at the end.
     void finish() {
         if (!begun_) return;
         begun_ = false;

@@ -1,3 +1,6 @@
+// Cuts regions along the phreatic line moved down by each depth. The cut runs through the same
+// overlay as healing (arrangement.cpp), so that neighbours get its vertices. Called by fit() in
+// steps.cpp once per request, on soils that are healed.
 #include "services/import/depth_layers.hpp"
 
 #include <algorithm>
@@ -5,6 +8,7 @@
 #include <set>
 
 #include "core/geometry/polyline.hpp"
+#include "core/words/list.hpp"
 #include "services/import/numbers.hpp"
 
 namespace breach::importing {
@@ -19,6 +23,7 @@ std::string short_text(double depth) {
     return digits;
 }
 
+/// "_above", "_0_5", "_5_10", "_below_10"; the number of a part is Soil::depth_layer.
 std::string part_name(const LayerRequest& request, std::size_t part) {
     if (part == 0) return "_above";
     if (part > request.depths.size()) return "_below_" + short_text(request.depths.back());
@@ -26,6 +31,7 @@ std::string part_name(const LayerRequest& request, std::size_t part) {
     return "_" + short_text(from) + "_" + short_text(request.depths[part - 1]);
 }
 
+/// Depth is measured vertically.
 std::size_t part_at(const LayerRequest& request, const std::vector<Vec2>& line, const Vec2& place) {
     const double depth = geometry::level_at(line, place.x()) - place.y();
     if (depth < 0.0) return 0;
@@ -73,11 +79,14 @@ std::vector<Chain> inside_of(const Polygon& ring, const std::vector<Vec2>& line)
     return chains;
 }
 
+/// All outlines with the cuts on common nodes, and the faces between them.
 struct Cut {
     Snapped fit;
     Shares shares;
 };
 
+/// All soils take part, not the target alone, so that neighbours get the vertices of its cuts. The
+/// water line itself is the first cut.
 Cut cut(const std::vector<Soil>& soils, std::size_t target, const LayerRequest& request,
         const std::vector<Vec2>& line, double tolerance) {
     std::vector<Chain> chains;
@@ -113,6 +122,7 @@ void take_in_thin_parts(Shares& shares, const LayerRequest& request, std::size_t
     }
 }
 
+/// Faces are assigned anew: those of the target by their depth, all others to their soil.
 void cut_region(Healed& healed, std::size_t target, const LayerRequest& request,
                 const std::vector<Vec2>& line, double tolerance) {
     const Soil whole = healed.soils[target];
@@ -161,6 +171,7 @@ void cut_region(Healed& healed, std::size_t target, const LayerRequest& request,
 
 }  // namespace
 
+/// The last "=" separates, as a layer's name may contain one.
 std::optional<LayerRequest> layer_request_from(const std::string& entry,
                                                std::vector<Fault>& faults) {
     const std::size_t split = entry.rfind('=');
@@ -186,19 +197,17 @@ std::optional<LayerRequest> layer_request_from(const std::string& entry,
     return request;
 }
 
+/// Names are collected first: cutting adds regions and moves the others.
 Healed with_layers(std::vector<Soil> soils, const LayerRequest& request,
                    const std::vector<Vec2>& line, double tolerance) {
     Healed healed{std::move(soils), {}, {}, {}};
     std::set<std::string> meant;
-    std::string all;
-    for (const Soil& each : healed.soils) {
-        all += (all.empty() ? "" : ", ") + each.name;
+    for (const Soil& each : healed.soils)
         if (lower(each.name) == lower(request.region) || lower(each.layer) == lower(request.region))
             meant.insert(each.name);
-    }
     if (meant.empty())
-        healed.faults.push_back(
-            {"layers", "there is no region \"" + request.region + "\"", "the regions are " + all});
+        healed.faults.push_back({"layers", "there is no region \"" + request.region + "\"",
+                                 "the regions are " + words::list_of(healed.soils, &Soil::name)});
     for (const std::string& name : meant) {
         const auto at = std::ranges::find(healed.soils, name, &Soil::name);
         cut_region(healed, static_cast<std::size_t>(at - healed.soils.begin()), request, line,

@@ -45,6 +45,7 @@ json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell
     return names;
 }
 
+/// Levels are multiples of the cell size, two cells beyond soil and terrain.
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
     geometry::Outlines all = outlines_of(soils);
@@ -78,11 +79,14 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
 
 json as_json(const Vec2& place) { return {rounded(place.x()), rounded(place.y())}; }
 
+/// Users may give a whole scene for its materials.
 const json& materials_in(const json& document) {
     const bool holds = document.is_object() && document.contains("materials");
     return holds ? document.at("materials") : document;
 }
 
+/// The height of the slope sets the sizes: elements, cells, the search. Without a slope, the
+/// thickest region does.
 Document document_of(const std::string& name, const json& given, const std::vector<Soil>& soils,
                      const Lines& lines, double share) {
     const json& materials = materials_in(given);

@@ -1,3 +1,5 @@
+// Words for places, lengths and entities in messages. One form for all readers: the drawing of
+// faults finds places by it.
 #include "services/import/drawing.hpp"
 
 #include <cmath>
@@ -11,6 +13,7 @@ namespace breach::importing {
 
 namespace {
 
+/// A negative zero prints as 0.
 std::string digits(const char* format, double value) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, format, value == 0.0 ? 0.0 : value);
@@ -44,6 +47,7 @@ std::string square_metres(double area) {
     return digits(std::abs(area) < 1.0 ? "%.2g" : "%.6g", area) + " m2";
 }
 
+/// Older DXF files are in a code page of their own, which is read as Latin-1.
 std::string as_utf8(std::string_view bytes) {
     std::string result;
     for (std::size_t at = 0; at < bytes.size();) {
@@ -60,6 +64,7 @@ std::string as_utf8(std::string_view bytes) {
     return result;
 }
 
+/// ASCII only: layers with other letters compare as they are.
 std::string lower(std::string text) {
     for (char& each : text)
         if (each >= 'A' && each <= 'Z') each = static_cast<char>(each - 'A' + 'a');

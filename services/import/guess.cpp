@@ -59,6 +59,11 @@ geometry::Outlines outlines_of(const std::vector<Soil>& soils) {
     return geometry::outlines_of(soils, &Soil::ring);
 }
 
+geometry::Box box_of(const std::vector<Soil>& soils) {
+    return geometry::extent(outlines_of(soils));
+}
+
+/// Pieces in one line: stretches without soil are straight between their ends.
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
     std::vector<Vec2> ground;
@@ -67,6 +72,8 @@ std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
     return ground;
 }
 
+/// Between all neighbouring corners, in the middle: there the order of the strata is the same
+/// along the whole strip.
 std::optional<Void> highest_void(const std::vector<Soil>& soils, double tolerance) {
     const geometry::Outlines outlines = outlines_of(soils);
     const std::vector<double> xs = geometry::abscissae(outlines);
@@ -85,6 +92,7 @@ std::optional<Void> highest_void(const std::vector<Soil>& soils, double toleranc
     return highest;
 }
 
+/// Turned upside down, the section would have a slope that it has not as drawn.
 bool looks_upside_down(const std::vector<Soil>& soils) {
     std::vector<Soil> turned = soils;
     for (Soil& each : turned)
@@ -95,6 +103,7 @@ bool looks_upside_down(const std::vector<Soil>& soils) {
     return slope && slope->fall() > face * std::abs(slope->toe.x() - slope->crest.x());
 }
 
+/// A dam has two faces of nearly one height: then the steeper one is meant; else the higher one.
 std::optional<Slope> slope_of(const std::vector<Vec2>& ground) {
     if (ground.size() < 2) return std::nullopt;
     const Slope right = falling_right(ground);
@@ -111,6 +120,7 @@ std::optional<Slope> slope_of(const std::vector<Vec2>& ground) {
     return slope;
 }
 
+/// Both ranges keep a small distance from the section's ends, before they are rounded.
 Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground) {
     const double length = std::abs(slope.toe.x() - slope.crest.x());
     const double way = slope.toe.x() > slope.crest.x() ? 1.0 : -1.0;
@@ -128,6 +138,7 @@ Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground) {
     return {entry, exit};
 }
 
+/// Round numbers, as a user would choose them.
 double element_size_for(double height) {
     const double wanted = std::max(height, 0.01) / 15.0;
     const double power = std::pow(10.0, std::floor(std::log10(wanted)));

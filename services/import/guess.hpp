@@ -13,6 +13,8 @@ namespace breach::importing {
 /// For the functions of core/geometry/section.hpp.
 geometry::Outlines outlines_of(const std::vector<Soil>& soils);
 
+geometry::Box box_of(const std::vector<Soil>& soils);
+
 /// Upper boundary of the soils from left to right, without stretches that have no soil [m].
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils);
 

@@ -42,6 +42,8 @@ class Cursor {
     std::size_t at_ = 0;
 };
 
+/// 93 counts vertices, and 72 says here whether they have bulges; in chain_of() the same codes
+/// count edges and name their kind.
 Boundary polyline_of(Cursor& cursor) {
     Boundary boundary;
     const bool bulges = cursor.next(72) != 0.0;
@@ -54,6 +56,8 @@ Boundary polyline_of(Cursor& cursor) {
     return boundary;
 }
 
+/// Angles are degrees. Clockwise ones (73 = 0) are measured from the mirrored axis, hence the sign
+/// on both.
 std::vector<Corner> arc_edge(Cursor& cursor) {
     const Vec2 centre = cursor.place(10);
     const double radius = cursor.next(40);
@@ -65,6 +69,8 @@ std::vector<Corner> arc_edge(Cursor& cursor) {
     return corners_of_arc(centre, std::abs(radius), turn * radians * from, turn * radians * angle);
 }
 
+/// A bulge belongs to the edge that follows its corner: reversing moves it by one and changes its
+/// sign.
 std::vector<Corner> reversed(std::vector<Corner> edge) {
     std::ranges::reverse(edge);
     for (std::size_t i = 0; i + 1 < edge.size(); ++i) edge[i].bulge = -edge[i + 1].bulge;
@@ -92,6 +98,7 @@ bool append(std::vector<Corner> edge, bool is_second, std::vector<Corner>& chain
     return true;
 }
 
+/// Lines (1) and circular arcs (2). The last corner repeats the first and is dropped.
 Boundary chain_of(Cursor& cursor) {
     constexpr const char* open = "has a boundary that is not closed";
     Boundary boundary;
@@ -124,6 +131,8 @@ bool is_area(std::string_view type) {
     return std::ranges::find(areas, type) != areas.end();
 }
 
+/// Bit 2 of 92 marks a polyline. A boundary of unknown form ends the reading: its length is
+/// unknown, too.
 std::vector<Boundary> boundaries_of(const Record& record, const Number& number) {
     Cursor cursor(record.groups, number);
     if (record.type != "HATCH") {

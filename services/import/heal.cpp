@@ -49,6 +49,7 @@ void drop_short_sides(Soil& soil, double tolerance, std::vector<Change>& changes
     soil.ring = std::move(kept);
 }
 
+/// Starts again after each: what is left may form a new spike. A triangle stays, thin or not.
 void drop_spikes(Soil& soil, double tolerance, std::vector<Change>& changes) {
     Polygon& ring = soil.ring;
     for (std::size_t i = 0; i < ring.size() && ring.size() > 3;) {
@@ -66,6 +67,7 @@ void drop_spikes(Soil& soil, double tolerance, std::vector<Change>& changes) {
     }
 }
 
+/// Each outline by itself; it is counter-clockwise afterwards.
 void clean(Soil& soil, double tolerance, std::vector<Change>& changes) {
     drop_short_sides(soil, tolerance, changes);
     drop_spikes(soil, tolerance, changes);
@@ -147,6 +149,7 @@ void straighten_ends(std::vector<Soil>& soils, double tolerance, std::vector<Cha
             }
 }
 
+/// Strictly: a place on the border is shared, not overlapped.
 bool is_within(const Polygon& ring, const Vec2& place) {
     if (!geometry::contains(ring, place)) return false;
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -155,6 +158,8 @@ bool is_within(const Polygon& ring, const Vec2& place) {
     return true;
 }
 
+/// Several edges may meet one node; each pair of outlines is listed once per place. A vertex that
+/// fits exactly is no change.
 void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
                    std::vector<Change>& changes) {
     const auto name = [&](std::size_t chain) {
@@ -195,6 +200,7 @@ std::string list_of(const std::vector<int>& owners, const std::vector<Soil>& soi
     return list;
 }
 
+/// One face at an edge: outside lies no soil.
 std::map<Edge, std::vector<std::size_t>> faces_at_edges(const std::vector<Face>& faces) {
     std::map<Edge, std::vector<std::size_t>> at;
     for (std::size_t f = 0; f < faces.size(); ++f)
@@ -219,6 +225,7 @@ std::map<int, double> borders(const Shares& shares, const std::set<std::size_t>&
     return lengths;
 }
 
+/// Among all owners if `among` is empty; -1: no border.
 int longest_of(const std::map<int, double>& lengths, const std::vector<int>& among) {
     int best = -1;
     double most = 0.0;
@@ -229,6 +236,7 @@ int longest_of(const std::map<int, double>& lengths, const std::vector<int>& amo
     return best;
 }
 
+/// A face that no outline or several claim.
 struct Claim {
     std::size_t face;
     std::vector<int> owners;
@@ -351,6 +359,8 @@ std::vector<Polygon> pieces_of(const Shares& shares, int owner, bool& holes) {
     return pieces;
 }
 
+/// Faults that follow from earlier ones are left out (`blamed`): an overlap alone would also
+/// report regions in pieces.
 Healed healed(std::vector<Soil> soils, double tolerance, const std::vector<Vec2>& terrain) {
     Healed result;
     std::vector<Soil> sound;

@@ -35,6 +35,8 @@ std::optional<std::size_t> next_piece(std::vector<Outline>& pieces, const std::v
 
 }  // namespace
 
+/// Each outline grows at its end, then, reversed, at its beginning. Inner joints drop the begin of
+/// the next piece, so that its end within the tolerance is not a vertex twice.
 std::vector<Outline> joined(std::vector<Outline> pieces, double tolerance) {
     std::vector<Outline> whole;
     std::vector<bool> used(pieces.size(), false);

@@ -5,6 +5,8 @@
 
 #include <optional>
 
+#include "core/words/list.hpp"
+
 namespace breach::importing {
 
 namespace {
@@ -39,8 +41,7 @@ LayerMap::LayerMap(const std::vector<std::string>& entries, const std::set<std::
         } else if (const auto own = own_.find(lower(word)); own != own_.end()) {
             told_[layer] = {Role::soil, own->second, true};
         } else {
-            std::string all;
-            for (const std::string& name : materials) all += (all.empty() ? "" : ", ") + name;
+            const std::string all = words::list_of(materials);
             faults.push_back({"map",
                               "\"" + as_utf8(each) + "\": there is no material \"" + word + "\"",
                               "the materials are " + (all.empty() ? "none" : all)});

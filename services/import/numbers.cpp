@@ -1,8 +1,12 @@
+// Numbers and units as drawings write them. The units are one table: names for users, codes for DXF
+// ($INSUNITS), metres.
 #include "services/import/numbers.hpp"
 
 #include <array>
 #include <charconv>
 #include <cmath>
+
+#include "core/words/list.hpp"
 
 namespace breach::importing {
 
@@ -49,12 +53,9 @@ std::optional<Unit> unit_named(const std::string& name) {
     return std::nullopt;
 }
 
-std::string unit_names() {
-    std::string all;
-    for (const Known& each : units) all += (all.empty() ? "" : ", ") + std::string(each.name);
-    return all;
-}
+std::string unit_names() { return words::list_of(units, &Known::name); }
 
+/// Codes of the DXF Reference, $INSUNITS.
 std::optional<Unit> unit_of_code(int code) {
     for (const Known& each : units)
         if (code == each.code) return Unit{each.name, each.metres};

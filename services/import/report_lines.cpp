@@ -1,8 +1,10 @@
-// Writes the import's report as text.
+// Writes the import's report as text, called by `breach import` after the scene is written. Unit
+// and size come first, because a wrong unit spoils all that follows.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "core/words/list.hpp"
 #include "services/import/drawing.hpp"
 #include "services/import/import.hpp"
 
@@ -11,12 +13,6 @@ namespace breach::importing {
 using nlohmann::json;
 
 namespace {
-
-std::string joined_names(const json& names) {
-    std::string all;
-    for (const json& each : names) all += (all.empty() ? "" : ", ") + each.get<std::string>();
-    return all;
-}
 
 /// The unit and its source, and the size of the section.
 std::string unit_line(const json& report) {
@@ -57,16 +53,18 @@ std::vector<std::string> lines_of(const json& report, std::size_t most) {
         largest = std::max(largest, each.at("size").get<double>());
     }
     if (!healed.empty()) {
-        std::string summary;
-        for (const auto& [kind, count] : counts)
-            summary += (summary.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
-        lines.push_back("healed: " + summary + "; the largest " + metres(largest));
+        const auto count_of = [](const auto& kind_and_count) {
+            return std::to_string(kind_and_count.second) + " " + kind_and_count.first;
+        };
+        lines.push_back("healed: " + words::list_of(counts, count_of) + "; the largest " +
+                        metres(largest));
     }
     for (std::size_t i = 0; i < std::min(most, healed.size()); ++i) {
         const json& each = healed[i];
         const Vec2 at(each.at("at")[0].get<double>(), each.at("at")[1].get<double>());
         lines.push_back("  " + each.at("kind").get<std::string>() + " at " + text(at) + ", " +
-                        metres(each.at("size")) + ": " + joined_names(each.at("regions")));
+                        metres(each.at("size")) + ": " +
+                        words::list_of(each.at("regions").get<std::vector<std::string>>()));
     }
     if (healed.size() > most)
         lines.push_back("  and " + std::to_string(healed.size() - most) + " more");

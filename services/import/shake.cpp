@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/words/list.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::importing {
@@ -17,10 +18,7 @@ namespace {
 /// document.cpp rounds to a micrometre.
 constexpr double same_place = 1e-6;  // m: rounding of a scene's vertices
 
-geometry::Box box_of(const std::vector<Soil>& soils) {
-    return geometry::extent(outlines_of(soils));
-}
-
+/// PM4Sand replaces frictional soil that drains; undrained strengths stay as they are.
 bool is_drained(const json& material) {
     const json& law = material.at("law");
     return law.at("type") == "mohr_coulomb" && !material.contains("strength") &&
@@ -45,6 +43,7 @@ void check_slope(const std::optional<Slope>& slope, std::vector<Fault>& faults) 
                           "mirror the drawing: give -x for x"});
 }
 
+/// Only layers can liquefy, so that a section without any would shake for nothing.
 void check_layers(const std::vector<Soil>& soils, const Lines& lines, const json& materials,
                   std::vector<Fault>& faults) {
     if (lines.phreatic.empty()) {
@@ -52,12 +51,11 @@ void check_layers(const std::vector<Soil>& soils, const Lines& lines, const json
                           "draw it on a layer PHREATIC, or give it as a file"});
         return;
     }
-    std::string all;
-    for (const Soil& each : soils) all += (all.empty() ? "" : ", ") + each.name;
     if (std::ranges::none_of(soils, [](const Soil& each) { return each.depth_layer > 0; }))
         faults.push_back(
             {"layers", "no region is cut in layers below the phreatic line, so none can liquefy",
-             "name the tailings and depths, as --layers REGION=5,10; the regions are " + all});
+             "name the tailings and depths, as --layers REGION=5,10; the regions are " +
+                 words::list_of(soils, &Soil::name)});
     std::set<std::string> reported;
     for (const Soil& each : soils) {
         const json& material = materials.at(each.material);
@@ -111,6 +109,7 @@ void check_side(const std::vector<Soil>& soils, double x, const std::string& sid
 
 // ------------------------------------------------------------ materials
 
+/// All materials of the scene, and which become another one in the runout.
 struct Completed {
     json materials;
     std::map<std::string, std::string> runouts;
@@ -139,6 +138,7 @@ std::pair<earthquake::Soil, std::string> like(const std::string& material,
     return {earthquake::foundation, "foundation of \"breach new\": it lies below the toe"};
 }
 
+/// What the user gives replaces what "breach new" assumes for such a soil.
 earthquake::Soil with_given(earthquake::Soil soil, const json& own) {
     const json& law = own.at("law");
     const json strength = own.value("limit_strength", law);

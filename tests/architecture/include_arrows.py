@@ -63,7 +63,7 @@ interfaces = {"services/import": ["services/import/import"],
          "services/drawing": ["services/drawing/section_drawing", "services/drawing/mesh_question"]}
 # units in several files: an interface included by its own parts
 one_thing = [re.compile(r"core/materials/(norsand|pm4sand)/"), re.compile(r"core/scene/(scene|beds|reader|reading|plausibility|resolution|words)$"),
-             re.compile(r"core/check/(check|findings)$")]
+             re.compile(r"core/check/(check|subjects)$")]
 # outside header -> places (folder or file prefix) that may include it
 owners = {
     "boost/": ["core/statistics/quantiles.", "core/statistics/sobol."],

@@ -61,6 +61,7 @@ BANNED_NAMES = {
     "check_company": "what it refuses", "check_companions": "what it refuses", "hangs_on": "depends_on", "press": "send_signals, look_soon",
     "fate_of": "end_of", "worth_of": "usable_with", r"told_by\w*": "by", r"what_tells\w*": "how_to_measure", "take_apart": "split",
     "leave_to_the_cache": "answer_from_cache", "still": "unless_removed", "why_lively": "reason_to_go_on", "Heap": "Cluster",
+    "Findings": "Problems (of a scene; findings are of results)", "findings_of": "problems_of",
 }
 MESSAGES = ["core", "element_bench", "fem_solver", "lem_tool", "mpm_solver", "services", "transfer_tool"]
 DESCRIPTIONS = ["workflows/schema/scene.schema.json", "workflows/schema/study.schema.json", "workflows/schema/element_test.schema.json",

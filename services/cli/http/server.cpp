@@ -13,6 +13,7 @@ namespace breach::cli {
 
 using nlohmann::json;
 
+/// Here only, so that httplib is not compiled into every command.
 struct Server::Connection {
     std::string origin;
     std::string prefix;
@@ -25,6 +26,7 @@ constexpr std::chrono::seconds patience_to_connect{5};
 /// Longer than the longest wait for events that a command asks for.
 constexpr std::chrono::seconds patience_for_an_answer = longest_poll + std::chrono::seconds(40);
 
+/// Answers of a proxy may be any JSON, or none: a refusal must not end in a fault of reading it.
 std::string text_or(const json& object, const char* key, const std::string& otherwise) {
     const auto found = object.find(key);
     return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
@@ -42,6 +44,7 @@ std::vector<fault::Fault> faults_of(const json& problem) {
     return faults;
 }
 
+/// 429 and 5xx are about the moment, other statuses about the request.
 [[noreturn]] void refuse(int status, const std::string& body) {
     json problem = json::parse(body, nullptr, false);
     if (!problem.is_object()) problem = json::object();
@@ -152,6 +155,7 @@ json Server::remove(const std::string& path) {
     return parsed(good(result, connection_->client, connection_->origin).body);
 }
 
+/// 404 is an answer here: how much of the file has arrived.
 KnownFile Server::known_file(const std::string& path) {
     const auto result = connection_->client.Head(connection_->prefix + path);
     if (result && result->status == 404)
@@ -161,6 +165,7 @@ KnownFile Server::known_file(const std::string& path) {
                 .get_header_value("X-File-Reference")};
 }
 
+/// Reads the file in parts of 64 KiB, as it may be larger than memory.
 json Server::upload(const std::string& path, const std::filesystem::path& file, std::size_t from) {
     std::ifstream in(file, std::ios::binary);
     std::error_code error;
@@ -182,6 +187,7 @@ json Server::upload(const std::string& path, const std::filesystem::path& file, 
 
 std::string Server::origin() const { return connection_->origin + connection_->prefix; }
 
+/// The body of a refusal is kept apart: it must not become the file.
 void Server::download(const std::string& path, const std::filesystem::path& file) {
     std::ofstream out(file, std::ios::binary | std::ios::trunc);
     int status = 0;

@@ -1,4 +1,4 @@
-// A shipped scene with a few changed entries, and the findings of its check.
+// A shipped scene with a few changed entries, and the problems of its check.
 #pragma once
 
 #include <gtest/gtest.h>

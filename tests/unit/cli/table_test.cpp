@@ -8,15 +8,15 @@
 namespace breach::cli {
 
 TEST(Table, ColumnsAreAsWideAsTheirWidestCell) {
-    EXPECT_EQ(as_table({{"name", Align::left}, {"x", Align::right}, {"", Align::left}},
-                       {{"a", "1.5", ""}, {"longer", "10", "note"}}),
-              "name      x\n"
-              "a       1.5\n"
-              "longer   10  note\n");
+    EXPECT_EQ(
+        as_table({{"name"}, {"x", right}, {""}}, {{"a", "1.5", ""}, {"longer", "10", "note"}}),
+        "name      x\n"
+        "a       1.5\n"
+        "longer   10  note\n");
 }
 
 TEST(Table, CountsCharactersNotBytes) {
-    EXPECT_EQ(as_table({{"a", Align::right}}, {{"\xC3\xA9"}, {"xx"}}), " a\n \xC3\xA9\nxx\n");
+    EXPECT_EQ(as_table({{"a", right}}, {{"\xC3\xA9"}, {"xx"}}), " a\n \xC3\xA9\nxx\n");
 }
 
 TEST(Cell, ShowsFourDigitsAndADashForNothing) {

@@ -103,7 +103,7 @@ inline Vec2 u_at(const Course& done, const Vec2& x) {
 inline std::string place_refused(const json& scene) {
     try {
         const scene::Scene parsed = parse(scene);
-        const auto faults = check::findings_of(parsed).faults;
+        const auto faults = check::problems_of(parsed).faults;
         if (!faults.empty()) return faults.at(0).pointer;
         Run run(scene);
     } catch (const fault::BadInput& bad) {

@@ -149,7 +149,7 @@ TEST(SandInTheMesh, RefusesALateElasticStage) {
     json late = element_scene("ssp");
     late["fem"]["stages"] = {{{"type", "static"}, {"name", "plastic"}, {"laws", "scene"}},
                              {{"type", "static"}, {"name", "elastic"}, {"laws", "elastic"}}};
-    EXPECT_FALSE(check::findings_of(bench::parse(late)).faults.empty());
+    EXPECT_FALSE(check::problems_of(bench::parse(late)).faults.empty());
 }
 
 }  // namespace
