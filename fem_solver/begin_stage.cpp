@@ -153,8 +153,8 @@ void find_frictional_rest(Course& course) {
     } else {
         course.session.flag(
             {"no_frictional_rest", fault::Severity::warning,
-             in_words(rest) +
-                 seepage_remedy(course.fem, static_cast<std::size_t>(course.position.stage)),
+             in_words(rest) + seepage_remedy(course.session.scene(),
+                                             static_cast<std::size_t>(course.position.stage)),
              course.pointer_of_stage()});
     }
     course.session.result()["geostatic"][course.stage().name]["friction"] = {

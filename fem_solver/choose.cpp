@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/scene/ground.hpp"
 #include "core/words/number.hpp"
 #include "fem_solver/monitors/watch.hpp"
 #include "fem_solver/solve/plastic_gravity.hpp"
@@ -64,6 +65,25 @@ std::string viscous_regions(const scene::Scene& scene) {
         if (names.empty()) continue;
         text += (text.empty() ? "" : "; ") + words::text_of(material.viscosity) +
                 " Pa s beside the law's stress in " + names;
+    }
+    return text;
+}
+
+/// "clay by 0.122 sigma'_v0, here about 1 to 38 kPa; ...": s_u of the regions that have one.
+std::string undrained_regions(const scene::Scene& scene) {
+    std::string text;
+    const scene::Ground ground(scene);
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        const scene::Region& region = scene.section.regions[r];
+        const auto& s_u = scene.materials[region.material].dynamic_strength;
+        if (!s_u) continue;
+        std::vector<double> range;
+        for (const Vec2& each : region.polygon)
+            range.push_back(materials::strength_at(*s_u, ground.at(each, r)).c / 1e3);
+        const auto [least, largest] = std::ranges::minmax(range);
+        text += (text.empty() ? "" : "; ") + region.name + " with about " +
+                words::text_of(least, 3) + " to " + words::text_of(largest, 3) +
+                " kPa by the weight above it";
     }
     return text;
 }
@@ -153,6 +173,7 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
     const std::string plastic = laws_that(scene, flows_without_memory);
     const std::string softening = regions_that_soften(scene);
     const std::string viscous = viscous_regions(scene);
+    const std::string undrained = undrained_regions(scene);
     const bool moves = std::ranges::any_of(scene::fem_of(scene).stages, [](const auto& stage) {
         return stage.kind == scene::StageKind::dynamic;
     });
@@ -165,6 +186,10 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
         line_of("softening", use_if(!softening.empty()),
                 {"in " + softening + "; explicit per step, so shear bands are one element wide",
                  "no law softens"},
+                "/materials"),
+        line_of("undrained strength in motion", use_if(!undrained.empty() && moves),
+                {undrained, undrained.empty() ? "no region's material has a dynamic_strength"
+                                              : "no stage moves"},
                 "/materials"),
         line_of("inertia (Newmark)", use_if(moves), {"a stage is dynamic", "every stage is static"},
                 "/fem/stages"),

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <span>
 #include <sstream>
 
 #include "core/motion/measures.hpp"
@@ -184,6 +185,21 @@ void report_base_motion(Course& course) {
         {"largest_difference_to_mesh", peak > 0.0 ? farthest / peak : 0.0}};
 }
 
+/// Range of s_u by region, from the first dynamic stage on.
+void report_dynamic_strengths(Course& course) {
+    const Model& model = course.model;
+    for (const Zone& zone : model.zones) {
+        if (!zone.dynamic_strength || zone.first >= model.body.elements) continue;
+        const std::string& name =
+            course.session.scene().section.regions[model.mesh.region_of_element[zone.first]].name;
+        const auto [least, largest] = std::ranges::minmax(std::span(model.s_u).subspan(
+            zone.first * model.points_per_element, zone.count * model.points_per_element));
+        course.session.result()["dynamic_strength"][name] = {{"least", least},
+                                                             {"largest", largest}};
+        spdlog::info("s_u in {}: {} to {} kPa", name, shown(least / 1e3), shown(largest / 1e3));
+    }
+}
+
 /// Of the present soil [m].
 double largest_displacement(const Course& course) {
     const std::vector<bool> lonely = lonely_nodes(course.model);
@@ -260,6 +276,7 @@ void report_end(Course& course) {
         first_time(course.history, &Reading::failure_surfaces, 1.0);
     facts["milestones"] = milestones_in(course.history);
     report_motions(course);
+    report_dynamic_strengths(course);
     if (course.decided.liquefaction.value) facts["largest_liquefaction_depth"] = depth;
     if (course.model.rayleigh.stiffness > 0.0) {
         const double share =

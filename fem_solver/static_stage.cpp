@@ -117,9 +117,10 @@ void note_geostatic_state(Course& course, double residual) {
     const std::string why = outcome.end == End::degenerate
                                 ? course.newton->why_degenerate()
                                 : "out of balance " + text_of(outcome.residual) + " of the weight";
-    recorder.give_up("no equilibrium in stage '" + course.stage().name + "' beyond " +
-                     text_of(course.position.load) + " of its load: " + why +
-                     seepage_remedy(course.fem, static_cast<std::size_t>(course.position.stage)));
+    recorder.give_up(
+        "no equilibrium in stage '" + course.stage().name + "' beyond " +
+        text_of(course.position.load) + " of its load: " + why +
+        seepage_remedy(course.session.scene(), static_cast<std::size_t>(course.position.stage)));
 }
 
 }  // namespace

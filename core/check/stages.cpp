@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "core/check/mesh_file.hpp"
 #include "core/check/section.hpp"
@@ -99,6 +101,57 @@ void check_undrained(const scene::Scene& scene, Problems& problems) {
     }
 }
 
+/// A strength of dynamic stages replaces c and phi, and needs the stress of static stages before.
+/// cause and remedy; none: the region's soil can have it.
+std::optional<std::array<std::string, 2>> why_no_dynamic_strength(const scene::Scene& scene,
+                                                                  std::size_t r,
+                                                                  const materials::Law& law) {
+    const auto& stages = scene.fem->stages;
+    const auto moving = std::ranges::find(stages, scene::StageKind::dynamic, &scene::Stage::kind);
+    const auto places = [&](const scene::Stage& each) {
+        return std::ranges::find(each.activates, r) != each.activates.end();
+    };
+    using Why = std::array<std::string, 2>;
+    if (!materials::has_c_and_phi(law))
+        return Why{std::string("is of ") + materials::traits(law).name +
+                       ", which has no c and phi that it could replace",
+                   "leave it out, or give the material a law of type " +
+                       materials::types_of_laws_that(materials::has_c_and_phi)};
+    if (materials::softening(law))
+        return Why{"replaces a strength that softens, and does not soften itself",
+                   "leave out the softening, or the dynamic_strength"};
+    if (moving == stages.end()) return std::nullopt;
+    if (moving == stages.begin() || std::any_of(moving, stages.end(), places))
+        return Why{"is a share of sigma'_v0, and no static stage gives one to \"" +
+                       scene.section.regions[r].name + "\"",
+                   "put a static stage with this region before the first dynamic stage"};
+    if (!scene.fem->water)
+        return Why{"is of undrained soil, and the scene has no water",
+                   "give /fem/water, or write the strength in the law: c_kPa = s_u, phi_deg = 0"};
+    return std::nullopt;
+}
+
+void check_dynamic_strengths(const scene::Scene& scene, Problems& problems) {
+    const bool moves = std::ranges::any_of(scene.fem->stages, [](const scene::Stage& each) {
+        return each.kind == scene::StageKind::dynamic;
+    });
+    std::vector<const scene::Material*> told;
+    for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
+        const scene::Material* soil = material_of(scene, scene.section.regions[r]);
+        if (soil == nullptr || !soil->dynamic_strength ||
+            std::ranges::find(told, soil) != told.end())
+            continue;
+        const std::string pointer = "/materials/" + soil->name + "/dynamic_strength";
+        const auto why = why_no_dynamic_strength(scene, r, soil->law);
+        if (why) refuse(problems, pointer, why->at(0), why->at(1));
+        if (!why && !moves)
+            warn(problems, "implausible", pointer,
+                 "has no effect, because no stage of /fem/stages is dynamic; leave it out, or add "
+                 "such a stage");
+        if (why || !moves) told.push_back(soil);
+    }
+}
+
 /// Softening by region needs a law with a state parameter.
 void check_softening(const scene::Scene& scene, const scene::Stage& stage,
                      const std::string& pointer, Problems& problems) {
@@ -196,6 +249,7 @@ void check_stages(const scene::Scene& scene, Problems& problems) {
     check_surcharges(scene, scene.fem->surcharge, "/fem", problems);
     if (const char* law = name_of_law_with_memory(scene)) check_memory(scene, law, problems);
     check_undrained(scene, problems);
+    check_dynamic_strengths(scene, problems);
     for (std::size_t i = 0; i < scene.fem->stages.size(); ++i) {
         const scene::Stage& stage = scene.fem->stages[i];
         const std::string pointer = "/fem/stages/" + std::to_string(i);

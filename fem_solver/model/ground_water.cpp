@@ -3,7 +3,9 @@
 #include "fem_solver/model/ground_water.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
+#include "core/words/remedy.hpp"
 #include "fem_solver/model/ground.hpp"
 #include "fem_solver/model/pore_water.hpp"
 
@@ -145,15 +147,33 @@ std::vector<bool> elements_below(const GroundWater& water, const Mesh& mesh) {
     return wet_elements(mesh, depths_below(water, mesh, tolerance));
 }
 
-std::string seepage_remedy(const scene::Fem& fem, std::size_t stage) {
+std::string seepage_remedy(const scene::Scene& scene, std::size_t stage) {
+    const scene::Fem& fem = scene::fem_of(scene);
     const auto water = fem.water_in(stage);
     if (!water || !water->boundaries.empty()) return "";
     const auto level = [](const Vec2& each) { return each.y(); };
     const auto [lowest, highest] = std::ranges::minmax(water->line, {}, level);
     if (highest.y() - lowest.y() <= 0.0) return "";
-    return "; or let water flow: the phreatic line slopes, and the pressure of water at rest below "
-           "it pushes the soil sideways. Give /fem/water/boundaries the segments where water "
-           "enters and leaves, and this stage \"permeability\": \"scene\"";
+    const auto [low, high] = geometry::extent(scene.section);
+    const double tolerance = 1e-9 * (high.x() - low.x());
+    nlohmann::json boundaries = nlohmann::json::array();
+    for (const double x : {low.x(), high.x()}) {
+        const auto side = geometry::upright_at(scene.section, x, tolerance);
+        const double head = geometry::level_at(water->line, x);
+        if (!side.unbroken || head <= side.low) continue;
+        boundaries.push_back({{"name", x == low.x() ? "left" : "right"},
+                              {"from", {x, side.low}},
+                              {"to", {x, std::min(side.high, head)}},
+                              {"level", head}});
+    }
+    const std::string gives =
+        boundaries.empty() ? "give /fem/water/boundaries the segments where water enters and leaves"
+                           : words::set("/fem/water/boundaries", boundaries.dump());
+    return "; or let water flow, because the phreatic line slopes and the pressure of water at "
+           "rest below it pushes the soil sideways: " +
+           gives +
+           ", and \"permeability\": \"scene\" in the static stages where the permeability of the "
+           "soils matters";
 }
 
 PoreWater ground_water(const scene::Scene& scene, const GroundWater& water, const Model& model) {

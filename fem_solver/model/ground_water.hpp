@@ -22,7 +22,7 @@ void set_permeability(const scene::Scene& scene, scene::StagePermeability permea
 
 /// Text "; or ..." for a stage without equilibrium, if its water rests below a line that slopes;
 /// empty otherwise.
-std::string seepage_remedy(const scene::Fem& fem, std::size_t stage);
+std::string seepage_remedy(const scene::Scene& scene, std::size_t stage);
 
 /// Prevents all flow, for an undrained stage.
 void close_to_flow(Model& model);

@@ -113,6 +113,34 @@ TEST(Check, SofteningOfSoilThatDrainsIsWarnedOf) {
     EXPECT_FALSE(warned({"/fem/stages/1/S=0"}));
 }
 
+TEST(Check, AStrengthOfDynamicStagesNeedsWaterAStaticStageAndAFrictionalLaw) {
+    using nlohmann::json;
+    auto scene = json::parse(file_text(BREACH_ROOT "/workflows/scenes/slope.json"));
+    json& soil = scene["materials"]["base_soil"];
+    soil.update({{"void_ratio", 1.0}, {"permeability", {1e-9, 1e-9}}});
+    soil["dynamic_strength"] = {{"ratio", 0.2}};
+    const std::string pointer = "/materials/base_soil/dynamic_strength";
+    const auto findings = [&] { return checked_text(scene.dump(), "clay", BREACH_ROOT, {}); };
+    expect_only(findings(), pointer, "the scene has no water");
+    scene["fem"]["water"] = {{"line", {{0, -1}}}};
+    const json sound = scene;
+    EXPECT_EQ(told(findings().faults), "");
+    EXPECT_FALSE(has_warning(findings(), "implausible", pointer));
+    scene["fem"]["stages"] = {sound["fem"]["stages"][0]};
+    EXPECT_TRUE(has_warning(findings(), "implausible", pointer)) << "no stage is dynamic";
+    scene["fem"]["stages"] = {sound["fem"]["stages"][1]};
+    EXPECT_TRUE(has_fault(findings(), pointer, "no static stage"));
+    scene = sound;
+    scene["materials"]["base_soil"]["law"] = {
+        {"type", "linear_elastic"}, {"E_MPa", 50}, {"nu", 0.3}};
+    EXPECT_TRUE(has_fault(findings(), pointer, "no c and phi"));
+    scene["materials"]["base_soil"]["law"] = scene["materials"]["slope_soil"]["law"];
+    EXPECT_TRUE(has_fault(findings(), pointer, "softens"));
+    scene = sound;
+    scene["materials"]["base_soil"]["dynamic_strength"]["ratio"] = 0;
+    EXPECT_TRUE(has_fault(findings(), pointer + "/ratio"));
+}
+
 TEST(Check, NorSandsUndrainedStrengthIsOfWetSoil) {
     const Checked dry = changed("static_lift", {"/lem/water/regions=[\"foundation\"]"});
     expect_only(dry, "/lem/undrained/0/norsand", "without water");

@@ -96,6 +96,7 @@ json shaken_ground(const std::filesystem::path& folder) {
     fem["snapshot_times"] = {0.2};
     scene["materials"]["soil"]["void_ratio"] = 0.8;
     scene["materials"]["soil"]["permeability"] = {1e-5, 1e-5};
+    scene["materials"]["soil"]["dynamic_strength"] = {{"ratio", 0.2}};
     return scene;
 }
 

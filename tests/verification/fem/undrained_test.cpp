@@ -1,6 +1,7 @@
 // Static stages without flow, against closed forms and the law's point; NorSand's collapse in a
 // shear column and in biaxial compression.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/verification/fem/bench.hpp"
@@ -328,6 +329,120 @@ TEST(StageLoads, WhatCannotBeIsRefusedWithItsPlace) {
     EXPECT_EQ(refused_law(law), "/materials/soil/law/psi_0_profile/points/1") << "out of order";
     law["psi_0_profile"] = {{"points", {{1, 0.0}, {2, 0.3}}}};
     EXPECT_EQ(refused_law(law), "/materials/soil/law/psi_0_profile/points/1") << "too loose";
+}
+
+/// Radius of the in-plane circle of stress [Pa].
+double shear_of(const Voigt& sigma) { return std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[3]); }
+
+/// A column of two elements, each 5 m high, at rest nearly isotropic, then pushed sideways.
+json pushed_clay(const std::string& element, const std::string& law, double nu = 0.49) {
+    json scene = without_sides(wet_block(
+        {.width = 5.0,
+         .height = 10.0,
+         .rows = 2,
+         .law = {{"type", law}, {"E_MPa", 20}, {"nu", nu}, {"c_kPa", 50}, {"phi_deg", 30}},
+         .stages = {static_stage("rest"),
+                    {{"type", "dynamic"},
+                     {"name", "push"},
+                     {"seismic_coefficient", 0.3},
+                     {"duration", 0.3},
+                     {"time_step", 0.01}}}},
+        element));
+    scene["materials"]["soil"]["dynamic_strength"] = {
+        {"ratio", 0.153}, {"factor", 0.8}, {"minimum_kPa", 0.5}};
+    return scene;
+}
+
+std::vector<State> points_after(const json& scene, process::Session& session) {
+    Course course(session, endless(bench::parse(scene)));
+    analyse(course);
+    return course.motion.points;
+}
+
+bool is_cut_down(const process::Session& session) {
+    return std::ranges::count(session.flags(), "stress_cut_down", &fault::Flag::code) > 0;
+}
+
+TEST(DynamicStrength, SimpleShearEndsAtTheShareOfEachDepthsStaticStress) {
+    for (const std::string element : {"ssp", "bbar"}) {
+        for (const std::string law : {"mohr_coulomb", "drucker_prager"}) {
+            const json scene = pushed_clay(element, law);
+            const bench::Folder folder;
+            process::Session session(bench::settings_for(folder.path()), bench::parse(scene));
+            const auto points = points_after(scene, session);
+            const std::size_t per_element = points.size() / 2;
+            double off = 0.0, volume = 0.0;
+            for (std::size_t p = 0; p < points.size(); ++p) {
+                // The blocks' elements come from below.
+                const double depth = p < per_element ? 7.5 : 2.5;
+                const double sigma_v0 = (rho - rho_w) * g * depth;
+                off = std::max(
+                    off, std::abs(shear_of(points[p].sigma) / (0.8 * 0.153 * sigma_v0) - 1.0));
+                const double mean = -points[p].sigma.head<3>().mean();
+                const double at_rest = sigma_v0 * (1.0 + 2.0 * 0.49 / 0.51) / 3.0;
+                volume = std::max(volume, std::abs(mean / at_rest - 1.0));
+            }
+            // Drucker-Prager comes to its plane strain strength by and by.
+            expect_error(element + ", " + law + ": shear stress over s_u", off,
+                         law == "mohr_coulomb" ? 1e-12 : 1e-4);
+            // Constant volume and no dilatancy: p' stays, up to the water's compressibility.
+            expect_error(element + ", " + law + ": change of p'", volume, 1e-2);
+            const json& told = session.result()["dynamic_strength"]["block"];
+            EXPECT_NEAR(told["least"], 0.8 * 0.153 * (rho - rho_w) * g * 2.5, 1.0);
+            EXPECT_NEAR(told["largest"], 0.8 * 0.153 * (rho - rho_w) * g * 7.5, 1.0);
+            EXPECT_FALSE(is_cut_down(session));
+        }
+    }
+}
+
+TEST(DynamicStrength, IsAtLeastItsMinimumAndReportsStressAtRestAboveIt) {
+    json scene = pushed_clay("ssp", "mohr_coulomb", 0.3);
+    scene["materials"]["soil"]["dynamic_strength"]["minimum_kPa"] = 5;
+    const bench::Folder folder;
+    process::Session session(bench::settings_for(folder.path()), bench::parse(scene));
+    points_after(scene, session);
+    EXPECT_NEAR(session.result()["dynamic_strength"]["block"]["least"], 5e3, 1e-6);
+    EXPECT_TRUE(is_cut_down(session));
+}
+
+/// A clay core between layers of sand, all of one drained strength, pushed to and fro.
+TEST(DynamicStrength, OfALayerLimitsItAloneWhenAColumnIsShaken) {
+    json scene = pushed_clay("bbar", "mohr_coulomb");
+    json sand = scene["materials"]["soil"];
+    sand.erase("dynamic_strength");
+    scene["materials"]["sand"] = sand;
+    const auto layer = [](const char* name, const char* material, double low, double high) {
+        return json{{"name", name},
+                    {"material", material},
+                    {"polygon", {{0, low}, {5, low}, {5, high}, {0, high}, {0, low}}},
+                    {"mesh", {{"type", "block"}, {"divisions", {1, 3}}}}};
+    };
+    scene["section"]["regions"] = {layer("base", "sand", 0, 3), layer("core", "soil", 3, 6),
+                                   layer("cap", "sand", 6, 10)};
+    json& stages = scene["fem"]["stages"];
+    for (const double back : {-0.3, 0.3, -0.3}) {
+        stages.push_back(stages[1]);
+        stages.back()["seismic_coefficient"] = back;
+    }
+    const auto largest = [&](const json& of) {
+        const bench::Folder folder;
+        process::Session session(bench::settings_for(folder.path()), bench::parse(of));
+        Course course(session, endless(bench::parse(of)));
+        analyse(course);
+        std::array<double, 3> shear{};  // [layers] over the static stress
+        for (std::size_t p = 0; p < course.motion.points.size(); ++p) {
+            const std::size_t e = p / course.model.points_per_element;
+            const double y = corners_of(course.model.mesh, e).row(1).mean();
+            double& most = shear.at(y < 3 ? 0 : y < 6 ? 1 : 2);
+            most = std::max(
+                most, shear_of(course.motion.points[p].sigma) / ((rho - rho_w) * g * (10.0 - y)));
+        }
+        return shear;
+    };
+    const auto with = largest(scene);
+    EXPECT_NEAR(with[1], 0.8 * 0.153, 1e-6);
+    scene["materials"]["soil"].erase("dynamic_strength");
+    EXPECT_GT(largest(scene)[1], 0.2) << "by c and phi";
 }
 
 }  // namespace
