@@ -91,6 +91,12 @@ def _strength(of: Json) -> str:
     return known.get(kind, f"s_u by {kind[10:]}" if kind.startswith("undrained") else "-")
 
 
+def _in_motion(soil: Json) -> str:
+    """", in motion s_u = 0.122 sigma'_v0"; "" without a strength of dynamic stages."""
+    own = entry(soil, "/dynamic_strength", {})
+    return f", in motion s_u = {_number(own['ratio'] * own.get('factor', 1.0), 3)} sigma'_v0" if own else ""
+
+
 def _residual(soil: Json) -> str:
     if profile := entry(soil, "/strength/residual"):
         return _strength(profile)
@@ -103,7 +109,7 @@ def _soils(scene: Json) -> Table:
     """One row per soil of a region or of the transfer."""
     return Table("soils", "Soils", ["soil", "law", "density [kg/m3]", "strength", "after softening", "E [MPa]", "nu", "permeability [m/s]"],
                  [[name, soil["law"].get("type", "").replace("_", " "), _number(soil.get("density")),
-                   _strength(entry(soil, "/strength/peak") or soil["law"]), _residual(soil), _number(soil["law"].get("E_MPa")),
+                   _strength(entry(soil, "/strength/peak") or soil["law"]) + _in_motion(soil), _residual(soil), _number(soil["law"].get("E_MPa")),
                    _number(soil["law"].get("nu")), _number(entry(soil, "/permeability/0"), 3)]
                   for name, soil in entry(scene, "/materials", {}).items()],
                  "Strength before failure, and what the soil softens to. The annex has every entry.")
