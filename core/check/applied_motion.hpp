@@ -1,4 +1,4 @@
-// The motion that shakes the scene: read, baseline-corrected and scaled as the scene requests. The
+// The motion that shakes the scene: read, reversed, baseline-corrected and scaled as the scene requests. The
 // check judges this motion, and the FEM applies it.
 #pragma once
 

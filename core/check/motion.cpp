@@ -164,6 +164,8 @@ void check_motion(const scene::Scene& scene, Recordings& recordings, Problems& p
 }
 
 motion::Recording applied(const scene::BaseMotion& wanted, motion::Recording recording) {
+    if (wanted.reversed)
+        for (double& value : recording.series.values) value = 0.0 - value;
     if (recording.quantity != Quantity::acceleration) return recording;
     motion::Series& series = recording.series;
     if (wanted.baseline == scene::Baseline::corrected)

@@ -28,7 +28,7 @@ const std::map<std::string_view, Reading> readings{
     {fem.program, {{"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
     {transfer.program,
      {{"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
-       "/mpm/right", "/mpm/floor", "/mpm/terrain", "/mpm/gimp_half_size"},
+       "/mpm/right", "/mpm/floor", "/mpm/water", "/mpm/terrain", "/mpm/gimp_half_size"},
       Materials::all,
       Regions::names_and_materials}},
     {mpm.program,

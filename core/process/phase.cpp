@@ -278,6 +278,7 @@ scene::Mpm grid_alone(const scene::Mpm& mpm) {
     grid.left = mpm.left;
     grid.right = mpm.right;
     grid.floor = mpm.floor;
+    grid.water = mpm.water;
     grid.terrain = mpm.terrain;
     grid.gimp_half_size = mpm.gimp_half_size;
     return grid;

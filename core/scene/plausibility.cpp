@@ -316,7 +316,7 @@ void warn_about_toe(Warner& d) {
     if (beyond > most * all) {
         d.reader.add(pointer, "lies upstream: " + share,
                      "x points downstream: give the foot of the downstream face, near x = " +
-                         plain_number(end) + "; a slope that faces -x has to be drawn mirrored");
+                         plain_number(end) + "; turn a slope that faces -x by breach mirror");
     } else if (beyond > some * all) {
         d.warn(pointer,
                share + ": they are part of every runout; x points downstream, and " +

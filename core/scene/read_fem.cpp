@@ -172,7 +172,7 @@ ElasticBase base_from(const json& base) {
 
 BaseMotion motion_from(const std::filesystem::path& folder, const json& motion) {
     BaseMotion result{file_at(folder, motion.at("file").get<std::string>()), std::nullopt,
-                      word_at<Baseline>(motion, "baseline")};
+                      word_at<Baseline>(motion, "baseline"), motion.at("reversed")};
     if (motion.contains("scale_to_pga_g")) {
         result.scale_to_pga_g = motion.at("scale_to_pga_g").get<double>();
     }

@@ -333,6 +333,7 @@ struct BaseMotion {
     std::filesystem::path file;            ///< absolute
     std::optional<double> scale_to_pga_g;  ///< [g]
     Baseline baseline;
+    bool reversed = false;  ///< the other way than recorded
 };
 
 enum class FreeFieldSides { left, right, both };

@@ -4,6 +4,7 @@
 #include "services/cli/commands.hpp"
 #include "services/cli/draw.hpp"
 #include "services/cli/import.hpp"
+#include "services/cli/mirror.hpp"
 #include "services/cli/motion.hpp"
 #include "services/cli/new_scene.hpp"
 #include "services/cli/program.hpp"
@@ -56,6 +57,17 @@ void add_motion(Program& program) {
         ->delimiter(',')
         ->check(CLI::PositiveNumber)
         ->needs(scene);
+}
+
+void add_mirror(Program& program) {
+    const auto& [word, options] =
+        program.add<MirrorOptions>("mirror", "the scene drawn from the other side, with its motion",
+                                   "dam.json --output mirrored.json", offline(mirror));
+    word.add_option("SCENE", options.scene, "scene file (JSON)")
+        ->required()
+        ->check(CLI::ExistingFile);
+    word.add_option("--output", options.output, "the mirrored scene (JSON); must not exist")
+        ->required();
 }
 
 /// "!--full" sets the same flag to false, so that the last of the two counts.
@@ -123,6 +135,7 @@ void add_words_of_documents(Program& program) {
     add_motion(program);
     add_verify(program);
     add_import(program);
+    add_mirror(program);
 }
 
 }  // namespace breach::cli

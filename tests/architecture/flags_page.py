@@ -6,11 +6,11 @@ import sys
 
 root = pathlib.Path(os.environ["BREACH_ROOT"])
 rooms = ("core", "lem_tool", "fem_solver", "transfer_tool", "mpm_solver", "element_bench")
-# Code that makes a flag: {"code", Severity::...}, flag("code", ...), warn(findings, "code", ...), each across lines.
+# Code that makes a flag: {"code", Severity::...}, flag("code", ...), warn(problems, "code", ...), each across lines.
 raised = (
     re.compile(r'[{(]\s*"([a-z]+(?:_[a-z]+)*)",\s*(?:[\w.\s()>-]+\?\s*)?(?:fault::)?Severity::'),
     re.compile(r'\bflag\(\s*"([a-z]+(?:_[a-z]+)*)"'),
-    re.compile(r'\bwarn\(\s*findings,\s*"([a-z]+(?:_[a-z]+)*)"'),
+    re.compile(r'\bwarn\(\s*problems,\s*"([a-z]+(?:_[a-z]+)*)"'),
     re.compile(r'\bFlag\{\s*"([a-z]+(?:_[a-z]+)*)"'),
 )
 

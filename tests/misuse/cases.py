@@ -133,7 +133,7 @@ cases = [
         "/section/regions/1/polygon": [[x * 1000, y * 1000] for x, y in slope_polygon],
         "/section/regions/0/polygon": [[x * 1000, y * 1000] for x, y in [[0, -5], [30, -5], [60, -5], [60, 0], [30, 0], [0, 0], [0, -5]]]}),
     # ------------------------------------------------ geometry
-    Case("a mirrored section", "slope", "refused", r"toe[\s\S]*has to be drawn mirrored", drawn(lambda x, y: (60 - x, y))),
+    Case("a mirrored section", "slope", "refused", r"toe[\s\S]*breach mirror", drawn(lambda x, y: (60 - x, y))),
     Case("x and y swapped", "slope", "refused", r"polygon[\s\S]*x and y look swapped", drawn(lambda x, y: (y, x))),
     Case("depths positive downwards", "slope", "refused", r"polygon[\s\S]*every y with the other sign", drawn(lambda x, y: (x, -y))),
     Case("a gap of 0.3 m between regions", M, "refused", r"gap", {"/section/regions/3/polygon": moved(upper_dam, dx=0.3)}),

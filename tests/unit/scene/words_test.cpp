@@ -106,6 +106,7 @@ TEST(Words, AreTheSchemas) {
     words.are_those_of<FreeFieldSides>({fem + "/free_field/properties/sides"});
     words.are_those_of<Interpolation>({transfer + "/interpolation"});
     words.are_those_of<LiquefiedWhen>({transfer + "/liquefied/properties/when"});
+    words.are_those_of<LiquefiedBy>({transfer + "/liquefied/properties/by"});
     words.are_those_of<BaseDisplacement>({transfer + "/base_displacement"});
     words.are_those_of<OutOfPlaneStress>({transfer + "/sigma_zz"});
     words.are_those_of<Entangled>({transfer + "/entangled"});
