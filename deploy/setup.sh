@@ -119,6 +119,9 @@ build() {
         cat "$root/build/configure.log" >&2
         fail "CMake could not configure the build (see above)."
     }
-    (cd "$root" && NINJA_STATUS='[%f/%t %e] ' cmake --build --preset "$preset" "${target[@]}" -j "$jobs" 2>&1) |
-        show_progress "$(cd "$root" && cmake --build --preset "$preset" "${target[@]}" -- -n)"
+    (
+        cd "$root"
+        steps=$(cmake --build --preset "$preset" "${target[@]}" -- -n) || true  # the build itself reports what is wrong
+        NINJA_STATUS='[%f/%t %e] ' cmake --build --preset "$preset" "${target[@]}" -j "$jobs" 2>&1 | show_progress "$steps"
+    )
 }
