@@ -343,7 +343,8 @@ test("the soil is saved as PNG and SVG with its legend, and as a film that says 
     console.log(`a film of 25 pictures: ${film.bytes.length} bytes, ${seen.length} s, ${seen.first.width} x ${seen.first.height}`);
     assert.equal(await text_of("#view-film"), "Film (WebM)");
     await page.goto(`${url}/#/compare/run-1-task-3/${run.id}-task-3`);
-    await until("both", async () => (await canvas_facts(page, "compare-1")).share > 0.02);
+    for (const [side, time] of [0.25, 0.5].entries()) await until("its picture", async () => (await text_of(`#compare-says-${side}`)).includes(`t_T = ${time} s;`));
+    assert.ok((await canvas_facts(page, "compare-1")).share > 0.02);
     const both = (await downloaded("#compare-svg")).bytes.toString();
     assert.equal(both.match(/<image /g).length, 2);
     assert.match(both, /Right: Not at rest at the end/);
@@ -352,6 +353,7 @@ test("the soil is saved as PNG and SVG with its legend, and as a film that says 
 test("all of it fits at 1400, 1000 and 400 px", async () => {
     for (const width of [1000, 400, 1400]) {
         await page.setViewportSize({ width, height: 900 });
+        await page.goto(`${url}/?${width}`); // without the pictures of the width before
         await open_mesh("r_u");
         await page.check("#view-vectors");
         for (const [id, value] of [["x1", 5], ["y1", 24], ["x2", 5], ["y2", 0]]) await page.fill(`#cut-${id}`, String(value));
