@@ -65,15 +65,31 @@ check_machine() {
         fail "The build needs $need_MB MB on the disk of $root/build and $disk_MB MB are free. Free some, or put the project on another disk."
 }
 
-# Ninja's lines "[done/total seconds] step" as a bar with the time left; passes other lines (warnings, errors) on.
+# Seconds per compiled file of a target (tests/benchmark/build_time prints this line), of any other target, and of a step that compiles nothing.
+declare -A step_seconds=([breachline]=20 [fem]=17 [fem_loops]=48 [geometry_loops]=13 [import]=13 [lem]=16 [lem_loops]=16 [mpm]=12 [orchestrator]=19 [process]=21 [scene]=16 [templates]=19 [transfer]=17 [transfer_loops]=35)
+other_seconds=4 link_seconds=0
+
+# weigh STEP: sets `weight`, what one of Ninja's lines weighs in the time left.
+weigh() {
+    weight=$link_seconds
+    [[ ! $1 =~ /CMakeFiles/([^/]+)\.dir/ ]] || weight=${step_seconds[${BASH_REMATCH[1]}]:-$other_seconds}
+}
+
+# show_progress STEPS: Ninja's lines "[done/total seconds] step" as a bar with the time left, by the weights of the STEPS that Ninja plans;
+# passes other lines (warnings, errors) on.
 show_progress() {
-    local line text done_steps steps seconds left percent told=0 open=no
+    local line text weight all=0 done=0 seconds left percent told=0 open=no
     local full="#########################"
     while IFS= read -r line; do
+        weigh "$line" && all=$((all + weight))
+    done <<<"$1"
+    while IFS= read -r line; do
         if [[ $line =~ ^\[([0-9]+)/([0-9]+)\ ([0-9]+)\.?[0-9]*\]\  ]]; then
-            done_steps=${BASH_REMATCH[1]} steps=${BASH_REMATCH[2]} seconds=${BASH_REMATCH[3]}
-            percent=$((100 * done_steps / steps)) left=$((done_steps > 0 ? seconds * (steps - done_steps) / done_steps : 0))
-            printf -v text '%3d %%  step %d of %d, about %d:%02d min left' $percent "$done_steps" "$steps" $((left / 60)) $((left % 60))
+            printf -v text 'step %d of %d' "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}"
+            seconds=${BASH_REMATCH[3]}
+            weigh "$line" && done=$((done + weight))
+            percent=$((all > 0 ? 100 * done / all : 100)) left=$((done > 0 ? seconds * (all - done) / done : 0))
+            printf -v text '%3d %%  %s, about %d:%02d min left' $percent "$text" $((left / 60)) $((left % 60))
             if [ -t 1 ]; then
                 printf '\r[%-25s] %s\033[K' "${full:0:$((percent / 4))}" "$text" && open=yes
             elif [ $percent -ge $((told + 10)) ]; then
@@ -103,5 +119,9 @@ build() {
         cat "$root/build/configure.log" >&2
         fail "CMake could not configure the build (see above)."
     }
-    (cd "$root" && NINJA_STATUS='[%f/%t %e] ' cmake --build --preset "$preset" "${target[@]}" -j "$jobs" 2>&1) | show_progress
+    (
+        cd "$root"
+        steps=$(cmake --build --preset "$preset" "${target[@]}" -- -n) || true  # the build itself reports what is wrong
+        NINJA_STATUS='[%f/%t %e] ' cmake --build --preset "$preset" "${target[@]}" -j "$jobs" 2>&1 | show_progress "$steps"
+    )
 }

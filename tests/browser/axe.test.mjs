@@ -61,9 +61,10 @@ test("runs: with flags, with draws, with samples, with triggers", async () => {
 test("start, database, comparison, differences", async () => {
     const found = [];
     const [one, other] = api.runs.map(({ id }) => id);
-    for (const address of ["#/", "#/database/tasks", "#/database/results", "#/compare", `#/differences/${one}/${other}`]) {
+    for (const [address, part] of [["#/", "#welcome"], ["#/database/tasks", "#database-table td"], ["#/database/results", "#database-table td"],
+                                   [`#/compare/${one}-task-3/${other}-task-3`, "#compare-run-0"], [`#/differences/${one}/${other}`, "#differences-results td"]]) {
         await page.goto(`${url}/${address}`);
-        await page.waitForTimeout(800);
+        await page.locator(part).first().waitFor();
         found.push(...await violations_of(address));
     }
     assert.deepEqual(found, []);

@@ -72,9 +72,11 @@ export async function until(what, probe, limit = 20000) {
     }
 }
 
-/// Opens the run and waits until every part of the page is its own.
+/// Opens the run by its address, as a link of the page does, and waits until every part of the page is its own. What a person chose in
+/// the run before stays chosen.
 export async function open_run(page, url, id) {
-    await page.goto("about:blank");
-    await page.goto(`${url}/#/runs/${id}`);
-    await until("all parts", () => page.evaluate(() => document.querySelectorAll("#run > .coming").length === 0 && document.getElementById("run").checkVisibility()));
+    if (!page.url().startsWith(`${url}/`)) await page.goto(`${url}/`);
+    await page.evaluate((wanted) => { location.hash = `#/runs/${wanted}`; }, id);
+    await until("all parts", () => page.evaluate((wanted) => document.querySelector("#run-list a[aria-current]")?.hash === `#/runs/${wanted}` &&
+        document.querySelectorAll("#run > .coming").length === 0 && document.getElementById("run").checkVisibility(), id));
 }

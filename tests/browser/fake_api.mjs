@@ -566,7 +566,7 @@ export class FakeApi {
         if (!file.startsWith(static_folder)) return problem(response, 404, "outside");
         const body = await readFile(file).catch(() => null);
         if (!body) return problem(response, 404, "there is no such file");
-        response.writeHead(200, { "Content-Type": content_types[path.extname(file)] ?? "application/octet-stream" });
+        response.writeHead(200, { "Content-Type": content_types[path.extname(file)] ?? "application/octet-stream", ...(name === "/" ? {} : { "Cache-Control": "max-age=3600" }) });
         return response.end(body);
     }
 }

@@ -1,7 +1,7 @@
 // The view of a study over distributions, against a stand-in server whose samples come from a model that is known (samples.mjs).
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { open_browser, screenshot, until } from "./browser.mjs";
+import { open_browser, open_run, screenshot, until } from "./browser.mjs";
 import { FakeApi, study } from "./fake_api.mjs";
 import { uncertain_study } from "./samples.mjs";
 
@@ -25,8 +25,7 @@ const text_of = (selector) => page.textContent(selector);
 
 async function open_samples(count, settings = {}, more = {}) {
     const run = api.add_run({ ...uncertain_study(study, count), ...more }, { began: Date.now() - 60000, ...settings });
-    await page.goto("about:blank");
-    await page.goto(`${url}/#/runs/${run.id}`);
+    await open_run(page, url, run.id);
     await page.waitForSelector("#uncertainty:not([hidden]) #uncertainty-samples tbody tr");
     return run;
 }
@@ -140,8 +139,7 @@ test("a search for one value shows its steps, what was asked and what was found,
     run.answer = { ...run.uncertainty(), quantities: {}, sentences: ["A residual strength of at least 0.484 gives a runout_beyond_toe of 215 m."],
                    inverse: { quantity: "runout_beyond_toe", unit: "m", target: 215, vary: "residual strength", state: "found", value: 0.484, bound: "at_least", low: 0.465, high: 0.504, reason: "",
                               noise: 3, steps: [step(0.4, [227, 237, 234], 3), step(0.475, [218, 213, 219], 1), step(0.49, [212, 214, 211], 0), step(2.5, [9, 10, 11], 0)] } };
-    await page.goto("about:blank");
-    await page.goto(`${url}/#/runs/${run.id}`);
+    await open_run(page, url, run.id);
     await page.waitForSelector("#uncertainty-search:not([hidden]) path.marker");
     assert.match(await text_of("#uncertainty-found"), /at least 0\.484 gives/);
     assert.ok(await page.isHidden("#uncertainty-figures"));
@@ -160,8 +158,8 @@ test("a search for one value shows its steps, what was asked and what was found,
 
 test("a run over nothing but transfer times has no such view", async () => {
     const run = api.add_run(study, { began: Date.now() - 60000 });
-    await page.goto(`${url}/#/runs/${run.id}`);
-    await page.waitForSelector("#runouts:not([hidden])");
+    await open_run(page, url, run.id);
+    assert.ok(await page.isVisible("#runouts"));
     assert.ok(await page.isHidden("#uncertainty"));
 });
 

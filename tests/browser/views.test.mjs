@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { canvas_facts, open_browser, screenshot, until } from "./browser.mjs";
+import { canvas_facts, open_browser, open_run as open_run_of, screenshot, until } from "./browser.mjs";
 import { FakeApi, still_moving, study, twelve_variants } from "./fake_api.mjs";
 
 const api = new FakeApi({ pace: 6, points: 5000 });
@@ -25,9 +25,9 @@ after(async () => {
 
 const text_of = (selector) => page.textContent(selector);
 
-async function open_run(id = "run-1") {
-    await page.goto("about:blank");
-    await page.goto(`${url}/#/runs/${id}`);
+/// A new run of the column begins with its own picture and time; fields and scales stay as a person chose them.
+async function open_run(id = api.add_run(study, { began: Date.now() - 60000 }).id) {
+    await open_run_of(page, url, id);
     await until("soil", async () => (await canvas_facts(page)).share > 0.02);
 }
 
@@ -61,6 +61,7 @@ test("contours of nodal values: bands of few colours; soil without a value is gr
     await page.selectOption("#view-field", "sigma_v");
     assert.match(await text_of("#view-range"), /σ′_v \[kPa\], 0 to 300/);
     assert.match(await text_of("#view-scale-note"), /Shown now: 0 to 300 kPa/);
+    await page.selectOption("#view-scale-of", "all");
 });
 
 test("a fixed range is that of all snapshots, another one says of which", async () => {
@@ -73,6 +74,7 @@ test("a fixed range is that of all snapshots, another one says of which", async 
     await page.selectOption("#view-scale-of", "this");
     assert.match(await text_of("#view-range"), /0 to 1$/, "nothing has moved yet");
     assert.match(await text_of("#view-scale-note"), /this snapshot: in another one the colours mean other values.*Shown now: 0 to 0 m/);
+    await page.selectOption("#view-scale-of", "all");
 });
 
 test("vectors tell their length, and that there are none where nothing moved", async () => {
@@ -196,6 +198,7 @@ test("points are coloured by velocity, material, r_u and plastic strain, each wi
     }
     await page.selectOption("#view-field", "material");
     assert.ok(await page.isVisible("#view-regions"));
+    await page.selectOption("#view-field", "epsilon_q");
 });
 
 test("two runs stand side by side on one time, with one scale; each says where it is and whether it came to rest", async () => {
@@ -305,6 +308,7 @@ test("a variant without a transfer is among the reasons of the verdict", async (
 
 test("figures are saved as SVG that needs no style sheet, and as PNG", async () => {
     await open_run();
+    await page.selectOption("#runout-measure", "runout"); // the run before had none
     const figure = await downloaded("#runout-plot .under-plot button:has-text('SVG')");
     assert.equal(figure.name, "Runout_A_column_made_of_formulas.svg");
     const text = figure.bytes.toString();
@@ -339,7 +343,8 @@ test("the soil is saved as PNG and SVG with its legend, and as a film that says 
     console.log(`a film of 25 pictures: ${film.bytes.length} bytes, ${seen.length} s, ${seen.first.width} x ${seen.first.height}`);
     assert.equal(await text_of("#view-film"), "Film (WebM)");
     await page.goto(`${url}/#/compare/run-1-task-3/${run.id}-task-3`);
-    await until("both", async () => (await canvas_facts(page, "compare-1")).share > 0.02);
+    for (const [side, time] of [0.25, 0.5].entries()) await until("its picture", async () => (await text_of(`#compare-says-${side}`)).includes(`t_T = ${time} s;`));
+    assert.ok((await canvas_facts(page, "compare-1")).share > 0.02);
     const both = (await downloaded("#compare-svg")).bytes.toString();
     assert.equal(both.match(/<image /g).length, 2);
     assert.match(both, /Right: Not at rest at the end/);
@@ -348,6 +353,7 @@ test("the soil is saved as PNG and SVG with its legend, and as a film that says 
 test("all of it fits at 1400, 1000 and 400 px", async () => {
     for (const width of [1000, 400, 1400]) {
         await page.setViewportSize({ width, height: 900 });
+        await page.goto(`${url}/?${width}`); // without the pictures of the width before
         await open_mesh("r_u");
         await page.check("#view-vectors");
         for (const [id, value] of [["x1", 5], ["y1", 24], ["x2", 5], ["y2", 0]]) await page.fill(`#cut-${id}`, String(value));

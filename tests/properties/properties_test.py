@@ -165,13 +165,13 @@ properties = {
 
 
 shares = {
-    "sweeps": 0.3,
+    "sweeps": 0.22,
     "triggers": 0.2,
-    "samples": 0.08,
+    "samples": 0.18,
     "ladders": 0.07,
     "inverse": 0.03,
     "bisect": 0.02,
-    "views": 0.1,
+    "views": 0.08,
     "slips": 0.17,
     "requests": 0.03,
 }
@@ -234,7 +234,7 @@ def holds_in(bench, file):
 
 def main():
     words = argparse.ArgumentParser()
-    words.add_argument("--studies", type=int, default=300)
+    words.add_argument("--studies", type=int, default=112)
     words.add_argument("--seed", type=int, default=1)
     words.add_argument("--only", choices=properties)
     words.add_argument("--case", type=pathlib.Path)

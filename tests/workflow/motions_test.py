@@ -14,7 +14,7 @@ sys.path.insert(0, str(root / "services/python"))
 import breachline
 
 PEAKS = (0.05, 0.15, 0.3)  # g
-COARSE = ["/section/element_size=4", "/fem/stages/2/time_step=0.005", "/fem/stages/2/duration=5.5", "/mpm/cell_size=5", "/mpm/allow_coarse_cells=true",
+COARSE = ["/section/element_size=5", "/fem/stages/2/time_step=0.01", "/fem/stages/2/duration=5.5", "/mpm/cell_size=5", "/mpm/allow_coarse_cells=true",
           "/mpm/duration=2"]
 
 
