@@ -83,8 +83,8 @@ std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::
     return costs;
 }
 
-/// Number of tasks of an uncertainty study with all requested samples; tasks that samples share
-/// count once.
+/// Number of tasks of a study without faults; of an uncertainty study with all requested samples,
+/// where tasks that samples share count once.
 estimate::Repeats repeats_here(const Service& service, json document) {
     estimate::Repeats repeats = estimate::repeats_of(document);
     if (!document.is_object() || !document.contains("uncertainty")) return repeats;
@@ -118,17 +118,16 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
     auto [faults, warnings] = judged(service, document, draft);
     if (!drawing::can_be_drawn(draft)) throw refusal_of(draft, faults);
     drawing::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
-    // A scene with faults cannot be meshed, and its cost would be guessed from defaults.
-    if (draft.faults.empty()) {
-        std::optional<estimate::MeshCounts> counts;
-        if (mesh == MeshDrawn::yes && draft.scene.fem) {
-            additions.mesh = mesh_here(service, draft);
-            counts = {static_cast<double>(additions.mesh->quads.size()),
-                      static_cast<double>(additions.mesh->nodes.size())};
-        }
-        additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
-                                            estimate::repeats_of(document));
+    if (!draft.faults.empty()) return drawing::as_svg(draft, additions);  // it cannot be meshed
+    std::optional<estimate::MeshCounts> counts;
+    if (mesh == MeshDrawn::yes && draft.scene.fem) {
+        additions.mesh = mesh_here(service, draft);
+        counts = {static_cast<double>(additions.mesh->quads.size()),
+                  static_cast<double>(additions.mesh->nodes.size())};
     }
+    if (additions.faults.empty())
+        additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
+                                            repeats_here(service, document));
     return drawing::as_svg(draft, additions);
 }
 
