@@ -63,7 +63,7 @@ Target read_target(const json& entry, const UncertaintyPlan& plan, Reach reach,
     const auto fault = [&](const std::string& below, std::string cause, std::string remedy) {
         faults.push_back({"/uncertainty/target" + below, std::move(cause), std::move(remedy)});
     };
-    if (plan.until)
+    if (plan.batch)
         fault("", "an inverse study ends by itself", "leave \"until\" or \"target\" out");
     if (!plan.correlations.empty())
         fault("", "the other parameters stay at their medians: nothing is correlated",
