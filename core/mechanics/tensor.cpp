@@ -32,15 +32,6 @@ Voigt rotated_stress(const Voigt& sigma, double angle) {
     return {centre + turned_half, centre - turned_half, sigma[2], half * s2 + sigma[3] * c2};
 }
 
-Voigt rotated_strain(Voigt epsilon, double angle) {
-    epsilon[3] *= 0.5;  // engineering to tensor shear and back
-    epsilon = rotated_stress(epsilon, angle);
-    epsilon[3] *= 2.0;
-    return epsilon;
-}
-
-double rotation_angle(const Matrix2& F) { return std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1)); }
-
 Principal principal(const Voigt& sigma) {
     const double centre = 0.5 * (sigma[0] + sigma[1]);
     const double half = 0.5 * (sigma[0] - sigma[1]);

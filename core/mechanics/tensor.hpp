@@ -29,13 +29,6 @@ double double_dot(const Voigt& sigma, const Voigt& epsilon);
 /// Stress after a rotation of the material by `angle` [rad], counter-clockwise: R sigma R^T, exact.
 Voigt rotated_stress(const Voigt& sigma, double angle);
 
-/// Strain [engineering shear] after a rotation of the material by `angle` [rad].
-Voigt rotated_strain(Voigt epsilon, double angle);
-
-/// Rotation angle [rad] of the polar decomposition F = R U of a plane deformation gradient, det F >
-/// 0.
-double rotation_angle(const Matrix2& F);
-
 /// Principal stresses in plane strain; a: angle from x to the larger in-plane one.
 struct Principal {
     double major;   ///< larger in-plane principal stress [Pa]

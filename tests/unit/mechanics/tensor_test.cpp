@@ -47,14 +47,6 @@ TEST(Tensor, RotatedStressIsRSigmaRTransposed) {
     }
 }
 
-TEST(Tensor, RotationAngleIsThePolarOne) {
-    Matrix2 U;
-    U << 1.4, 0.2, 0.2, 0.7;
-    for (const double angle : {0.0, 0.4, -1.1, 3.0}) {
-        EXPECT_NEAR(rotation_angle(rotation(angle) * U), angle, 1e-14);
-    }
-}
-
 TEST(Tensor, PrincipalStressesAreTheEigenvaluesAndGoBack) {
     const Principal p = principal(some_stress);
     EXPECT_NEAR(p.major + p.minor, -3e3, 1e-11);
