@@ -246,7 +246,7 @@ void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::s
         const Piece& piece = pieces[i];
         if (i > 0) {
             const double gap = pieces[i - 1].bottom.at(middle) - piece.top.at(middle);
-            // Overlaps (a negative gap) are not refused: there the lower region's top counts.
+            // No overlaps (negative gaps): reading the scene refuses them (read_section.cpp).
             if (gap > gap_share * extent.height) refuse_gap(scene, middle, "air below ground");
         }
         const scene::Material& soil = scene.materials[scene.section.regions[piece.region].material];
