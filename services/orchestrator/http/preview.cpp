@@ -11,7 +11,6 @@
 #include "core/words/number.hpp"
 #include "services/drawing/mesh_question.hpp"
 #include "services/estimate/cost.hpp"
-#include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
@@ -138,7 +137,7 @@ json cost_of(const Service& service, const std::string& body) {
     if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or throws its faults
     if (!draft.faults.empty()) throw refusal_of(draft, {});
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
-    cost["warnings"] = findings::as_json(warnings);
+    cost["warnings"] = fault::as_json(warnings);
     return cost;
 }
 
