@@ -68,7 +68,7 @@ Run run_from(const Row& row) {
             .questionable = row.integer("questionable"),
             .submitted_by = row.optional_text("submitted_by"),
             .facts = {.state = row.text("shown"),
-                      .submitted = findings::flags_in(row.document("warnings"))}};
+                      .submitted = fault::flags_in(row.document("warnings"))}};
 }
 
 const std::string selected_tasks =
@@ -465,6 +465,13 @@ ORDER BY variant_place, transfer_time LIMIT ?2 OFFSET ?3)";
         if (!value_of(each, "runout").is_null())
             value_of(each, "lower_bound") =
                 findings::still_moves(value_of(each, "at_rest"), value_of(each, "flags"));
+    return found;
+}
+
+std::map<std::string, std::string> Store::repeated_variants(const std::string& run) const {
+    std::map<std::string, std::string> found;
+    reader()->query("SELECT name, draw_of FROM variants WHERE run=? AND draw_of IS NOT NULL", {run},
+                    [&](const Row& row) { found.emplace(row.text("name"), row.text("draw_of")); });
     return found;
 }
 

@@ -76,6 +76,8 @@ class Store {
     /// [s].
     std::pair<double, double> computing_and_idle(const Run& run) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
+    /// By the name of a repeat, the variant that it repeats: "soft_d2" and "soft" -> "soft".
+    std::map<std::string, std::string> repeated_variants(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 
     std::optional<Task> task(const std::string& id) const;
