@@ -151,9 +151,10 @@ void ServeOptions::add_retention(CLI::App& serving) {
                     "remove runs that ended more days ago; not given: never")
         ->check(CLI::NonNegativeNumber);
     serving
-        .add_option("--keep-gb", settings_.retention.keep_gb,
-                    "remove the runs that ended first when the data folder holds more GB; not given: "
-                    "never")
+        .add_option(
+            "--keep-gb", settings_.retention.keep_gb,
+            "remove the runs that ended first when the data folder holds more GB; not given: "
+            "never")
         ->check(CLI::NonNegativeNumber);
 }
 

@@ -82,8 +82,8 @@ class Auditor {
 
     /// run_counts is kept by triggers of the schema so that lists of runs need no sums over tasks.
     void look_at_counts() {
-        for (const std::string& run : database_.texts("SELECT run FROM run_counts WHERE " +
-                                                      counts + " <> " + counted))
+        for (const std::string& run :
+             database_.texts("SELECT run FROM run_counts WHERE " + counts + " <> " + counted))
             find({"counts", "run " + run, "its counts are not those of its tasks",
                   "--repair counts them anew", true});
     }
