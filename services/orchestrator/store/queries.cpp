@@ -344,14 +344,6 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return reader()->first(selected_artifacts + "WHERE sha256=? LIMIT 1", {sha256}, artifact_from);
 }
 
-/// Equal content may belong to many tasks; the one that computed it comes before those that took
-/// it from the cache.
-std::optional<Artifact> Store::maker_of(const std::string& sha256) const {
-    return reader()->first(selected_artifacts + R"(JOIN tasks ON tasks.id=task WHERE sha256=?
-ORDER BY same_as IS NOT NULL, state='cached', task LIMIT 1)",
-                           {sha256}, artifact_from);
-}
-
 std::map<std::string, FactorsOfSafety> Store::factors_of_safety(const std::string& run) const {
     std::map<std::string, FactorsOfSafety> found;
     reader()->query("SELECT variant, json_extract(result, '$.factor_of_safety') AS intact, " +

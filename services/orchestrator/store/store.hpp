@@ -129,9 +129,6 @@ class Store {
     std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
                                                                    const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
-    /// The artifact of the task that computed it; if that task was removed, of the first that
-    /// reused it.
-    std::optional<Artifact> maker_of(const std::string& sha256) const;
     /// Newest first.
     std::vector<TransferRow> transfers_of(const TransferFilter& filter, std::size_t most) const;
     /// In the study's order of variants, each ascending in the transfer time.
