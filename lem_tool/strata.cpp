@@ -249,7 +249,7 @@ void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::s
             // No overlaps (negative gaps): reading the scene refuses them (read_section.cpp).
             if (gap > gap_share * extent.height) refuse_gap(scene, middle, "air below ground");
         }
-        const scene::Material& soil = scene.materials[scene.section.regions[piece.region].material];
+        const scene::Material& soil = scene.material_of(piece.region);
         const double gamma = soil.density * scene.gravity;
         strata.layers.push_back({piece.top, piece.region, gamma, weight, fast});
         // The next layer's top, not this one's bottom: thin gaps of the drawing are filled.
