@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/words/number.hpp"
 #include "lem_tool/slip_circle.hpp"
 #include "lem_tool/spencer.hpp"
 
@@ -54,13 +54,10 @@ bool is_answer(const Bishop& result) {
 
 std::string because(const Unbalanced& mass) {
     if (mass.force_factor == 0.0) return "level interslice forces balance the mass at no factor";
-    std::array<char, 256> words{};
-    std::snprintf(
-        words.data(), words.size(),
+    std::string text = words::formatted(
         "no one inclination of the interslice forces balances the mass: at best (%.3g rad, "
         "forces in balance at F = %.4g) %.2g %% of the driving moment is left over",
         mass.theta, mass.force_factor, 100.0 * std::abs(mass.moment_left));
-    std::string text = words.data();
     if (mass.without_friction)
         text +=
             "; without friction the moments alone give factor_of_safety, for interslice forces of "
