@@ -734,6 +734,9 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
     EXPECT_TRUE(value(1, "runout_deviation").is_null());
     EXPECT_EQ(value(1, "missing_draws"), "soft_dam_d2: failed");
     EXPECT_TRUE(store.means("nobody").empty());
+    EXPECT_EQ(store.repeated_variants("r"),
+              (std::map<std::string, std::string>{{"soft_dam", "soft_dam"},
+                                                  {"soft_dam_d2", "soft_dam"}}));
 }
 
 TEST_F(StoreTest, RowsAreReadByNameInAnyOrder) {
