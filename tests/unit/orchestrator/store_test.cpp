@@ -699,7 +699,9 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
         database.script(
             "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
             "'2026-01-01T00:00:00.000Z', '{\"draws\": 2, \"variants\": [{\"name\": "
-            "\"soft_dam\"}, {\"name\": \"soft_dam_d2\", \"made_by\": \"draws\"}]}', '{}');"
+            "\"soft_dam\"}, {\"name\": \"soft_dam_d2\", \"made_by\": \"draws\"}]}', '{}'),"
+            "('unnamed', 'old', '', '2026-01-01T00:00:00.000Z', '{\"draws\": 2, \"variants\": "
+            "[{\"name\": \"d1\", \"made_by\": \"draws\"}]}', '{}');"
             "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
             "overrides, state, finished, result, variant) VALUES "
             "('r-0', 'r', 'transfer_tool', 'ta', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
@@ -737,6 +739,7 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
     EXPECT_EQ(store.repeated_variants("r"),
               (std::map<std::string, std::string>{{"soft_dam", "soft_dam"},
                                                   {"soft_dam_d2", "soft_dam"}}));
+    EXPECT_EQ(store.repeated_variants("unnamed"), (std::map<std::string, std::string>{{"d1", ""}}));
 }
 
 TEST_F(StoreTest, RowsAreReadByNameInAnyOrder) {
