@@ -227,11 +227,11 @@ TEST_F(StoreTest, AStudyThatCannotContinueDelaysNoOtherAndIsLookedAtAgain) {
     const Numerics numerics;
     std::vector<NewRun> runs{small_run(), small_run()};
     const char* sound =
-        R"({"uncertainty": {"samples": 4, "drawn": 2, "parameters": []}, "variants": []})";
+        R"({"uncertainty": {"samples": 4, "drawn": 2, "parameters": [],
+    "until": {"percentile": 50, "half_width": 0.1}}, "variants": []})";
     runs[1].study = sound;  // the other one's cannot be read
     for (NewRun& each : runs) {
-        each.batches = {
-            {"quantity", "runout"}, {"percentile", 50}, {"half_width", 0.1}, {"batch", 2}};
+        each.batches = {{"batch", 2}};
         store.write([&](Transaction& t) { t.add_run(each); });
         for (std::size_t i = 0; i < each.tasks.size(); ++i)
             bring_to_success(store, task_id(each.id, i), {{"runout", 12.5}});
