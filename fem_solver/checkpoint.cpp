@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "core/process/flags.hpp"
-
 namespace breach::fem {
 namespace {
 
@@ -268,14 +266,14 @@ exchange::Archive checkpoint_archive(const Kept& kept, const NewtonMemory& newto
 }
 
 void put_flags(const std::vector<fault::Flag>& flags, exchange::Archive& archive) {
-    archive.texts[flags_name] = process::as_json(flags).dump();
+    archive.texts[flags_name] = fault::as_json(flags).dump();
 }
 
 std::vector<fault::Flag> flags_in(const exchange::Archive& archive, const std::string& file) {
     const auto kept = archive.texts.find(flags_name);
     if (kept == archive.texts.end()) return {};
     try {
-        return process::flags_from(nlohmann::json::parse(kept->second));
+        return fault::flags_in(nlohmann::json::parse(kept->second));
     } catch (const nlohmann::json::exception&) {
         refuse(file, "/breachline/texts/flags", "the checkpoint's flags cannot be read");
     }

@@ -65,8 +65,8 @@ Course::Course(process::Session& its_session, Model its_model)
     trial = motion = at_rest(model);
     const auto& switches = session.settings().switches;
     if (switches.contains(profile_switch) || switches.contains(trial_switch))
-        seconds.clock = cpu_clock;
-    for (const scene::Stage& each : fem.stages) span += each.duration;
+        seconds.clock = process::Session::cpu_seconds;
+    span = fem.duration();
     if (fem.changes_the_body()) check_changes();
     prediction = prediction_for(model);
     report_crest(*this);

@@ -21,9 +21,7 @@ exchange::MeshSnapshot snapshot_of(const scene::Scene& scene, Mesh mesh) {
         each->assign(nodes, Vec2::Zero());
     snapshot.nodal_mass.assign(nodes, 0.0);
     for (const std::int32_t region : mesh.region_of_element)
-        snapshot.density.push_back(
-            scene.materials[scene.section.regions[static_cast<std::size_t>(region)].material]
-                .density);
+        snapshot.density.push_back(scene.material_of(region).density);
     // The format has no mesh without state: one point per element, all zero.
     snapshot.gauss_per_element = 1;
     snapshot.gauss_positions = {Vec2::Zero()};

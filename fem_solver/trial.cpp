@@ -3,8 +3,6 @@
 // is the steps' cost, without meshing and gravity.
 #include "fem_solver/solve/trial.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 
 #include "fem_solver/analysis.hpp"
@@ -43,13 +41,6 @@ nlohmann::json facts_of(const process::Session& asked, double steps) {
     return session.result();
 }
 
-/// Of both analyses and the building of their models [bytes]; gmsh is a process of its own.
-double most_memory() {
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    return 1024.0 * static_cast<double>(used.ru_maxrss);
-}
-
 }  // namespace
 
 process::Cost measure(process::Session& session) {
@@ -65,7 +56,9 @@ process::Cost measure(process::Session& session) {
     process::Cost cost;
     for (const char* what : {"elements", "nodes", "unknowns", "pressure_unknowns"})
         cost.counts.emplace_back(what, after[what].get<std::int64_t>());
-    cost.memory.emplace_back("the program at its most", most_memory());
+    // Of both analyses and the building of their models; gmsh is a process of its own.
+    if (const auto megabytes = session.peak_memory())
+        cost.memory.emplace_back("the program at its most", 1e6 * *megabytes);
     const auto steps_of = [](const nlohmann::json& facts) {
         return facts.is_null() ? 0 : facts["steps"].get<std::int64_t>();
     };

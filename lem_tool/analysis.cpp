@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <set>
 
 #include "core/exchange/archive.hpp"
+#include "core/words/number.hpp"
 #include "lem_tool/answer.hpp"
 #include "lem_tool/drained.hpp"
 #include "lem_tool/facts.hpp"
@@ -95,24 +95,18 @@ void write_table(process::Session& session, const std::string& kind, const std::
     session.announce(file, {{"kind", kind}});
 }
 
-std::string spelt(const char* format, double value) {
-    char words[48];
-    std::snprintf(words, sizeof words, format, value);
-    return words;
-}
-
 std::string place(const json& point) {
-    return spelt("(%.4g, ", point[0]) + spelt("%.4g)", point[1]);
+    return words::formatted("(%.4g, %.4g)", point[0].get<double>(), point[1].get<double>());
 }
 
 std::string other_methods(const json& facts) {
     std::string words;
     if (const json& spencer = facts.at("spencer"); !spencer.is_null())
-        words += spelt("; Spencer %.3f", spencer.at("factor_of_safety"));
+        words += words::formatted("; Spencer %.3f", spencer.at("factor_of_safety").get<double>());
     else
         words += "; Spencer none";
     if (const json& ordinary = facts.at("ordinary"); !ordinary.is_null())
-        words += spelt("; Ordinary %.3f", ordinary.at("factor_of_safety"));
+        words += words::formatted("; Ordinary %.3f", ordinary.at("factor_of_safety").get<double>());
     return words;
 }
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "core/words/number.hpp"
 #include "core/words/remedy.hpp"
 #include "lem_tool/facts.hpp"
 #include "lem_tool/non_circular.hpp"
@@ -40,10 +40,7 @@ std::string name_of(const std::string& surface) { return surface == "circle" ? "
 
 std::string small_m_alpha(double least) {
     if (least >= least_m_alpha) return "";
-    char words[120];
-    std::snprintf(words, sizeof words, "m_alpha of a slice is %.3g, below %g", least,
-                  least_m_alpha);
-    return words;
+    return words::formatted("m_alpha of a slice is %.3g, below %g", least, least_m_alpha);
 }
 
 void add_candidates(const std::string& surface, const json& facts, std::vector<Candidate>& all) {
@@ -230,11 +227,12 @@ std::vector<fault::Flag> flags_of_weak_layer(const scene::Scene& scene, const Fa
     const json parts{{"non_circular", polyline_of(scene, families)}};
     for (const Candidate& each : candidates_of(parts)) {
         if (!each.invalid.empty() || each.factor >= reported * (1.0 - telling_difference)) continue;
-        char words[256];
-        std::snprintf(words, sizeof words,
-                      "factor_of_safety is %.3f, and a surface of straight pieces through the weak "
-                      "layer has %.3f (Spencer). %s",
-                      reported, each.factor, with_polyline().c_str());
+        const std::string words = words::formatted(
+                                      "factor_of_safety is %.3f, and a surface of straight pieces "
+                                      "through the weak layer has "
+                                      "%.3f (Spencer). ",
+                                      reported, each.factor) +
+                                  with_polyline();
         return {{"surfaces_disagree", fault::Severity::questionable, words, "/lem/non_circular"}};
     }
     return {};
@@ -245,21 +243,19 @@ std::vector<fault::Flag> flags_of_answer(const json& answer, const scene::Lem& l
     std::vector<fault::Flag> flags;
     for (const Candidate& each : candidates_of(answer)) {
         if (each.invalid.empty() || each.factor >= reported * (1.0 - telling_difference)) continue;
-        char words[512];
-        std::snprintf(words, sizeof words,
-                      "factor_of_safety is %.3f, and %s has %.3f (%s), which does not count: %s",
-                      reported, in_words(each.surface).c_str(), each.factor,
-                      each.method == "spencer" ? "Spencer" : "Bishop", each.invalid.c_str());
+        const std::string words = words::formatted(
+            "factor_of_safety is %.3f, and %s has %.3f (%s), which does not count: %s", reported,
+            in_words(each.surface).c_str(), each.factor,
+            each.method == "spencer" ? "Spencer" : "Bishop", each.invalid.c_str());
         if (each.kinked_without_friction)
             flags.push_back({"kinked_without_friction", fault::Severity::warning,
-                             std::string(words) +
-                                 ", and Spencer's method does not see the strength that this "
-                                 "takes; use the circle's factor",
+                             words + ", and Spencer's method does not see the strength that this "
+                                     "takes; use the circle's factor",
                              "/lem/non_circular"});
         else
             flags.push_back(
                 {"surfaces_disagree", fault::Severity::questionable,
-                 std::string(words) + ". Check that surface by another method" +
+                 words + ". Check that surface by another method" +
                      (lem.non_circular ? "" : ", or search a polyline: " + with_polyline()),
                  "/lem"});
     }

@@ -161,7 +161,8 @@ class ArcCutter {
 };
 
 /// Beyond a valid end there is only air: it is on the ground, on a vertical face or in a crack.
-Cut check_end(const Strata& strata, const Surface& surface, double x, From beyond) {
+Cut check_end(const Strata& strata, const Surface& surface, From beyond) {
+    const double x = beyond == From::left ? surface.left : surface.right;
     const double tolerance = 1e-9 * surface.circle.radius;
     if (x < strata.left() || x > strata.right()) return Cut::leaves_model;
     if (std::abs(x - surface.circle.center.x()) > surface.circle.radius + tolerance) {
@@ -188,17 +189,17 @@ MassEnd end_of(const Strata& strata, const Surface& surface, From outside) {
 
 Cut cut(const Strata& strata, const std::vector<Soil>& soils, const Surface& surface, int wanted,
         Slices& slices) {
-    const Cut left = check_end(strata, surface, surface.left, From::left);
-    if (left != Cut::done) return left;
-    const Cut right = check_end(strata, surface, surface.right, From::right);
-    if (right != Cut::done) return right;
+    for (const From side : {From::left, From::right}) {
+        const Cut verdict = check_end(strata, surface, side);
+        if (verdict != Cut::done) return verdict;
+    }
     const Cut verdict = ArcCutter(strata, soils, surface, wanted, slices).run();
     if (verdict != Cut::done) return verdict;
     if (!strata.pushes.empty())
         add_pushes(strata, surface.circle, surface.left, surface.right, slices);
     if (strata.gamma_w > 0.0 || surface.crack != CrackAt::none) {
-        add_end(strata, surface.circle, end_of(strata, surface, From::left), From::left, slices);
-        add_end(strata, surface.circle, end_of(strata, surface, From::right), From::right, slices);
+        for (const From side : {From::left, From::right})
+            add_end(strata, surface.circle, end_of(strata, surface, side), side, slices);
     }
     return Cut::done;
 }

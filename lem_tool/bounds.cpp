@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/words/number.hpp"
 #include "core/words/remedy.hpp"
 
 namespace breach::lem {
@@ -19,12 +20,7 @@ namespace {
 /// Relative rise of the factor below which a bound has no effect.
 constexpr double telling_rise = 0.01;
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-    char words[512];
-    std::snprintf(words, sizeof words, format, values...);
-    return words;
-}
+using words::formatted;
 
 constexpr const char* raises_factor = "bound_raises_factor";
 
@@ -60,7 +56,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
                           [](const Strata&, scene::Lem& each) { each.floor.clear(); }});
     if (search.lowest_level)
         bounds.push_back({"/lem/search/lowest_level",
-                          text("below the lowest level, %.4g m", *search.lowest_level),
+                          formatted("below the lowest level, %.4g m", *search.lowest_level),
                           "If that soil is rock, give it the law linear_elastic; otherwise delete "
                           "lowest_level",
                           Severity::questionable, [](const Strata&, scene::Lem& each) {
@@ -69,7 +65,7 @@ std::vector<Bound> bounds_of(const Strata& strata, const scene::Lem& lem) {
     // A warning even where it hides F < 1: shallow slips are left out on purpose.
     if (search.minimum_depth > 0.0)
         bounds.push_back({"/lem/search/minimum_depth",
-                          text("shallower than minimum_depth, %.3g m", search.minimum_depth),
+                          formatted("shallower than minimum_depth, %.3g m", search.minimum_depth),
                           "If such slips do harm, " + words::set("/lem/search/minimum_depth", 0.0),
                           Severity::warning, [](const Strata&, scene::Lem& each) {
                               each.search->minimum_depth = 0.0;
@@ -122,7 +118,7 @@ std::vector<fault::Flag> flags_of_edges(const Strata& strata, const scene::Lem& 
             flags.push_back(
                 {"range_edge", fault::Severity::warning,
                  "the critical surface" + state.name + " ends at the edge of this range, x = " +
-                     text("%.4g m", edge) + ": a lower factor of safety may lie beyond" +
+                     formatted("%.4g m", edge) + ": a lower factor of safety may lie beyond" +
                      (state.name.empty() ? "" : ", and another critical_depth") +
                      (wider == range ? "" : "; " + words::set("/lem/search/" + end, wider)),
                  "/lem/search/" + end});
@@ -137,9 +133,10 @@ fault::Flag flag_of(const Bound& bound, const State& state, double without) {
     const double own = state.families.least().factor();
     const bool hides_failure = own >= 1.0 && without < 1.0;
     return {raises_factor, hides_failure ? bound.where_it_hides_failure : fault::Severity::warning,
-            text("Bishop's factor of safety%s is %.3f; without this bound it is %.3f, on a surface "
-                 "%s. ",
-                 state.name.c_str(), own, without, bound.what.c_str()) +
+            formatted(
+                "Bishop's factor of safety%s is %.3f; without this bound it is %.3f, on a surface "
+                "%s. ",
+                state.name.c_str(), own, without, bound.what.c_str()) +
                 bound.remedy,
             bound.pointer};
 }
@@ -190,11 +187,12 @@ std::vector<fault::Flag> flags_of_upstream_end(const Strata& strata, const State
     if (distance >= height) return {};
     return {
         {"upstream_wall", fault::Severity::warning,
-         text("the critical surface%s begins %.3g m from the section's upstream end, x = %.4g m, "
-              "less than the slope's height, %.3g m: surfaces that begin farther upstream are not "
-              "searched. Extend the section to x = %.4g m at least",
-              state.name.c_str(), distance, end, height,
-              end + (falls_right ? -1.0 : 1.0) * (2.0 * height - distance)),
+         formatted(
+             "the critical surface%s begins %.3g m from the section's upstream end, x = %.4g m, "
+             "less than the slope's height, %.3g m: surfaces that begin farther upstream are not "
+             "searched. Extend the section to x = %.4g m at least",
+             state.name.c_str(), distance, end, height,
+             end + (falls_right ? -1.0 : 1.0) * (2.0 * height - distance)),
          "/section/regions"}};
 }
 
@@ -220,17 +218,18 @@ std::vector<fault::Flag> flags_of_crack(const scene::Lem& lem, const State& stat
     };
     const std::string remedy =
         taken > 0.01 * given ? with_crack(taken) : std::string("Delete /lem/tension_crack");
-    const std::string at_whole =
-        std::isfinite(whole) ? text("it would be %.3f", whole) : std::string("there is no surface");
-    return {{"deep_crack", fault::Severity::warning,
-             text("the tension crack%s is %.3g m deep, and soil as at the surface's upper end "
-                  "stands open to %.3g m, 2 c / gamma tan(45 + phi / 2). Soil below that presses "
-                  "on the mass, which a deeper crack leaves out: the surface ends %.3g m deep in "
-                  "the crack, where Bishop's factor is least, %.3f; at the whole depth %s. %s, or "
-                  "give the soil its cohesion",
-                  state.name.c_str(), given, zone, taken, circles.factor(), at_whole.c_str(),
-                  remedy.c_str()),
-             "/lem/tension_crack"}};
+    const std::string at_whole = std::isfinite(whole) ? formatted("it would be %.3f", whole)
+                                                      : std::string("there is no surface");
+    return {
+        {"deep_crack", fault::Severity::warning,
+         formatted("the tension crack%s is %.3g m deep, and soil as at the surface's upper end "
+                   "stands open to %.3g m, 2 c / gamma tan(45 + phi / 2). Soil below that presses "
+                   "on the mass, which a deeper crack leaves out: the surface ends %.3g m deep in "
+                   "the crack, where Bishop's factor is least, %.3f; at the whole depth %s. %s, or "
+                   "give the soil its cohesion",
+                   state.name.c_str(), given, zone, taken, circles.factor(), at_whole.c_str(),
+                   remedy.c_str()),
+         "/lem/tension_crack"}};
 }
 
 }  // namespace

@@ -24,10 +24,6 @@ bool liquefies(const scene::Lem& lem, std::size_t region, double y) {
     });
 }
 
-const materials::Law& law_of(const scene::Scene& scene, std::size_t region) {
-    return scene.materials[scene.section.regions[region].material].law;
-}
-
 class WetAndLoose {
   public:
     explicit WetAndLoose(const scene::Scene& scene) : scene_(scene), model_(drained(scene)) {}
@@ -52,7 +48,7 @@ class WetAndLoose {
     void look(const Strip& strip, std::size_t k) {
         constexpr int steps = 20;  // along a vertical, as psi_0 may vary with depth
         const Layer& layer = model_.strata.layers[k];
-        if (!materials::has_state_parameter(law_of(scene_, layer.region)) ||
+        if (!materials::has_state_parameter(scene_.material_of(layer.region).law) ||
             model_.soils[layer.region].tan_phi == 0.0 ||
             std::ranges::count(scene_.lem->undrained, layer.region,
                                &scene::UndrainedRegion::region) > 0)
@@ -81,7 +77,7 @@ class WetAndLoose {
         const double sigma_v0 = weight + free_water - u - layer.unconsolidated.at(x);
         const materials::Place place{ground - y, y, std::max(sigma_v0, 0.0)};
         double psi = 0.0;
-        materials::if_state_parameter(law_of(scene_, layer.region),
+        materials::if_state_parameter(scene_.material_of(layer.region).law,
                                       [&](const auto& law) { psi = psi_at(law, place); });
         if (psi <= 0.0) return;
         const auto [spot, is_new] = found_.try_emplace(layer.region, Loose{x, y, psi});
@@ -105,7 +101,8 @@ std::vector<fault::Flag> flags_of_drained(const scene::Scene& scene) {
         const std::string& name = scene.section.regions[region].name;
         std::ostringstream words;
         words.precision(3);
-        words << "region \"" << name << "\" is of " << materials::traits(law_of(scene, region)).name
+        words << "region \"" << name << "\" is of "
+              << materials::traits(scene.material_of(region).law).name
               << " looser than critical and wet (psi " << at.psi << " at x = " << at.x
               << " m, y = " << at.y
               << " m), and judged by its drained strength alone: it can fail undrained at a factor "

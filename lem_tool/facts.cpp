@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "core/words/number.hpp"
 #include "lem_tool/slip_circle.hpp"
 #include "lem_tool/spencer.hpp"
 
@@ -54,18 +54,29 @@ bool is_answer(const Bishop& result) {
 
 std::string because(const Unbalanced& mass) {
     if (mass.force_factor == 0.0) return "level interslice forces balance the mass at no factor";
-    std::array<char, 256> words{};
-    std::snprintf(
-        words.data(), words.size(),
+    std::string text = words::formatted(
         "no one inclination of the interslice forces balances the mass: at best (%.3g rad, "
         "forces in balance at F = %.4g) %.2g %% of the driving moment is left over",
         mass.theta, mass.force_factor, 100.0 * std::abs(mass.moment_left));
-    std::string text = words.data();
     if (mass.without_friction)
         text +=
             "; without friction the moments alone give factor_of_safety, for interslice forces of "
             "any inclinations";
     return text;
+}
+
+/// Remedy for a search without surfaces, by the most frequent reason.
+std::string remedy_of(const scene::Lem& scene, const Model& model, const Tally& tally) {
+    const scene::SlipSearch& search = *scene.search;
+    if (tally.too_shallow > tally.not_a_surface) return "give a smaller minimum_depth";
+    const Strata& strata = model.strata;
+    const bool no_way_out = std::ranges::all_of(search.exit, [&](double x) {
+        const Strip& strip = strata.strips[strip_at(strata, x)];
+        return std::max(strip.bottom.at(x), strip.floor.at(x)) >= strata.ground(strip).at(x);
+    });
+    if (no_way_out && (search.lowest_level || !scene.floor.empty()))
+        return "lower lowest_level or /lem/floor: it lies above the ground at both ends of exit";
+    return "put entry on the upper and exit on the lower side of the slope, within the model";
 }
 
 }  // namespace
@@ -142,20 +153,6 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
     return *best;
 }
 
-/// Remedy for a search without surfaces, by the most frequent reason.
-std::string remedy_of(const scene::Lem& scene, const Model& model, const Tally& tally) {
-    const scene::SlipSearch& search = *scene.search;
-    if (tally.too_shallow > tally.not_a_surface) return "give a smaller minimum_depth";
-    const Strata& strata = model.strata;
-    const bool no_way_out = std::ranges::all_of(search.exit, [&](double x) {
-        const Strip& strip = strata.strips[strip_at(strata, x)];
-        return std::max(strip.bottom.at(x), strip.floor.at(x)) >= strata.ground(strip).at(x);
-    });
-    if (no_way_out && (search.lowest_level || !scene.floor.empty()))
-        return "lower lowest_level or /lem/floor: it lies above the ground at both ends of exit";
-    return "put entry on the upper and exit on the lower side of the slope, within the model";
-}
-
 void refuse_search(const scene::Scene& scene, const Model& model, const Tally& tally) {
     throw fault::BadInput(
         scene.name,
@@ -164,12 +161,6 @@ void refuse_search(const scene::Scene& scene, const Model& model, const Tally& t
               std::to_string(tally.too_shallow) + " are shallower than minimum_depth, " +
               std::to_string(tally.no_answer) + " have no factor of safety",
           remedy_of(scene::lem_of(scene), model, tally)}});
-}
-
-SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads) {
-    SearchResult found = search(model, *scene::lem_of(scene).search, threads);
-    if (!found.critical) refuse_search(scene, model, found.tally);
-    return found;
 }
 
 }  // namespace breach::lem

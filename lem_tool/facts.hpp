@@ -20,7 +20,4 @@ Critical analyse_circle(const scene::Scene& scene, const Model& model, Slices& s
 /// Throws BadInput: the search found no surface.
 [[noreturn]] void refuse_search(const scene::Scene& scene, const Model& model, const Tally& tally);
 
-/// The search. Throws BadInput if it finds no surface.
-SearchResult found_by_search(const scene::Scene& scene, const Model& model, int threads);
-
 }  // namespace breach::lem

@@ -98,8 +98,7 @@ void rename_regions(const Places& places, std::vector<std::size_t>& regions) {
 void walk_paths(const scene::Scene& scene, std::vector<scene::UndrainedRegion>& entries) {
     for (scene::UndrainedRegion& each : entries) {
         if (!each.strength.on_path) continue;
-        const scene::Material& material =
-            scene.materials[scene.section.regions[each.region].material];
+        const scene::Material& material = scene.material_of(each.region);
         materials::if_state_parameter(material.law, [&](const auto& law) {
             each.strength.by_state = std::make_shared<const materials::UndrainedByPlace>(
                 undrained_by_place(law, *each.strength.on_path));

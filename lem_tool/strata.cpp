@@ -246,10 +246,10 @@ void add_strip(const scene::Scene& scene, const std::vector<std::optional<std::s
         const Piece& piece = pieces[i];
         if (i > 0) {
             const double gap = pieces[i - 1].bottom.at(middle) - piece.top.at(middle);
-            // Overlaps (a negative gap) are not refused: there the lower region's top counts.
+            // No overlaps (negative gaps): reading the scene refuses them (read_section.cpp).
             if (gap > gap_share * extent.height) refuse_gap(scene, middle, "air below ground");
         }
-        const scene::Material& soil = scene.materials[scene.section.regions[piece.region].material];
+        const scene::Material& soil = scene.material_of(piece.region);
         const double gamma = soil.density * scene.gravity;
         strata.layers.push_back({piece.top, piece.region, gamma, weight, fast});
         // The next layer's top, not this one's bottom: thin gaps of the drawing are filled.

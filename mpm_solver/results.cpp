@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -266,6 +265,13 @@ void write_history(const Session& session, const Simulation& simulation) {
     write_archive(session.output(phases::files::history), archive, session.provenance());
 }
 
+void publish_table(Session& session, const Simulation& simulation, const std::string& name,
+                   const char* kind, const std::ostringstream& table) {
+    const auto file = session.output(name);
+    exchange::publish_text(file, table.str());
+    session.announce(file, {{"kind", kind}, {"time", simulation.clock().time}});
+}
+
 /// Writes the deposit as a table.
 void write_profile(Session& session, const Simulation& simulation, const Surfaces& surfaces) {
     const std::vector<double> places = profile_places(simulation.view());
@@ -277,9 +283,7 @@ void write_profile(Session& session, const Simulation& simulation, const Surface
         table << places[k] << "," << surfaces.ground[k] << "," << profile[k].depth << ","
               << surfaces.top[k] << "," << profile[k].velocity << "\n";
     }
-    const auto file = session.output("profile.csv");
-    exchange::publish_text(file, table.str());
-    session.announce(file, {{"kind", "profile"}, {"time", simulation.clock().time}});
+    publish_table(session, simulation, "profile.csv", "profile", table);
 }
 
 /// Writes the envelope as a table; an empty cell if never reached.
@@ -302,9 +306,7 @@ void write_envelope(Session& session, const Simulation& simulation) {
         time(envelope.time_of_peak[k]);
         table << last[k].depth << "\n";
     }
-    const auto file = session.output(phases::files::envelope);
-    exchange::publish_text(file, table.str());
-    session.announce(file, {{"kind", "envelope"}, {"time", simulation.clock().time}});
+    publish_table(session, simulation, phases::files::envelope, "envelope", table);
 }
 
 /// The first frame is at time 0 (run.cpp), so the first profile is that of the start.
@@ -324,23 +326,20 @@ void say(const Session& session, const Ending& ending, const Row& row) {
     std::string flags;
     for (const fault::Flag& each : session.flags())
         flags += (flags.empty() ? "" : ", ") + each.code + " (" + name_of(each.severity) + ")";
-    char text[512];
-    std::snprintf(text, sizeof text,
-                  "runout %.2f m: 99 %% of the mobile soil lies within this distance of the toe; "
-                  "of the soil beyond the toe %.2f m; farthest point %.2f m",
-                  row.runout, row.runout_beyond_toe, row.runout_largest);
-    spdlog::info("{}", text);
+    spdlog::info(
+        "runout {:.2f} m: 99 % of the mobile soil lies within this distance of the toe; of the "
+        "soil beyond the toe {:.2f} m; farthest point {:.2f} m",
+        row.runout, row.runout_beyond_toe, row.runout_largest);
     if (ending.moving) {
         spdlog::warn("ended at {:.2f} s, STILL MOVING: {}", ending.time, *ending.moving);
     } else {
         spdlog::info("at rest at {:.2f} s", ending.time);
     }
-    std::snprintf(text, sizeof text,
-                  "volume ratio %.3f, numerical share of the released energy %+.1f %%, overlap "
-                  "%.1f %%; flags: %s",
-                  row.volume_ratio, 100.0 * ending.numerical_share, 100.0 * row.overlap,
-                  flags.empty() ? "none" : flags.c_str());
-    spdlog::info("{}", text);
+    spdlog::info(
+        "volume ratio {:.3f}, numerical share of the released energy {:+.1f} %, overlap {:.1f} %; "
+        "flags: {}",
+        row.volume_ratio, 100.0 * ending.numerical_share, 100.0 * row.overlap,
+        flags.empty() ? "none" : flags);
 }
 
 }  // namespace

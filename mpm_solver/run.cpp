@@ -4,11 +4,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
-
 #include "core/phases/files.hpp"
 #include "core/phases/phases.hpp"
 #include "core/scene/words.hpp"
+#include "core/words/number.hpp"
 #include "mpm_solver/begin.hpp"
 #include "mpm_solver/checkpoint.hpp"
 #include "mpm_solver/results.hpp"
@@ -81,12 +80,10 @@ void report(Session& session, const Simulation& simulation) {
 
 void show_progress(Session& session, const Simulation& simulation) {
     const double time = simulation.clock().time;
-    char message[64];
-    std::snprintf(message, sizeof message, "t = %.2f s", time);
     const scene::Mpm& mpm = *session.scene().mpm;
     // The time of rest is unknown: the share then approaches 1.
     session.progress(time / (mpm.until_rest ? time + simulation.rest().earliest : mpm.duration),
-                     message);
+                     words::formatted("t = %.2f s", time));
 }
 
 void look_and_write(Session& session, Simulation& simulation) {

@@ -1,8 +1,6 @@
 // Cost of a step: that of ten, operation by operation.
 // Called for --plan --measure. It repeats the order of step() to time each operation: a change
 // there belongs here, too.
-#include <ctime>
-
 #include "mpm_solver/begin.hpp"
 #include "mpm_solver/run.hpp"
 #include "mpm_solver/simulation.hpp"
@@ -14,20 +12,14 @@ namespace {
 
 constexpr std::int64_t steps_of_trial = 10;
 
-double cpu_seconds() {
-    timespec used{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
-}
-
 /// CPU seconds of each kind of work.
 class Laps {
   public:
     template <class Work>
     void time(const char* kind, Work&& work) {
-        const double began = cpu_seconds();
+        const double began = process::Session::cpu_seconds();
         work();
-        const double spent = cpu_seconds() - began;
+        const double spent = process::Session::cpu_seconds() - began;
         for (auto& [known, seconds] : spent_) {
             if (known == kind) {
                 seconds += spent;

@@ -8,6 +8,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -60,15 +61,12 @@ Edge edge_of(const criteria::Expression& condition, const criteria::Line& line) 
     return edge;
 }
 
-std::string line_of(const char* format, double value) {
-    char text[160];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
+using words::formatted;
 
 std::string edge_text(const char* name, const Edge& edge) {
-    std::string text = std::string(name) + line_of(" %.6g s: ", edge.time) + edge.condition;
-    for (const auto& [field, value] : edge.values) text += ", " + field + line_of(" = %.4g", value);
+    std::string text = std::string(name) + formatted(" %.6g s: ", edge.time) + edge.condition;
+    for (const auto& [field, value] : edge.values)
+        text += ", " + field + formatted(" = %.4g", value);
     return text + "\n";
 }
 
@@ -77,7 +75,7 @@ std::string sign_text(const Sign& sign) {
     if (!sign.known) return text + "the telemetry has no such field\n";
     if (sign.onsets.empty()) return text + "never\n";
     for (std::size_t i = 0; i < sign.onsets.size(); ++i)
-        text += (i == 0 ? "from " : ", again from ") + line_of("%.6g s", sign.onsets[i]);
+        text += (i == 0 ? "from " : ", again from ") + formatted("%.6g s", sign.onsets[i]);
     return text + "\n";
 }
 
@@ -156,21 +154,21 @@ std::vector<double> snapshot_times(const std::filesystem::path& folder) {
 
 std::string as_text(const Advice& advice) {
     std::string text =
-        line_of("telemetry from %.6g s", advice.begin) + line_of(" to %.6g s\n", advice.end);
+        formatted("telemetry from %.6g s", advice.begin) + formatted(" to %.6g s\n", advice.end);
     for (const std::string& field : advice.missing)
         text += "the telemetry has no \"" + field + "\": a condition on it is never true\n";
     if (!advice.lower) {
         text += "no window: the failure has not developed\n";
     } else if (advice.shut_since) {
         text += edge_text("no window: the failure has developed at", *advice.lower);
-        text += line_of("the mesh is too distorted since %.6g s\n", *advice.shut_since);
+        text += formatted("the mesh is too distorted since %.6g s\n", *advice.shut_since);
     } else {
         text += edge_text("lower edge", *advice.lower);
         text += advice.upper ? edge_text("upper edge", *advice.upper)
-                             : line_of("upper edge %.6g s: the telemetry's end\n", advice.end);
-        text += line_of("half-way %.6g s\n", *advice.half_way);
+                             : formatted("upper edge %.6g s: the telemetry's end\n", advice.end);
+        text += formatted("half-way %.6g s\n", *advice.half_way);
         text += std::to_string(advice.snapshots.size()) + " snapshots in the window" +
-                (advice.pick ? line_of("; take the one at %.6g s\n", *advice.pick)
+                (advice.pick ? formatted("; take the one at %.6g s\n", *advice.pick)
                              : std::string("; run the FEM with one there\n"));
     }
     text += "signs\n";

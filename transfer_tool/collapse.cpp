@@ -9,10 +9,6 @@ namespace {
 
 using exchange::MeshSnapshot;
 
-const materials::Law& law_of(const scene::Scene& scene, std::size_t region) {
-    return scene.materials[scene.section.regions[region].material].law;
-}
-
 /// Present or initial pore pressure at xi [Pa]; 0 in a dry snapshot.
 double pressure_at(const std::vector<double>& pressure, const MeshSnapshot& mesh,
                    std::size_t element, const Vec2& xi) {
@@ -25,7 +21,7 @@ double pressure_at(const std::vector<double>& pressure, const MeshSnapshot& mesh
 bool collapses(const scene::Scene& scene, std::size_t region) {
     return scene.transfer && scene.transfer->liquefied &&
            std::ranges::count(scene.transfer->liquefied->regions, region) > 0 &&
-           materials::has_state_parameter(law_of(scene, region));
+           materials::has_state_parameter(scene.material_of(region).law);
 }
 
 JudgedBy judged_by(const scene::Scene& scene) {
@@ -50,7 +46,7 @@ Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
         const mechanics::Voigt& sigma = mesh.stress[i];
         const double u = pressure_at(mesh.pore_pressure, mesh, e, mesh.gauss_positions[i % gauss]);
         materials::UndrainedStrength strength{};
-        materials::if_state_parameter(law_of(scene, region), [&](const auto& law) {
+        materials::if_state_parameter(scene.material_of(region).law, [&](const auto& law) {
             strength = undrained_strength(law, sigma, mesh.psi[i], u);
         });
         // The stress may have been reduced for the undrained path; the real one is a lower bound of

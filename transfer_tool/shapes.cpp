@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/fault/fault.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::transfer {
 namespace {
@@ -18,13 +19,11 @@ constexpr std::size_t most_listed = 5;
 std::string describe(const MeshSnapshot& mesh, std::size_t e,
                      const mechanics::JacobianRatio& ratio) {
     const Vec2 centre = deformed_corners(mesh, e).rowwise().mean();
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "element %zu of region \"%s\" at (%.3f, %.3f) m: |J_t|/|J_0| = %.3g at its "
-                  "centre, %.3g at its worst corner",
-                  e, mesh.regions[mesh.region_of_element[e]].c_str(), centre.x(), centre.y(),
-                  ratio.centre, ratio.least);
-    return text;
+    return words::formatted(
+        "element %zu of region \"%s\" at (%.3f, %.3f) m: |J_t|/|J_0| = %.3g at its centre, %.3g at "
+        "its worst corner",
+        e, mesh.regions[mesh.region_of_element[e]].c_str(), centre.x(), centre.y(), ratio.centre,
+        ratio.least);
 }
 
 void check_undeformed(const MeshSnapshot& mesh, const std::string& file) {

@@ -58,12 +58,6 @@ void check_kind(const scene::BaseMotion& wanted, Quantity quantity, Problems& pr
                "give the acceleration, or take it as recorded");
 }
 
-double dynamic_duration(const scene::Fem& fem) {
-    double sum = 0.0;
-    for (const scene::Stage& stage : fem.stages) sum += stage.duration;
-    return sum;
-}
-
 /// Warns of time steps that skip samples of the motion.
 void check_steps(const scene::Fem& fem, const motion::Series& series, Problems& problems) {
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
@@ -76,7 +70,7 @@ void check_steps(const scene::Fem& fem, const motion::Series& series, Problems& 
 
 /// Warns of stages that end before most of the shaking.
 void check_length(const scene::Fem& fem, const motion::Series& acceleration, Problems& problems) {
-    const double end = dynamic_duration(fem);
+    const double end = fem.duration();
     motion::Series felt = acceleration;
     felt.values.resize(std::min(felt.values.size(), static_cast<std::size_t>(end / felt.dt) + 1));
     const double whole = motion::arias_intensity(acceleration);
@@ -96,7 +90,7 @@ void check_length(const scene::Fem& fem, const motion::Series& acceleration, Pro
 /// Warns of stages that go on long after the motion has ended.
 void check_rest(const scene::Fem& fem, const motion::Series& series, Problems& problems) {
     constexpr double most = 2.0;  // motions: some soil fails after the shaking
-    const double end = dynamic_duration(fem), length = series.duration();
+    const double end = fem.duration(), length = series.duration();
     if (end <= most * length) return;
     std::size_t last = fem.stages.size();
     while (fem.stages[last - 1].kind != scene::StageKind::dynamic) --last;
@@ -140,7 +134,7 @@ motion::Series acceleration_of(const Recording& shaking) {
 void check_motion(const scene::Scene& scene, Recordings& recordings, Problems& problems) {
     const scene::Fem& fem = *scene.fem;
     if (!fem.motion) return;
-    if (dynamic_duration(fem) == 0.0)
+    if (fem.duration() == 0.0)
         refuse(problems, "/fem/motion", "has no dynamic stage in which it could shake",
                "add a stage of type \"dynamic\", or leave the motion out");
     const auto recording = recording_of(*fem.motion, recordings, problems);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "core/check/subjects.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::check {
 
@@ -15,17 +15,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-std::string text(double value) {
-    char words[32];
-    std::snprintf(words, sizeof words, "%.6g", value + 0.0);  // no "-0"
-    return words;
-}
+std::string text(double value) { return words::text_of(value + 0.0); }  // no "-0"
 
-std::string text(const Vec2& point) {
-    char words[64];
-    std::snprintf(words, sizeof words, "(%.6g, %.6g)", point.x() + 0.0, point.y() + 0.0);
-    return words;
-}
+std::string text(const Vec2& point) { return "(" + text(point.x()) + ", " + text(point.y()) + ")"; }
 
 std::string metres(double value) { return text(value) + " m"; }
 

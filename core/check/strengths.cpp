@@ -176,7 +176,7 @@ void warn_about_swapped(const scene::Material& soil, Problems& problems) {
 /// The FEM uses one strength per material.
 void check_fem(const scene::Scene& scene, Problems& problems) {
     for (std::size_t r = 0; r < scene.section.regions.size(); ++r) {
-        const scene::Material& soil = scene.materials[scene.section.regions[r].material];
+        const scene::Material& soil = scene.material_of(r);
         if (!materials::has_strength_of_points(soil.law)) continue;
         const bool uniform =
             materials::is_uniform(soil.strength->peak) &&

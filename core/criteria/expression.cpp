@@ -93,10 +93,10 @@ class Parsing {
     Kind comparison() {
         const std::size_t begin = word().column;
         const Kind left = sum();
-        constexpr std::pair<std::string_view, Code> signs[] = {{"<=", Code::less_equal},
-                                                               {">=", Code::greater_equal},
-                                                               {"<", Code::less},
-                                                               {">", Code::greater}};
+        constexpr Sign signs[] = {{"<=", Code::less_equal},
+                                  {">=", Code::greater_equal},
+                                  {"<", Code::less},
+                                  {">", Code::greater}};
         for (const auto& [sign, code] : signs) {
             if (!take(sign)) continue;
             need(left, Kind::quantity, begin);
@@ -107,31 +107,21 @@ class Parsing {
         }
         return left;
     }
-    Kind sum() {
+    Kind sum() { return chain(&Parsing::product, {"+", Code::add}, {"-", Code::subtract}); }
+    Kind product() { return chain(&Parsing::factor, {"*", Code::multiply}, {"/", Code::divide}); }
+    using Sign = std::pair<std::string_view, Code>;
+    Kind chain(Kind (Parsing::*operand)(), const Sign& one, const Sign& other) {
         const std::size_t begin = word().column;
-        Kind kind = product();
-        while (true) {
-            const bool plus = word().text == "+";
-            if (!plus && word().text != "-") return kind;
+        Kind kind = (this->*operand)();
+        while (word().text == one.first || word().text == other.first) {
+            const Code code = word().text == one.first ? one.second : other.second;
             need(kind, Kind::quantity, begin);
             ++at_;
             const std::size_t right = word().column;
-            need(product(), Kind::quantity, right);
-            emit({plus ? Code::add : Code::subtract}, -1);
+            need((this->*operand)(), Kind::quantity, right);
+            emit({code}, -1);
         }
-    }
-    Kind product() {
-        const std::size_t begin = word().column;
-        Kind kind = factor();
-        while (true) {
-            const bool times = word().text == "*";
-            if (!times && word().text != "/") return kind;
-            need(kind, Kind::quantity, begin);
-            ++at_;
-            const std::size_t right = word().column;
-            need(factor(), Kind::quantity, right);
-            emit({times ? Code::multiply : Code::divide}, -1);
-        }
+        return kind;
     }
     Kind factor() {
         const Nesting nesting(*this);

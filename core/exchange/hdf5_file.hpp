@@ -90,6 +90,9 @@ class Hdf5Image {
   private:
     void dataset(const std::string& path, const void* values, std::size_t count, std::size_t width,
                  hid_t type, const std::string& unit);
+    /// A scalar where `count` is 1. type: in the file; given: of the values.
+    void attribute(const std::string& object, const std::string& name, hid_t type, hid_t given,
+                   const void* values, hsize_t count = 1);
 
     Storage storage_;
     // Before file_: closing HDF5's file still writes to the image.

@@ -166,40 +166,32 @@ void Hdf5Image::strings(const std::string& path, const std::vector<std::string>&
     dataset(path, cells.data(), values.size(), 0, type.get(), "");
 }
 
-void Hdf5Image::attribute(const std::string& object, const std::string& name,
-                          const std::string& value) {
-    const Handle type = text_type(value.size());
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+void Hdf5Image::attribute(const std::string& object, const std::string& name, hid_t type,
+                          hid_t given, const void* values, hsize_t count) {
+    const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr),
+                       H5Sclose);
     const Handle made_attribute(
-        made(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), type.get(), space.get(),
+        made(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), type, space.get(),
                                H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
              object + "@" + name),
         H5Aclose);
+    H5Awrite(made_attribute.get(), given, values);
+}
+
+void Hdf5Image::attribute(const std::string& object, const std::string& name,
+                          const std::string& value) {
+    const Handle type = text_type(value.size());
     // The type of an empty text has one byte, which must exist.
-    H5Awrite(made_attribute.get(), type.get(), value.empty() ? "\0" : value.data());
+    attribute(object, name, type.get(), type.get(), value.empty() ? "\0" : value.data());
 }
 
 void Hdf5Image::attribute(const std::string& object, const std::string& name, double value) {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle made_attribute(
-        made(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), H5T_IEEE_F64LE,
-                               space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-             object + "@" + name),
-        H5Aclose);
-    H5Awrite(made_attribute.get(), H5T_NATIVE_DOUBLE, &value);
+    attribute(object, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
 void Hdf5Image::attribute(const std::string& object, const std::string& name,
                           std::span<const std::int64_t> values) {
-    const hsize_t count = values.size();
-    const Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr),
-                       H5Sclose);
-    const Handle made_attribute(
-        made(H5Acreate_by_name(file_.get(), object.c_str(), name.c_str(), H5T_STD_I64LE,
-                               space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-             object + "@" + name),
-        H5Aclose);
-    H5Awrite(made_attribute.get(), H5T_NATIVE_INT64, values.data());
+    attribute(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, values.data(), values.size());
 }
 
 void Hdf5Image::save(const std::filesystem::path& path) && {

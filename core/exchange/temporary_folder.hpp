@@ -1,5 +1,5 @@
 // A new folder that goes with its owner: of a trial run (--measure), of a mesh that is only drawn, of
-// the store that answers for phases run by hand.
+// a report, of the store that answers for phases run by hand.
 #pragma once
 
 #include <filesystem>

@@ -2,6 +2,7 @@
 // result wherever its numbers are shown.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,12 @@ struct Flag {
 const char* name_of(Severity severity);
 
 bool is_questionable(const std::vector<Flag>& flags);
+
+/// [{"code", "severity", "message", "pointer"}], as in result.json, the FEM's checkpoints, the API
+/// and the database.
+nlohmann::json as_json(const std::vector<Flag>& flags);
+/// Inverse of as_json; a missing pointer is read as empty. Throws nlohmann's exception for any
+/// other JSON.
+std::vector<Flag> flags_in(const nlohmann::json& list);
 
 }  // namespace breach::fault

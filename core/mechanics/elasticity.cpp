@@ -49,7 +49,7 @@ Voigt elastic_strain(const Elasticity& elasticity, const Voigt& sigma) {
 }
 
 double elastic_energy_density(const Elasticity& elasticity, const Voigt& sigma) {
-    return 0.5 * double_dot(sigma, elastic_strain(elasticity, sigma));
+    return 0.5 * sigma.dot(elastic_strain(elasticity, sigma));
 }
 
 }  // namespace breach::mechanics

@@ -13,46 +13,10 @@ Voigt deviator(const Voigt& sigma) {
     return {sigma[0] - m, sigma[1] - m, sigma[2] - m, sigma[3]};
 }
 
-Voigt deviatoric_strain(const Voigt& epsilon) { return deviator(epsilon); }
-
 double epsilon_q(const Voigt& epsilon) {
-    const Voigt e = deviatoric_strain(epsilon);
+    const Voigt e = deviator(epsilon);
     const double e_e = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + 0.5 * e[3] * e[3];
     return std::sqrt(2.0 / 3.0 * e_e);
-}
-
-double double_dot(const Voigt& sigma, const Voigt& epsilon) { return sigma.dot(epsilon); }
-
-Voigt rotated_stress(const Voigt& sigma, double angle) {
-    const double c2 = std::cos(2.0 * angle);
-    const double s2 = std::sin(2.0 * angle);
-    const double centre = 0.5 * (sigma[0] + sigma[1]);
-    const double half = 0.5 * (sigma[0] - sigma[1]);
-    const double turned_half = half * c2 - sigma[3] * s2;
-    return {centre + turned_half, centre - turned_half, sigma[2], half * s2 + sigma[3] * c2};
-}
-
-Voigt rotated_strain(Voigt epsilon, double angle) {
-    epsilon[3] *= 0.5;  // engineering to tensor shear and back
-    epsilon = rotated_stress(epsilon, angle);
-    epsilon[3] *= 2.0;
-    return epsilon;
-}
-
-double rotation_angle(const Matrix2& F) { return std::atan2(F(1, 0) - F(0, 1), F(0, 0) + F(1, 1)); }
-
-Principal principal(const Voigt& sigma) {
-    const double centre = 0.5 * (sigma[0] + sigma[1]);
-    const double half = 0.5 * (sigma[0] - sigma[1]);
-    const double radius = std::hypot(half, sigma[3]);
-    if (radius == 0.0) return {centre, centre, sigma[2], 1.0, 0.0};
-    return {centre + radius, centre - radius, sigma[2], half / radius, sigma[3] / radius};
-}
-
-Voigt from_principal(const Principal& p) {
-    const double centre = 0.5 * (p.major + p.minor);
-    const double radius = 0.5 * (p.major - p.minor);
-    return {centre + radius * p.cos_2a, centre - radius * p.cos_2a, p.normal, radius * p.sin_2a};
 }
 
 namespace {

@@ -1,4 +1,4 @@
-// Plane-strain tensors in Voigt order (xx, yy, zz, xy) and their invariants.
+// Plane-strain tensors in Voigt order (xx, yy, zz, xy) and their invariants; shapes of quads.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,36 +17,8 @@ double mean_stress(const Voigt& sigma);
 /// Deviatoric stress s = sigma - sigma_m I [Pa].
 Voigt deviator(const Voigt& sigma);
 
-/// Deviatoric strain with engineering shear kept in the fourth entry.
-Voigt deviatoric_strain(const Voigt& epsilon);
-
 /// Equivalent deviatoric strain epsilon_q = sqrt(2/3 e:e) [-]; simple shear gives gamma / sqrt(3).
 double epsilon_q(const Voigt& epsilon);
-
-/// Work product sigma : epsilon, engineering shear strain [Pa].
-double double_dot(const Voigt& sigma, const Voigt& epsilon);
-
-/// Stress after a rotation of the material by `angle` [rad], counter-clockwise: R sigma R^T, exact.
-Voigt rotated_stress(const Voigt& sigma, double angle);
-
-/// Strain [engineering shear] after a rotation of the material by `angle` [rad].
-Voigt rotated_strain(Voigt epsilon, double angle);
-
-/// Rotation angle [rad] of the polar decomposition F = R U of a plane deformation gradient, det F >
-/// 0.
-double rotation_angle(const Matrix2& F);
-
-/// Principal stresses in plane strain; a: angle from x to the larger in-plane one.
-struct Principal {
-    double major;   ///< larger in-plane principal stress [Pa]
-    double minor;   ///< smaller in-plane principal stress [Pa]
-    double normal;  ///< out-of-plane stress zz [Pa]
-    double cos_2a;  ///< of the direction of `major`
-    double sin_2a;
-};
-
-Principal principal(const Voigt& sigma);
-Voigt from_principal(const Principal& principal);
 
 /// Jacobian of a quad relative to its reference shape.
 struct JacobianRatio {

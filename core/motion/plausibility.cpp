@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <utility>
 
+#include "core/words/number.hpp"
 #include "core/words/remedy.hpp"
 
 namespace breach::motion {
@@ -24,11 +24,7 @@ constexpr Range length{0.0, 1.0, 600.0, 1e5};        // [s]
 constexpr double rounding = 1e-6;                    // of values in a file
 constexpr double much_left = 0.05;                   // final velocity over the peak velocity
 
-std::string text(double value, const char* unit = "") {
-    char out[64];
-    std::snprintf(out, sizeof out, "%.4g%s", value, unit);
-    return out;
-}
+std::string text(double value, const char* unit = "") { return words::text_of(value, 4) + unit; }
 
 /// Largest derivative, at the middles of steps.
 double steepest(const Series& series) {

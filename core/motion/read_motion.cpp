@@ -16,6 +16,7 @@
 
 #include "core/fault/fault.hpp"
 #include "core/motion/units.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::motion {
 namespace {
@@ -118,12 +119,6 @@ std::optional<double> number_from(std::string word) {
     return value;
 }
 
-std::string number_text(double value) {
-    char out[32];
-    std::snprintf(out, sizeof out, "%.6g", value);
-    return out;
-}
-
 double needed_number(const std::string& word, const std::string& name, std::size_t line) {
     const auto value = number_from(word);
     if (!value) reject(name, line, "'" + word + "' is not a finite number", "correct this line");
@@ -223,7 +218,7 @@ std::string in_seconds(double dt, const std::string& unit) {
     if (unit == "HZ") seconds = 1.0 / dt;
     if (unit.starts_with("MS") || unit.starts_with("MILLI")) seconds = 1e-3 * dt;
     if (unit == "MIN" || unit.starts_with("MINUTE")) seconds = 60.0 * dt;
-    return seconds > 0.0 ? "DT= " + number_text(seconds) + " SEC" : "e.g. DT= .0100 SEC";
+    return seconds > 0.0 ? "DT= " + words::text_of(seconds) + " SEC" : "e.g. DT= .0100 SEC";
 }
 
 /// A number belongs to the label before it, or, if the line begins with numbers, to the label of
@@ -313,14 +308,14 @@ std::optional<double> time_step_of(const Samples& samples) {
     for (std::size_t i = 1; i < steps.size(); ++i)
         if (std::abs(steps[i] - usual) > std::abs(steps[oddest] - usual)) oddest = i;
     const std::size_t at = odd < steps.size() ? odd : oddest;
-    const std::string from = " s to " + number_text(times[at + 1]) + " s";
+    const std::string from = " s to " + words::text_of(times[at + 1]) + " s";
     if (steps[at] <= 0.0)
-        reject(name, samples.line[at + 1], "the time goes from " + number_text(times[at]) + from,
+        reject(name, samples.line[at + 1], "the time goes from " + words::text_of(times[at]) + from,
                "times must ascend: sort the lines, or take out the one that is there twice");
     reject(name, samples.line[at + 1],
-           "the times are not equally spaced: from " + number_text(times[at]) + from +
-               " is a step of " + number_text(steps[at]) + " s, and most steps are " +
-               number_text(usual) + " s",
+           "the times are not equally spaced: from " + words::text_of(times[at]) + from +
+               " is a step of " + words::text_of(steps[at]) + " s, and most steps are " +
+               words::text_of(usual) + " s",
            "fill in the missing samples, or interpolate the motion to one time step");
 }
 

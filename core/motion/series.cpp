@@ -73,17 +73,6 @@ Series equally_spaced(const std::vector<double>& times, const std::vector<double
     return result;
 }
 
-Series resampled(const Series& series, double dt) {
-    Series result{dt, {}};
-    if (series.values.empty()) return result;
-    const auto count = static_cast<std::size_t>(std::floor(series.duration() / dt + 1e-9)) + 1;
-    result.values.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        result.values.push_back(value_at(series, dt * static_cast<double>(i)));
-    }
-    return result;
-}
-
 namespace {
 
 /// Cumulative Arias intensity at each sample [m/s].

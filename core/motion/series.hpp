@@ -36,10 +36,6 @@ Series derivative(const Series& series);
 Series equally_spaced(const std::vector<double>& times, const std::vector<double>& values,
                       double dt);
 
-/// The same motion with another time step, by linear interpolation; the last sample is at or just
-/// before the old end.
-Series resampled(const Series& series, double dt);
-
 /// pi / (2 g) times the integral of a^2 (Arias 1970) [m/s]; acceleration in m/s2, trapezoidal rule.
 double arias_intensity(const Series& acceleration);
 

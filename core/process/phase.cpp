@@ -19,7 +19,6 @@
 #include "core/exchange/temporary_folder.hpp"
 #include "core/phases/files.hpp"
 #include "core/phases/reads.hpp"
-#include "core/process/flags.hpp"
 #include "core/process/signals.hpp"
 #include "core/scene/reading.hpp"
 #include "core/version/version.hpp"
@@ -211,7 +210,7 @@ json known_of(Session& session, const Plan& plan) {
     known["phase"] = session.settings().phase;
     known["scene"] = session.scene().name;
     known["plan"] = as_json(plan);
-    known["flags"] = process::as_json(session.flags());
+    known["flags"] = fault::as_json(session.flags());
     known["questionable"] = fault::is_questionable(session.flags());
     const exchange::Spent spent = session.spent();
     known["wall_seconds"] = spent.wall;

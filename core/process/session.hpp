@@ -47,7 +47,7 @@ class Session {
     /// Provenance with the times spent so far.
     exchange::Provenance provenance() const;
     double wall_seconds() const;  ///< of this process
-    double cpu_seconds() const;   ///< of this process
+    static double cpu_seconds();  ///< of this process; 2 us per call
     /// Time of all processes of the run: this one and those that it continues.
     exchange::Spent spent() const;
     /// Call if the run continues from earlier results.

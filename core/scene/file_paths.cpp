@@ -22,6 +22,14 @@ std::string absolute_in(const std::filesystem::path& folder, const std::string& 
     return std::filesystem::absolute(folder / file).lexically_normal().string();
 }
 
+void change_files(json& scene, const ChangeOfPath& changed) {
+    for (const std::string& entry : file_entries) {
+        const json::json_pointer key(entry);
+        if (scene.is_object() && scene.contains(key) && scene[key].is_string())
+            scene[key] = changed(scene[key]);
+    }
+}
+
 void collect_references(const json& value, std::vector<FileReference>& found) {
     if (value.is_structured())
         for (const json& each : value) collect_references(each, found);
@@ -66,20 +74,13 @@ std::filesystem::path file_at(const std::filesystem::path& folder, const std::st
 }
 
 void resolve_references(json& scene, const std::filesystem::path& folder) {
-    for (const std::string& entry : file_entries) {
-        const json::json_pointer key(entry);
-        if (!scene.is_object() || !scene.contains(key) || !scene[key].is_string()) continue;
-        if (file_reference(scene[key].get_ref<const std::string&>()))
-            scene[key] = absolute_in(folder, scene[key]);
-    }
+    change_files(scene, [&](const std::string& file) {
+        return file_reference(file) ? absolute_in(folder, file) : file;
+    });
 }
 
 void make_files_absolute(json& scene, const std::filesystem::path& folder) {
-    for (const std::string& entry : file_entries) {
-        const json::json_pointer key(entry);
-        if (!scene.is_object() || !scene.contains(key) || !scene[key].is_string()) continue;
-        scene[key] = absolute_in(folder, scene[key]);
-    }
+    change_files(scene, [&](const std::string& file) { return absolute_in(folder, file); });
 }
 
 void change_override_files(json& study, const ChangeOfPath& changed) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/words/number.hpp"
 #include "core/words/words.hpp"
 
 namespace breach::materials::norsand {
@@ -36,11 +37,7 @@ bool has_any(const json& entry, std::initializer_list<const char*> keys) {
     return false;
 }
 
-std::string three_digits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
-    return text;
-}
+std::string three_digits(double value) { return words::text_of(value, 3); }
 
 /// All keys of a critical state line or none; exactly one of the two lines.
 std::vector<Fault> check_line(const json& law, const std::string& pointer) {

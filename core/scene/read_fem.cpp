@@ -201,7 +201,7 @@ void read_surroundings(Reader& reader, const std::filesystem::path& folder, cons
 }
 
 void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
-    double span = 0.0;
+    const double span = fem.duration();
     bool moving = false;
     for (std::size_t i = 0; i < fem.stages.size(); ++i) {
         const Stage& stage = fem.stages[i];
@@ -215,7 +215,6 @@ void check_fem(Reader& reader, const Scene& scene, const Fem& fem) {
                        "put a dynamic stage behind it, in which the failure runs");
         }
         moving = moving || stage.kind == StageKind::dynamic;
-        span += stage.duration;
         if (stage.kind == StageKind::dynamic && stage.least_time_step > stage.time_step) {
             reader.add(pointer + "/least_time_step", "is above time_step", "give a smaller one");
         }

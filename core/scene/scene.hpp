@@ -385,6 +385,12 @@ struct Fem {
     /// of undrained strength by state; none: not computed [s]
     std::optional<double> strength_interval;
 
+    /// Of the stages; static ones have none [s].
+    double duration() const {
+        double sum = 0.0;
+        for (const Stage& stage : stages) sum += stage.duration;
+        return sum;
+    }
     bool changes_the_body() const {
         for (const Stage& stage : stages)
             if (stage.changes_the_body()) return true;
@@ -658,6 +664,10 @@ struct Scene {
     std::optional<Mpm> mpm;
     std::string completed;              ///< JSON text with all defaults, keys sorted
     std::vector<fault::Flag> warnings;  ///< possible but probably unintended entries
+
+    const Material& material_of(std::size_t region) const {
+        return materials[section.regions[region].material];
+    }
 };
 
 /// Soil of material points: region and material.

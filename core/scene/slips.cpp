@@ -1,8 +1,9 @@
 #include "core/scene/slips.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "core/words/number.hpp"
 
 namespace breach::scene {
 
@@ -47,11 +48,9 @@ double rounded(double value) {
 }  // namespace
 
 std::string plain_number(double value) {
-    char text[64];
     const double size = std::abs(value);
     const bool plain = size == 0.0 || (size >= 1e-4 && size < 1e9);
-    std::snprintf(text, sizeof text, plain && size >= 1e5 ? "%.0f" : "%.6g", value);
-    return text;
+    return words::formatted(plain && size >= 1e5 ? "%.0f" : "%.6g", value);
 }
 
 std::string likely_slip(double value, const json& entry, const json& root) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "core/statistics/quantiles.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::statistics {
 
@@ -95,10 +95,6 @@ double quantile(const Distribution& distribution, double u) {
     return std::clamp(value, low, high);  // round-off
 }
 
-double in_six_digits(double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.6g", value);
-    return std::strtod(text, nullptr);
-}
+double in_six_digits(double value) { return std::strtod(words::text_of(value).c_str(), nullptr); }
 
 }  // namespace breach::statistics

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/statistics/distribution.hpp"
 #include "core/statistics/repeats.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::statistics {
 
 namespace {
 
 std::string in_unit(double value, const std::string& unit = "") {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text + (unit.empty() || unit == "1" ? "" : " " + unit);
+    return words::text_of(value, 4) + (unit.empty() || unit == "1" ? "" : " " + unit);
 }
 
 /// A larger step between the results at the bracket's ends, relative to the target, is remarked as

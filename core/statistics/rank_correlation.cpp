@@ -204,10 +204,6 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
     return pearson(ranks_of(a), ranks_of(b));
 }
 
-Matrix rank_correlations(const Points& points, std::size_t from, std::size_t to) {
-    return correlations(ranks_of_columns(columns_of(points, from, to)));
-}
-
 void correlate(Points& points, std::size_t from, std::size_t to, const Matrix& wanted) {
     if (to - from <= wanted.size() + 1 || wanted.size() < 2) return;
     const Columns values = columns_of(points, from, to);

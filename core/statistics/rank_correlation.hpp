@@ -21,8 +21,6 @@ std::vector<std::size_t> order_of(std::span<const double> values);
 std::vector<double> ranks_of(std::span<const double> values);
 /// Spearman's coefficient of two equally long lists; 0 if one is constant.
 double rank_correlation(std::span<const double> a, std::span<const double> b);
-/// Between all dimensions, for the rows [from, to).
-Matrix rank_correlations(const Points& points, std::size_t from, std::size_t to);
 
 /// Reorders each dimension of the rows [from, to) to approximate the wanted rank correlations. By
 /// Iman & Conover (1982) with van der Waerden's scores, up to 20 times with the remaining error

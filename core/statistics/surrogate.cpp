@@ -3,12 +3,12 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 
 #include "core/statistics/quantiles.hpp"
 #include "core/statistics/rank_correlation.hpp"
+#include "core/words/number.hpp"
 #include "core/words/words.hpp"
 
 namespace breach::statistics {
@@ -167,12 +167,6 @@ TornadoBar bar_of_choice(const Fit& fit, Coordinates place, const Block& block) 
     return bar;
 }
 
-std::string two_decimals(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.2f", value);
-    return text;
-}
-
 }  // namespace
 
 Tornado tornado_of(std::span<const Drawn> parameters, std::span<const double> results) {
@@ -193,8 +187,8 @@ Tornado tornado_of(std::span<const Drawn> parameters, std::span<const double> re
     tornado.q2 = fit->q2;
     tornado.form = words::name_of(fit->form);
     if (fit->q2 < least_q2) {
-        tornado.refused =
-            "Q2 is " + two_decimals(fit->q2) + "; " + two_decimals(least_q2) + " is needed";
+        tornado.refused = "Q2 is " + words::formatted("%.2f", fit->q2) + "; " +
+                          words::formatted("%.2f", least_q2) + " is needed";
         return tornado;
     }
     const Coordinates middle = middle_of(inputs, parameters);

@@ -1,6 +1,8 @@
-// Formats a number for a sentence.
+// Formats numbers for a sentence.
 #pragma once
 
+#include <cstdarg>
+#include <cstdio>
 #include <sstream>
 #include <string>
 
@@ -12,6 +14,16 @@ inline std::string text_of(double value, int digits = 6) {
     text.precision(digits);
     text << value;
     return text.str();
+}
+
+/// As printf; at most 1,023 bytes.
+[[gnu::format(printf, 1, 2)]] inline std::string formatted(const char* format, ...) {
+    char text[1024];
+    std::va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    return text;
 }
 
 }  // namespace breach::words

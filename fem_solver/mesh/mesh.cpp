@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/polyline.hpp"
-
 namespace breach::fem {
 
 Corners corners_of(const Mesh& mesh, std::size_t element) {
@@ -15,14 +13,6 @@ Corners corners_of(const Mesh& mesh, std::size_t element) {
 }
 
 namespace {
-
-/// Twice the area of the corner triangle at corner k [m2]: positive in a convex, counter-clockwise
-/// quad.
-double corner_jacobian(const Corners& x, int k) {
-    const Vec2 forward = x.col((k + 1) % 4) - x.col(k);
-    const Vec2 backward = x.col((k + 3) % 4) - x.col(k);
-    return geometry::cross(forward, backward);
-}
 
 void check_convex(const Mesh& mesh, const scene::Section& section) {
     const Quality quality = quality_of(mesh);
@@ -44,11 +34,12 @@ Quality quality_of(const Mesh& mesh) {
     Quality q{infinity, 0.0, infinity, infinity, 0.0, 0};
     for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
         const Corners x = corners_of(mesh, e);
+        const Eigen::Vector4d jacobians = geometry::corner_jacobians(x);
         double shortest = infinity, longest = 0.0, least = infinity, sum = 0.0;
         for (int k = 0; k < 4; ++k) {
             const Vec2 forward = x.col((k + 1) % 4) - x.col(k);
             const Vec2 backward = x.col((k + 3) % 4) - x.col(k);
-            const double J = corner_jacobian(x, k);
+            const double J = 4.0 * jacobians[k];  // positive in a convex, counter-clockwise quad
             shortest = std::min(shortest, forward.norm());
             longest = std::max(longest, forward.norm());
             least = std::min(least, J);

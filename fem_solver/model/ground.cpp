@@ -140,10 +140,6 @@ static double pressure_at(const scene::GroundWater& water, double gravity, doubl
     return water.density * gravity * std::max(0.0, depth);
 }
 
-double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x) {
-    return pressure_at(water, gravity, depth_of_water(water, x));
-}
-
 /// Nodal pressures of the water on an edge, per area [Pa].
 static std::array<double, 2> carried(const scene::GroundWater& water, double gravity,
                                      const Vec2& x_a, const Vec2& x_b) {

@@ -21,9 +21,6 @@ std::vector<GroundEdge> ground_edges(const Model& model);
 /// Adds a pressure on outer edges to the external force; returns their number.
 std::size_t add_edge_pressure(const scene::EdgePressure& load, Model& model);
 
-/// Pressure of free water with the surface `line` at a point of the ground [Pa]; 0 above it.
-double pond_pressure(const scene::GroundWater& water, double gravity, const Vec2& x);
-
 /// Adds to the external force: ponded water (normal to the ground, linear along an edge) and
 /// surcharge (vertical, per horizontal length). They do not follow the ground's motion.
 void add_ground_loads(const ModelDecisions& decided, Model& model);

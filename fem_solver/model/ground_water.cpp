@@ -19,8 +19,7 @@ constexpr double free_drainage = 1.0;  // hydraulic conductivity [m/s]
 
 const scene::Material& material_of(const scene::Scene& scene, const Model& model,
                                    const Zone& zone) {
-    const std::int32_t region = model.mesh.region_of_element[zone.first];
-    return scene.materials[scene.section.regions[region].material];
+    return scene.material_of(model.mesh.region_of_element[zone.first]);
 }
 
 /// Depth of each node below the phreatic line [m]: 0 within `tolerance`, negative above.

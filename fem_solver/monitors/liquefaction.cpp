@@ -4,21 +4,6 @@
 
 namespace breach::fem {
 
-std::vector<double> nodal_vertical_stress(const Mesh& mesh, std::span<const double> sigma_yy,
-                                          std::span<const double> volume) {
-    std::vector<double> sum(mesh.nodes.size(), 0.0), weight(mesh.nodes.size(), 0.0);
-    for (std::size_t e = 0; e < mesh.quads.size(); ++e) {
-        for (const std::int32_t node : mesh.quads[e]) {
-            sum[node] -= sigma_yy[e] * volume[e];
-            weight[node] += volume[e];
-        }
-    }
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        if (weight[i] > 0.0) sum[i] /= weight[i];
-    }
-    return sum;
-}
-
 std::vector<double> pore_pressure_ratio(std::span<const double> excess,
                                         std::span<const double> sigma_v0, double least_stress) {
     std::vector<double> r_u(excess.size(), 0.0);

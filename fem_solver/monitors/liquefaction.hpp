@@ -11,12 +11,6 @@
 
 namespace breach::fem {
 
-/// Effective vertical stress sigma'_v [Pa, compression positive] at the nodes: mean of the adjacent
-/// elements' averages, weighted by volume. sigma_yy: [elements] Pa, tension positive; volume:
-/// [elements] m3.
-std::vector<double> nodal_vertical_stress(const Mesh& mesh, std::span<const double> sigma_yy,
-                                          std::span<const double> volume);
-
 /// Excess pore pressure ratio r_u = (u - u_0) / sigma'_v0 [-] at the nodes (Sordo et al. 2024, Eq.
 /// 1). excess = u - u_0, sigma_v0: [nodes] Pa. 0 if sigma'_v0 is below `least_stress` [Pa], near
 /// the ground.

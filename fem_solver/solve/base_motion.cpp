@@ -111,9 +111,7 @@ FreeGround free_ground(const scene::Scene& scene, const Model& whole, const Moti
     FreeGround ground;
     exchange::BaseMotion& base = ground.motion;
     base.time_step = std::ranges::min(stages, {}, &Stage::time_step).time_step;
-    double duration = 0.0;
-    for (const Stage& each : stages) duration += each.duration;
-    duration = std::max(duration, whole.base.outcrop.duration());
+    const double duration = std::max(fem.duration(), whole.base.outcrop.duration());
     const auto samples = static_cast<std::int64_t>(std::ceil(duration / base.time_step - 1e-9));
 
     Columns columns(scene, whole, start);

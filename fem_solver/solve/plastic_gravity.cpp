@@ -63,15 +63,15 @@ FrictionalRest rest_with_friction(Newton& newton, const Model& model, Motion& mo
                                   Prediction& prediction, Motion& trial) {
     FrictionalRest rest;
     const std::vector<double> phi = friction_angles(model, motion);
-    const Eigen::VectorXd start = motion.force;
     double share = 0.5;  // of the cohesion before
     for (double c = first_cohesion; c >= last_cohesion && share < smallest_cut;
          c = share * rest.cohesion) {
         const std::vector<materials::Law> laws = frictional_laws(model, phi, c);
         // Another level has another tangent, and the kept one is of a different surface.
         newton.forget_matrix();
+        // All of the load, so the force to start from has no share.
         const NewtonOutcome outcome =
-            static_step(newton, model, laws, 1.0, start, motion, prediction, trial);
+            static_step(newton, model, laws, 1.0, motion.force, motion, prediction, trial);
         rest.iterations += outcome.iterations;
         if (outcome.end != NewtonOutcome::End::converged) {
             if (!rest.converged) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -12,12 +11,6 @@ namespace breach::fem {
 double wall_clock() {
     const auto t = std::chrono::steady_clock::now().time_since_epoch();
     return std::chrono::duration<double>(t).count();
-}
-
-double cpu_clock() {
-    timespec used{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
-    return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 std::string profile_text(const Seconds& seconds, double whole, const Work& work) {

@@ -13,8 +13,6 @@ inline constexpr const char* profile_switch = "--profile";
 using Clock = double (*)();  ///< [s], arbitrary origin
 /// 0.1 us per call, also used without --profile.
 double wall_clock();
-/// CPU time of this process; 2 us per call.
-double cpu_clock();
 
 /// Seconds spent per kind of work.
 struct Seconds {

@@ -108,16 +108,13 @@ Choice choice_of(const scene::Mpm& mpm, const SoilOfZone& soil) {
 }
 
 InstructionSet best_instruction_set() {
-    // The extensions that CMakeLists.txt compiles loops_avx512.cpp with; AVX2 and FMA come with
-    // AVX-512.
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl")) {
-        return InstructionSet::avx512;
-    }
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
-        return InstructionSet::avx2;
-    }
-    return InstructionSet::plain;
+    // The extensions that CMakeLists.txt compiles the loops with. A virtual machine may offer
+    // AVX-512 and hide AVX2 or FMA.
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
+        return InstructionSet::plain;
+    const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512vl");
+    return wide ? InstructionSet::avx512 : InstructionSet::avx2;
 }
 
 Loops choose_loops(const Choice& choice, InstructionSet instructions) {

@@ -126,7 +126,7 @@ mechanics::Voigt stress_at(const scene::Scene& scene, const scene::StandingWater
 /// Mass by the region's material, initial stress by the material that it becomes.
 void add_point(const scene::Scene& scene, const scene::StandingWater& water, std::size_t region,
                const scene::Material& becomes, const Patch& patch, exchange::ParticleState& state) {
-    const scene::Material& material = scene.materials[scene.section.regions[region].material];
+    const scene::Material& material = scene.material_of(region);
     const mechanics::Elasticity soil = materials::elasticity(becomes.law);
     const mechanics::Voigt sigma = stress_at(scene, water, patch.centroid, soil);
     const double sigma_m = (sigma[0] + sigma[1] + sigma[2]) / 3.0;

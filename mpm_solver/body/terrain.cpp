@@ -115,12 +115,4 @@ double rub(const Contact& contact, double m, const Vec2& v_before, Vec2& v) {
     return -0.5 * impulse.dot(v_before + v);
 }
 
-Vec2 kept_out(const Contact& contact, const Vec2& v) {
-    Vec2 kept = v;
-    press_on(contact.normal, 0.0, 1.0, kept);
-    if (!contact.second) return kept;
-    press_on(*contact.second, 0.0, 1.0, kept);
-    return enters(contact.normal, kept) ? Vec2(Vec2::Zero()) : kept;
-}
-
 }  // namespace breach::mpm

@@ -54,7 +54,4 @@ class Terrain {
 /// 2 [J], exact for the node's kinetic energy.
 double rub(const Contact& contact, double m, const Vec2& v_before, Vec2& v);
 
-/// v without its component into the ground, and without friction.
-Vec2 kept_out(const Contact& contact, const Vec2& v);
-
 }  // namespace breach::mpm

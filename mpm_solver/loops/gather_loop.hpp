@@ -144,8 +144,9 @@ template <int N>
     const auto stays = (new_x >= Real(grid.low_x)) & (new_x <= Real(grid.high_x)) &
                        (new_y >= Real(grid.low_y)) & (new_y <= Real(grid.high_y));
     if (any(!stays)) [[unlikely]] {
-        for (int k = block.count - 1; k >= 0; --k) {
-            if (!lane(stays, k)) sums.lost = block.first + k;
+        for (int k = 0; k < block.count; ++k) {
+            const std::size_t p = block.first + k;
+            if (!lane(stays, k) && p < sums.lost) sums.lost = p;
         }
     }
 }

@@ -71,8 +71,8 @@ struct Totals {
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     double kinetic = 0.0;  ///< [J]
     double fastest_squared = 0.0;
-    double farthest = 0.0;  ///< largest move of a point along an axis [m]
-    std::size_t lost = none;
+    double farthest = 0.0;    ///< largest move of a point along an axis [m]
+    std::size_t lost = none;  ///< first point that left the grid
     double plastic = 0.0;
     double viscous = 0.0;
     double pushed_in = 0.0;

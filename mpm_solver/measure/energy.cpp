@@ -38,11 +38,6 @@ double numerical_loss(const Energy& start, const Energy& now) {
            (now.viscous - start.viscous);
 }
 
-double numerical_share(const Energy& start, const Energy& now) {
-    const double available = released(start, now);
-    return available > 0.0 ? numerical_loss(start, now) / available : 0.0;
-}
-
 double kinetic_energy_of(const Points& points, const std::vector<std::uint8_t>& counts) {
     double energy = 0.0;
     for (std::size_t p = 0; p < points.size(); ++p) {

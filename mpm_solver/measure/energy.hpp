@@ -28,9 +28,6 @@ double numerical_loss(const Energy& start, const Energy& now);
 /// shaking [J].
 double released(const Energy& start, const Energy& now);
 
-/// numerical_loss / released; 0 if nothing was released.
-double numerical_share(const Energy& start, const Energy& now);
-
 /// Kinetic energy [J] and mass [kg] of the points of these soils.
 double kinetic_energy_of(const Points& points, const std::vector<std::uint8_t>& counts);
 double mass_of(const Points& points, const std::vector<std::uint8_t>& counts);

@@ -42,20 +42,20 @@ Json points(const std::vector<Vec2>& line) {
     return all;
 }
 
-Json frictional(const Soil& soil, const std::string& note) {
+static Json material(const Soil& soil, const std::string& note, Json law) {
     return {{"notes", {note}},
             {"density", soil.density},
             {"viscosity", 1000},
             {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
-            {"law", law_of(soil, soil.c_kPa, soil.phi_deg, soil.nu)}};
+            {"law", std::move(law)}};
+}
+
+Json frictional(const Soil& soil, const std::string& note) {
+    return material(soil, note, law_of(soil, soil.c_kPa, soil.phi_deg, soil.nu));
 }
 
 Json undrained(const Soil& soil, double c_kPa, const std::string& note) {
-    return {{"notes", {note}},
-            {"density", soil.density},
-            {"viscosity", 1000},
-            {"limit_strength", {{"c_kPa", soil.c_kPa}, {"phi_deg", soil.phi_deg}}},
-            {"law", law_of(soil, c_kPa, 0.0, 0.49)}};
+    return material(soil, note, law_of(soil, c_kPa, 0.0, 0.49));
 }
 
 Json sand(const Soil& soil, const std::string& note) {

@@ -126,6 +126,13 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
             ""};
 }
 
+std::string counted(double value) {
+    std::string digits = std::to_string(std::llround(value));
+    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
+        digits.insert(static_cast<std::size_t>(at), ",");
+    return digits;
+}
+
 /// Two significant digits, with thousands separators: "5,500".
 /// Two digits: more would promise what a factor of two in the range denies.
 std::string number(double value) {
@@ -136,17 +143,7 @@ std::string number(double value) {
         std::snprintf(text, sizeof text, "%.2g", value);
         return text;
     }
-    std::string digits = std::to_string(std::llround(std::round(value / unit) * unit));
-    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
-        digits.insert(static_cast<std::size_t>(at), ",");
-    return digits;
-}
-
-std::string counted(double value) {
-    std::string digits = std::to_string(std::llround(value));
-    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3)
-        digits.insert(static_cast<std::size_t>(at), ",");
-    return digits;
+    return counted(std::round(value / unit) * unit);
 }
 
 std::string range(const Range& value, double unit, const char* name) {

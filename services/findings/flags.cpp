@@ -1,5 +1,4 @@
-// Reads flags as result.json and the store hold them. What a flag means for a number (lower bound,
-// questionable) is decided here and nowhere else.
+// What a flag means for a number (lower bound, questionable) is decided here and nowhere else.
 #include "services/findings/flags.hpp"
 
 #include <algorithm>
@@ -8,30 +7,7 @@
 
 namespace breach::findings {
 
-using fault::Flag;
-using fault::Severity;
 using nlohmann::json;
-
-std::vector<Flag> flags_in(const json& list) {
-    std::vector<Flag> flags;
-    for (const json& each : list)
-        flags.push_back({each.at("code"),
-                         each.at("severity") == name_of(Severity::questionable)
-                             ? Severity::questionable
-                             : Severity::warning,
-                         each.at("message"), each.value("pointer", "")});
-    return flags;
-}
-
-json as_json(const std::vector<Flag>& flags) {
-    json list = json::array();
-    for (const Flag& each : flags)
-        list.push_back({{"code", each.code},
-                        {"severity", name_of(each.severity)},
-                        {"message", each.message},
-                        {"pointer", each.pointer}});
-    return list;
-}
 
 std::string worded(std::string code) {
     std::ranges::replace(code, '_', ' ');

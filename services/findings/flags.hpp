@@ -10,12 +10,6 @@
 
 namespace breach::findings {
 
-/// The flags of a list as result.json, the API and the database have it. A missing pointer is read
-/// as empty.
-std::vector<fault::Flag> flags_in(const nlohmann::json& list);
-/// Such a list: [{"code", "severity", "message", "pointer"}]
-nlohmann::json as_json(const std::vector<fault::Flag>& flags);
-
 /// "still moving"
 std::string worded(std::string code);
 

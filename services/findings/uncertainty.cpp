@@ -5,8 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "core/words/number.hpp"
 
 namespace breach::findings {
 
@@ -14,11 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-std::string shown(const json& value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value.get<double>());
-    return text;
-}
+std::string shown(const json& value) { return words::text_of(value.get<double>(), 3); }
 
 std::string with_unit(const json& value, const json& statistics) {
     const std::string unit = statistics.at("unit");

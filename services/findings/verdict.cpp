@@ -23,7 +23,6 @@ static constexpr auto words_of(Usable) {
     using enum Usable;
     return words::in_order<Usable>({{yes, "yes"},
                                     {with_remarks, "with_remarks"},
-                                    {not_known, "not_known"},
                                     {not_finished, "not_finished"},
                                     {in_part, "in_part"},
                                     {questionable, "questionable"},
@@ -236,8 +235,6 @@ const char* phrase_of(Usable usable) {
             return "usable";
         case Usable::with_remarks:
             return "usable, with remarks";
-        case Usable::not_known:
-            return "not known";
         case Usable::not_finished:
             return "not finished";
         case Usable::in_part:

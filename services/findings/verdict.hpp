@@ -68,7 +68,7 @@ struct Facts {
 
 /// From the best to the worst; a verdict is the worst that any of its reasons allows. not_finished
 /// and in_part may still improve: the run goes on, or a retry repeats its failed tasks.
-enum class Usable { yes, with_remarks, not_known, not_finished, in_part, questionable, no };
+enum class Usable { yes, with_remarks, not_finished, in_part, questionable, no };
 /// "yes", "with_remarks", ...
 const char* name_of(Usable usable);
 /// For people: "usable", "not usable", ...

@@ -12,7 +12,6 @@
 #include "core/fault/fault.hpp"
 #include "core/telemetry/lines.hpp"
 #include "services/drawing/section_drawing.hpp"
-#include "services/findings/flags.hpp"
 #include "services/orchestrator/accuracy/runout_error.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/phase_folders.hpp"

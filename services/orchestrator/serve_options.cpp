@@ -148,12 +148,13 @@ void ServeOptions::add_dispatch(CLI::App& serving) {
 void ServeOptions::add_retention(CLI::App& serving) {
     serving
         .add_option("--keep-days", settings_.retention.keep_days,
-                    "remove runs that ended more days ago and are not pinned; not given: never")
+                    "remove runs that ended more days ago; not given: never")
         ->check(CLI::NonNegativeNumber);
     serving
-        .add_option("--keep-gb", settings_.retention.keep_gb,
-                    "remove the runs that ended first, not pinned ones, when the data folder holds "
-                    "more GB; not given: never")
+        .add_option(
+            "--keep-gb", settings_.retention.keep_gb,
+            "remove the runs that ended first when the data folder holds more GB; not given: "
+            "never")
         ->check(CLI::NonNegativeNumber);
 }
 

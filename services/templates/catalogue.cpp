@@ -148,63 +148,64 @@ Options pond(double beach, double heights) {
     };
 }
 
+/// faces: of the dam, with its crest; ponded: the beach and its water.
+Options dam(int raises, Options faces, Options ponded, Option drain) {
+    return joined({{
+                       length("height", 3, 200, 30, "crest of the last raise above the foundation"),
+                       sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
+                       yes_or_no("rockfill_starter", false,
+                                 "yes: the starter dam is of rockfill, not of the raises' fill"),
+                       count("raises", 0, 20, raises,
+                             "raises of equal height; 0: the starter dam is as high as the dam"),
+                   },
+                   std::move(faces),
+                   std::move(ponded),
+                   {std::move(drain)},
+                   soil(earthquake::usual_residual_ratio),
+                   foundation_options(),
+                   site(),
+                   computation(),
+                   earthquake()});
+}
+
+Option crest_width() {
+    return sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise");
+}
+
 Template upstream() {
     return {
         "upstream_dam", "Tailings dam with a starter dam and upstream raises on tailings",
-        joined(
-            {{
-                 length("height", 3, 200, 30, "crest of the last raise above the foundation"),
-                 sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
-                 yes_or_no("rockfill_starter", false,
-                           "yes: the starter dam is of rockfill, not of the raises' fill"),
-                 count("raises", 0, 20, 4,
-                       "raises of equal height; 0: the starter dam is as high as the dam"),
-                 ratio("starter_slope", 1, 10, 2,
-                       "downstream face of the starter dam, metres across per metre up"),
-                 ratio("raise_slope", 1, 10, 3,
-                       "downstream face of the first raise, metres across per metre up"),
-                 of_type({"last_raise_slope", Kind::number, "", 1, 10, 0, "raise_slope", 1,
-                          "downstream face of the last raise; those between have slopes between"},
-                         "1"),
-                 ratio("upstream_slope", 0.5, 10, 2, "upstream faces, metres across per metre up"),
-                 sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
-                 sized("bench_width", 1.0 / 15, 0, 50, "crest that a raise leaves free downstream"),
-             },
-             pond(3, 7.5),  // the end lies 10.5 heights behind the crest (upstream_wall)
-             {yes_or_no("drain", false,
-                        "yes: the phreatic line ends at the starter dam's heel; no: at its toe")},
-             soil(earthquake::usual_residual_ratio),
-             foundation_options(),
-             site(),
-             computation(),
-             earthquake()})};
+        dam(4,
+            {
+                ratio("starter_slope", 1, 10, 2,
+                      "downstream face of the starter dam, metres across per metre up"),
+                ratio("raise_slope", 1, 10, 3,
+                      "downstream face of the first raise, metres across per metre up"),
+                of_type({"last_raise_slope", Kind::number, "", 1, 10, 0, "raise_slope", 1,
+                         "downstream face of the last raise; those between have slopes between"},
+                        "1"),
+                ratio("upstream_slope", 0.5, 10, 2, "upstream faces, metres across per metre up"),
+                crest_width(),
+                sized("bench_width", 1.0 / 15, 0, 50, "crest that a raise leaves free downstream"),
+            },
+            pond(3, 7.5),  // the end lies 10.5 heights behind the crest (upstream_wall)
+            yes_or_no("drain", false,
+                      "yes: the phreatic line ends at the starter dam's heel; no: at its toe"))};
 }
 
 Template downstream() {
     return {
         "downstream_dam", "Tailings dam with a starter dam and downstream raises on the foundation",
-        joined(
-            {{
-                 length("height", 3, 200, 30, "crest of the last raise above the foundation"),
-                 sized("starter_height", 1.0 / 3, 1, 200, "of the starter dam"),
-                 yes_or_no("rockfill_starter", false,
-                           "yes: the starter dam is of rockfill, not of the raises' fill"),
-                 count("raises", 0, 20, 2,
-                       "raises of equal height; 0: the starter dam is as high as the dam"),
-                 ratio("downstream_slope", 1, 10, 2,
-                       "downstream faces, metres across per metre up"),
-                 ratio("upstream_slope", 0.5, 10, 2, "upstream face, metres across per metre up"),
-                 sized("crest_width", 1.0 / 5, 0.5, 100, "of the starter dam and of each raise"),
-             },
-             pond(1, 2),
-             {yes_or_no("drain", true,
-                        "yes: the phreatic line ends in a drain below the middle of the crest; no: "
-                        "at the toe")},
-             soil(earthquake::usual_residual_ratio),
-             foundation_options(),
-             site(),
-             computation(),
-             earthquake()})};
+        dam(2,
+            {
+                ratio("downstream_slope", 1, 10, 2, "downstream faces, metres across per metre up"),
+                ratio("upstream_slope", 0.5, 10, 2, "upstream face, metres across per metre up"),
+                crest_width(),
+            },
+            pond(1, 2),
+            yes_or_no("drain", true,
+                      "yes: the phreatic line ends in a drain below the middle of the crest; no: "
+                      "at the toe"))};
 }
 
 Template plain_slope() {

@@ -24,7 +24,7 @@ Softens softens_of(const MohrCoulomb& law) {
                                                            : Softens::with_plastic_strain;
 }
 
-/// In-plane principal stresses and the direction of the larger (as mechanics::Principal).
+/// In-plane principal stresses and the direction of the larger.
 struct PlanePrincipal {
     double centre;
     double radius;

@@ -67,12 +67,6 @@ bool is_uniform(const StrengthCurve& curve) {
     return false;
 }
 
-bool needs_stress(const StrengthCurve& curve) {
-    if (const auto* form = std::get_if<Undrained>(&curve.kind)) return form->coefficient > 0.0;
-    if (const auto* table = std::get_if<Table>(&curve.kind)) return table->along == Along::sigma_v0;
-    return std::holds_alternative<BySounding>(curve.kind);
-}
-
 PointStrength strength_of_point(const StrengthProfile& profile, const Place& place,
                                 Liquefaction liquefaction) {
     const Strength peak = strength_at(profile.peak, place);

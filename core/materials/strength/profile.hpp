@@ -63,8 +63,6 @@ inline bool is_undrained(const StrengthCurve& curve) {
     return effective == nullptr || effective->phi == 0.0;
 }
 bool is_uniform(const StrengthCurve& curve);
-/// Whether the strength depends on sigma'_v0.
-bool needs_stress(const StrengthCurve& curve);
 
 /// Accumulated epsilon_q over which a point goes from peak to residual.
 struct SofteningStrains {

@@ -181,8 +181,7 @@ class Scatter {
         if (study.value("draws", 1) < 2) return;
         // Then each repeat has its own FEM, whose scatter is in the numbers as well.
         if (redrawn_named(study.value("draws_of", "")) == Redrawn::fem) noise_ = noise_of_fem;
-        for (const json& each : study.at("variants"))
-            repeated_.emplace(each.at("name"), repeated_variant(each));
+        repeated_ = store.repeated_variants(run);
         for (const ResultRow& row : all_rows()) {
             if (!value_of(row, "runout").is_number()) continue;
             runouts_[place_of(row)].push_back(value_of(row, "runout"));
@@ -234,7 +233,7 @@ class Scatter {
     }
 
     const char* noise_ = noise_of_points;
-    std::map<std::string, std::string> repeated_;
+    std::map<std::string, std::string> repeated_;  ///< by the repeat
     std::map<Place, std::vector<double>> runouts_;
     std::map<Place, std::string> tasks_;
 };

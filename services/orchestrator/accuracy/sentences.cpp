@@ -4,18 +4,16 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "core/statistics/repeats.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::orchestrator {
 
 namespace {
 
 std::string shown(double value, const char* format = "%.4g") {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), format, value);
-    return text.data();
+    return words::formatted(format, value);
 }
 
 std::string percent(double share) {

@@ -21,6 +21,15 @@ namespace {
 // since, or be about to get it.
 constexpr auto young = std::chrono::minutes(1);
 
+// The columns of run_counts that follow from the run's tasks.
+const std::string counts = "(total, ended, reached, failed, cancelled, runouts)";
+const std::string counted = R"((SELECT count(*), count(finished),
+    count(*) FILTER (WHERE state IN ('succeeded', 'cached')),
+    count(*) FILTER (WHERE state IN ('failed', 'skipped') AND NOT not_reached),
+    count(*) FILTER (WHERE state='cancelled'),
+    count(*) FILTER (WHERE phase='mpm_solver' AND state IN ('succeeded', 'cached'))
+FROM tasks WHERE tasks.run=run_counts.run))";
+
 const std::string from_backup =
     "restore it from a backup of the data folder; until then no equal question is answered with it";
 
@@ -73,12 +82,8 @@ class Auditor {
 
     /// run_counts is kept by triggers of the schema so that lists of runs need no sums over tasks.
     void look_at_counts() {
-        for (const std::string& run : database_.texts(R"(SELECT run
-FROM (SELECT run, count(*) AS total, count(finished) AS ended,
-      sum(state IN ('succeeded', 'cached')) AS reached, sum(state='cancelled') AS cancelled
-      FROM tasks GROUP BY run) AS now JOIN run_counts AS kept USING (run)
-WHERE (now.total, now.ended, now.reached, now.cancelled) <>
-    (kept.total, kept.ended, kept.reached, kept.cancelled))"))
+        for (const std::string& run :
+             database_.texts("SELECT run FROM run_counts WHERE " + counts + " <> " + counted))
             find({"counts", "run " + run, "its counts are not those of its tasks",
                   "--repair counts them anew", true});
     }
@@ -191,13 +196,7 @@ void mend(const DataFolder& data, const std::vector<Inconsistency>& found) {
         fs::rename(each.where, to);
     }
     Connection database(data.database(), Access::read_write);
-    database.change(
-        "UPDATE run_counts SET (total, ended, reached, failed, cancelled, runouts) = (SELECT "
-        "count(*), count(finished), sum(state IN ('succeeded', 'cached')), "
-        "sum(state IN ('failed', 'skipped') AND NOT not_reached), sum(state='cancelled'), "
-        "sum(phase='mpm_solver' AND state IN ('succeeded', 'cached')) FROM tasks WHERE "
-        "tasks.run=run_counts.run) WHERE EXISTS (SELECT 1 FROM tasks WHERE "
-        "tasks.run=run_counts.run)");
+    database.change("UPDATE run_counts SET " + counts + " = " + counted);
 }
 
 }  // namespace breach::orchestrator

@@ -2,6 +2,7 @@
 // afterwards from recipes and rows; nothing about it is stored but a refusal of the cache.
 #include "services/orchestrator/dispatch/why.hpp"
 
+#include "core/fault/fault.hpp"
 #include "services/orchestrator/study/recipe.hpp"
 
 namespace breach::orchestrator {
@@ -19,8 +20,10 @@ json because(const std::string& reason, const json& differs = json::array(),
 
 /// The recipe is equal, so only input, time or outcome can have kept the cache from answering.
 json beside_equal_recipe(const Task& task, const Task& earlier) {
-    if (earlier.state == TaskState::failed || earlier.state == TaskState::cancelled ||
-        earlier.state == TaskState::skipped)
+    // The cache answers with breakdowns, too.
+    const bool broke_down =
+        earlier.fault && earlier.fault->exit_code == static_cast<int>(fault::ExitCode::breakdown);
+    if (is_final(earlier.state) && !has_output(earlier.state) && !broke_down)
         return because("earlier task did not succeed", json::array(), earlier.id);
     const bool later = !earlier.finished || (task.started && *earlier.finished > *task.started);
     if (later) return because("earlier task had not ended", json::array(), earlier.id);

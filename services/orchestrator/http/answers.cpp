@@ -113,7 +113,7 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"seconds_left", or_null(left)},
             {"questionable", run.questionable},
             {"flag_counts", run.flag_counts},
-            {"warnings", findings::as_json(run.facts.submitted)},
+            {"warnings", fault::as_json(run.facts.submitted)},
             {"headline", findings::as_json(headline_of(run))},
             {"verdict", findings::as_json(findings::verdict_of(run.facts))},
             {"governing", run.governing ? as_json(*run.governing) : json()},

@@ -9,7 +9,6 @@
 #include "core/motion/plausibility.hpp"
 #include "core/motion/read_motion.hpp"
 #include "core/scene/file_paths.hpp"
-#include "services/findings/flags.hpp"
 #include "services/orchestrator/files/arriving_file.hpp"
 #include "services/orchestrator/files/failpoint.hpp"
 #include "services/orchestrator/files/sync_folder.hpp"
@@ -202,7 +201,7 @@ void upload(Service& service, Call& call) {
     keep(service, arriving, file);
     call.response.set_header("Location", "/v1/files/" + file.sha256);
     json answer = as_json(service.store.file(file.sha256).value());
-    answer["warnings"] = findings::as_json(warnings);
+    answer["warnings"] = fault::as_json(warnings);
     reply(call.response, answer, is_here ? 200 : 201);
 }
 

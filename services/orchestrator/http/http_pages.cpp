@@ -9,7 +9,6 @@
 #include "core/scene/file_paths.hpp"
 #include "core/scene/schema_text.hpp"
 #include "core/telemetry/columns.hpp"
-#include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 #include "services/orchestrator/http/openapi_text.hpp"
@@ -205,7 +204,7 @@ void add_page_routes(Router& router, Service& service) {
         // The phases take paths, not references.
         scene::resolve_references(scene, service.data.root());
         reply(call.response, {{"plans", plans_of(scene, service.bin, service.data.scratch())},
-                              {"warnings", findings::as_json(warnings)}});
+                              {"warnings", fault::as_json(warnings)}});
     });
 }
 

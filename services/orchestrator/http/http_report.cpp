@@ -6,6 +6,7 @@
 
 #include "core/command/command.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/exchange/temporary_folder.hpp"
 #include "services/orchestrator/http/http_routes.hpp"
 
 namespace breach::orchestrator {
@@ -16,26 +17,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto longest = std::chrono::minutes(5);
-
-/// A folder that the destructor removes.
-class ScratchFolder {
-  public:
-    ScratchFolder(const fs::path& scratch, const std::string& run)
-        : path_(scratch / ("report-" + run)) {
-        fs::remove_all(path_);  // leftover of a killed service
-        fs::create_directories(path_);
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-  private:
-    fs::path path_;
-};
 
 /// Asks this very API for each document, with the caller's own rights: the report then says what
 /// the API says, and needs no reading of its own.
@@ -121,7 +102,7 @@ fs::path report_program() { return fs::canonical("/proc/self/exe").parent_path()
 void send_report(const Router& router, const Service& service, Call& call) {
     call.allow_parameters({});
     const Run run = wanted_run(service, call.parts[0]);
-    const ScratchFolder scratch(service.data.scratch(), run.id);
+    const exchange::TemporaryFolder scratch("report-", service.data.scratch());
     Folder(router, service, call, scratch.path()).fill();
     const fs::path page = scratch.path() / "report.html";
     const command::Result made =

@@ -118,14 +118,19 @@ std::optional<std::string> Call::parameter(const std::string& name) const {
     return request.get_param_value(name);
 }
 
+/// Whether the whole text is a number.
+template <class Number>
+static bool is_read(const std::string& text, Number& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+}
+
 std::int64_t Call::whole_number(const std::string& name, std::int64_t otherwise, std::int64_t least,
                                 std::int64_t most) const {
     const auto text = parameter(name);
     if (!text || text->empty()) return otherwise;
     std::int64_t value = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-    if (error != std::errc{} || end != text->data() + text->size() || value < least ||
-        value > most) {
+    if (!is_read(*text, value) || value < least || value > most) {
         throw bad_request(name + " must be a whole number from " + std::to_string(least) + " to " +
                           std::to_string(most));
     }
@@ -136,8 +141,7 @@ std::optional<double> Call::number(const std::string& name) const {
     const auto text = parameter(name);
     if (!text || text->empty()) return std::nullopt;
     double value = 0.0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-    if (error != std::errc{} || end != text->data() + text->size() || !std::isfinite(value))
+    if (!is_read(*text, value) || !std::isfinite(value))
         throw bad_request(name + " must be a number");
     return value;
 }

@@ -151,17 +151,6 @@ void list_tasks(const Service& service, Call& call) {
     reply(call.response, {{"tasks", tasks_json(service, tasks)}, {"next", next}});
 }
 
-/// The dispatcher ends processes after the answer; until then the tasks are "cancelling".
-void cancel(Service& service, Call& call) {
-    call.allow_parameters({});
-    const bool known = service.store.write(call.caller.name, [&](Transaction& transaction) {
-        return transaction.cancel_run(call.parts[0], "asked for over the API");
-    });
-    if (!known) throw not_found("run " + call.parts[0]);
-    service.dispatcher.wake();
-    reply(call.response, run_json(service, wanted_run(service, call.parts[0])), 202);
-}
-
 /// An order to a whole run; 404 when there is none.
 template <class Order>
 /// One transaction and the dispatcher's next look; what is forbidden in a run's state is no fault
@@ -174,6 +163,13 @@ void command_run(Service& service, Call& call, Order order) {
     if (!known) throw not_found("run " + call.parts[0]);
     service.dispatcher.settle_all();
     reply(call.response, run_json(service, wanted_run(service, call.parts[0])), 202);
+}
+
+/// The dispatcher ends processes after the answer; until then the tasks are "cancelling".
+void cancel(Service& service, Call& call) {
+    command_run(service, call, [](Transaction& transaction, const std::string& run) {
+        return transaction.cancel_run(run, "asked for over the API");
+    });
 }
 
 /// The value of an entry, if the body has no other; else null.

@@ -11,7 +11,6 @@
 #include "core/words/number.hpp"
 #include "services/drawing/mesh_question.hpp"
 #include "services/estimate/cost.hpp"
-#include "services/findings/flags.hpp"
 #include "services/orchestrator/http/answers.hpp"
 #include "services/orchestrator/http/sent_documents.hpp"
 #include "services/orchestrator/study/checked_scene.hpp"
@@ -83,8 +82,8 @@ std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::
     return costs;
 }
 
-/// Number of tasks of an uncertainty study with all requested samples; tasks that samples share
-/// count once.
+/// Number of tasks of a study without faults; of an uncertainty study with all requested samples,
+/// where tasks that samples share count once.
 estimate::Repeats repeats_here(const Service& service, json document) {
     estimate::Repeats repeats = estimate::repeats_of(document);
     if (!document.is_object() || !document.contains("uncertainty")) return repeats;
@@ -118,17 +117,16 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
     auto [faults, warnings] = judged(service, document, draft);
     if (!drawing::can_be_drawn(draft)) throw refusal_of(draft, faults);
     drawing::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
-    // A scene with faults cannot be meshed, and its cost would be guessed from defaults.
-    if (draft.faults.empty()) {
-        std::optional<estimate::MeshCounts> counts;
-        if (mesh == MeshDrawn::yes && draft.scene.fem) {
-            additions.mesh = mesh_here(service, draft);
-            counts = {static_cast<double>(additions.mesh->quads.size()),
-                      static_cast<double>(additions.mesh->nodes.size())};
-        }
-        additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
-                                            estimate::repeats_of(document));
+    if (!draft.faults.empty()) return drawing::as_svg(draft, additions);  // it cannot be meshed
+    std::optional<estimate::MeshCounts> counts;
+    if (mesh == MeshDrawn::yes && draft.scene.fem) {
+        additions.mesh = mesh_here(service, draft);
+        counts = {static_cast<double>(additions.mesh->quads.size()),
+                  static_cast<double>(additions.mesh->nodes.size())};
     }
+    if (additions.faults.empty())
+        additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
+                                            repeats_here(service, document));
     return drawing::as_svg(draft, additions);
 }
 
@@ -139,7 +137,7 @@ json cost_of(const Service& service, const std::string& body) {
     if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or throws its faults
     if (!draft.faults.empty()) throw refusal_of(draft, {});
     json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
-    cost["warnings"] = findings::as_json(warnings);
+    cost["warnings"] = fault::as_json(warnings);
     return cost;
 }
 

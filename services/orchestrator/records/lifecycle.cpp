@@ -56,17 +56,13 @@ static constexpr auto words_of(AttemptState) {
                                           {submitted, "submitted"},
                                           {running, "running"},
                                           {exited, "exited"},
-                                          {lost, "lost"},
-                                          {fenced, "fenced"}});
+                                          {lost, "lost"}});
 }
 
 static constexpr auto words_of(AttemptEvent) {
     using enum AttemptEvent;
-    return words::in_order<AttemptEvent>({{submit, "submit"},
-                                          {begin, "begin"},
-                                          {exit, "exit"},
-                                          {vanish, "vanish"},
-                                          {fence, "fence"}});
+    return words::in_order<AttemptEvent>(
+        {{submit, "submit"}, {begin, "begin"}, {exit, "exit"}, {vanish, "vanish"}});
 }
 
 namespace {
@@ -130,7 +126,6 @@ constexpr std::array attempt_table{
     AttemptRule{A::submitted, B::vanish, A::lost},
     AttemptRule{A::running, B::exit, A::exited},
     AttemptRule{A::running, B::vanish, A::lost},
-    AttemptRule{A::lost, B::fence, A::fenced},
 };
 
 template <class Rules, class State, class Event>

@@ -69,17 +69,15 @@ enum class TaskEvent {
 /// Attempts (dispatch/attempts.cpp) creates a row as `submitting`, in the transaction that claims
 /// the task, and moves it: to `submitted` when the executor took it, to `running` at the phase's
 /// first line of progress, to `exited` with its exit record, to `lost` if there is neither
-/// process nor record. No code reports the event that leads to `fenced` at present: a lost
-/// attempt stays lost. At most one attempt of a task is live. Rows stay until the run is removed;
+/// process nor record. At most one attempt of a task is live. Rows stay until the run is removed;
 /// its folder goes with the run.
-enum class AttemptState { submitting, submitted, running, exited, lost, fenced };
+enum class AttemptState { submitting, submitted, running, exited, lost };
 
 enum class AttemptEvent {
     submit,  ///< the executor took it
     begin,   ///< first sign of life from the phase
     exit,    ///< its exit record was read
     vanish,  ///< no process and no exit record
-    fence,   ///< a record turned up after it was given up; refused
 };
 
 struct TaskRule {

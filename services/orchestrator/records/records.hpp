@@ -63,7 +63,7 @@ std::string label_of(const TaskPlan& task);
 /// cancelled run to "stopped". A run with open batches is not over.
 struct Batches {
     std::string run;
-    nlohmann::json spec;  ///< {"quantity", "percentile", "half_width", "batch"} or {"target"}
+    nlohmann::json spec;  ///< {"batch"}, samples per batch, or {"target"}
     std::string state;
     std::string reason;  ///< why it is given up or stopped
 };

@@ -68,7 +68,7 @@ Run run_from(const Row& row) {
             .questionable = row.integer("questionable"),
             .submitted_by = row.optional_text("submitted_by"),
             .facts = {.state = row.text("shown"),
-                      .submitted = findings::flags_in(row.document("warnings"))}};
+                      .submitted = fault::flags_in(row.document("warnings"))}};
 }
 
 const std::string selected_tasks =
@@ -344,14 +344,6 @@ std::optional<Artifact> Store::artifact(const std::string& sha256) const {
     return reader()->first(selected_artifacts + "WHERE sha256=? LIMIT 1", {sha256}, artifact_from);
 }
 
-/// Equal content may belong to many tasks; the one that computed it comes before those that took
-/// it from the cache.
-std::optional<Artifact> Store::maker_of(const std::string& sha256) const {
-    return reader()->first(selected_artifacts + R"(JOIN tasks ON tasks.id=task WHERE sha256=?
-ORDER BY same_as IS NOT NULL, state='cached', task LIMIT 1)",
-                           {sha256}, artifact_from);
-}
-
 std::map<std::string, FactorsOfSafety> Store::factors_of_safety(const std::string& run) const {
     std::map<std::string, FactorsOfSafety> found;
     reader()->query("SELECT variant, json_extract(result, '$.factor_of_safety') AS intact, " +
@@ -465,6 +457,13 @@ ORDER BY variant_place, transfer_time LIMIT ?2 OFFSET ?3)";
         if (!value_of(each, "runout").is_null())
             value_of(each, "lower_bound") =
                 findings::still_moves(value_of(each, "at_rest"), value_of(each, "flags"));
+    return found;
+}
+
+std::map<std::string, std::string> Store::repeated_variants(const std::string& run) const {
+    std::map<std::string, std::string> found;
+    reader()->query("SELECT name, draw_of FROM variants WHERE run=? AND draw_of IS NOT NULL", {run},
+                    [&](const Row& row) { found.emplace(row.text("name"), row.text("draw_of")); });
     return found;
 }
 

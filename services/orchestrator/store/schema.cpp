@@ -98,7 +98,7 @@ CREATE INDEX tasks_same_as ON tasks(same_as) WHERE same_as IS NOT NULL;
 CREATE TABLE attempts (
     task TEXT NOT NULL REFERENCES tasks(id),
     number INTEGER NOT NULL,
-    state TEXT NOT NULL CHECK (state IN ('submitting', 'submitted', 'running', 'exited', 'lost', 'fenced')),
+    state TEXT NOT NULL CHECK (state IN ('submitting', 'submitted', 'running', 'exited', 'lost')),
     created TEXT NOT NULL,
     started TEXT,
     finished TEXT,

@@ -76,6 +76,8 @@ class Store {
     /// [s].
     std::pair<double, double> computing_and_idle(const Run& run) const;
     std::optional<nlohmann::json> study_of(const std::string& run) const;
+    /// By the name of a repeat, the variant that it repeats: "soft_d2" and "soft" -> "soft".
+    std::map<std::string, std::string> repeated_variants(const std::string& run) const;
     std::optional<std::string> scene_of(const std::string& run) const;
 
     std::optional<Task> task(const std::string& id) const;
@@ -127,9 +129,6 @@ class Store {
     std::map<std::string, std::vector<Artifact>> artifacts_between(const std::string& first,
                                                                    const std::string& last) const;
     std::optional<Artifact> artifact(const std::string& sha256) const;
-    /// The artifact of the task that computed it; if that task was removed, of the first that
-    /// reused it.
-    std::optional<Artifact> maker_of(const std::string& sha256) const;
     /// Newest first.
     std::vector<TransferRow> transfers_of(const TransferFilter& filter, std::size_t most) const;
     /// In the study's order of variants, each ascending in the transfer time.

@@ -47,7 +47,7 @@ void Transaction::add_run(const NewRun& run) {
         R"(INSERT INTO runs (id, name, title, created, study, scene, warnings, sweep, last_task)
 VALUES (?,?,?,?,?,?,?,?,?))",
         {run.id, run.name, run.title, now, run.study, run.scene,
-         findings::as_json(run.warnings).dump(), std::int64_t{run.sweep ? 1 : 0},
+         fault::as_json(run.warnings).dump(), std::int64_t{run.sweep ? 1 : 0},
          static_cast<std::int64_t>(run.tasks.size())});
     add_recipes(run.recipes);
     add_files(run);
@@ -86,7 +86,7 @@ std::int64_t Transaction::next_ordinal(const std::string& run) {
 /// Those of the run so far, and those that the extension adds or words anew: of more variants.
 std::string Transaction::warnings_with(const std::string& run,
                                        const std::vector<fault::Flag>& more) const {
-    std::vector<fault::Flag> all = findings::flags_in(
+    std::vector<fault::Flag> all = fault::flags_in(
         json::parse(database_.text("SELECT warnings FROM runs WHERE id=?", {run}).value_or("[]")));
     std::erase_if(all, [&](const fault::Flag& old) {
         return std::ranges::any_of(more, [&](const fault::Flag& each) {
@@ -94,7 +94,7 @@ std::string Transaction::warnings_with(const std::string& run,
         });
     });
     all.insert(all.end(), more.begin(), more.end());
-    return findings::as_json(all).dump();
+    return fault::as_json(all).dump();
 }
 
 /// The extension was planned from an older snapshot; UNIQUE (run, label) refuses a task that came

@@ -68,8 +68,6 @@ class Transaction {
     bool cancel_run(const std::string& run, const std::string& why);
     /// Adds tasks to an existing run and replaces its study's document.
     void extend_run(const std::string& run, const Extension& extension);
-    /// Whether the trigger is armed or holding.
-    bool is_open(const std::string& trigger) const;
     /// False: no such run.
     bool pause_run(const std::string& run);
     bool resume_run(const std::string& run);

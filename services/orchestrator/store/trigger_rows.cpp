@@ -112,11 +112,6 @@ ON triggers.id = firings.trigger WHERE triggers.run=?)",
     for (const auto& [fem_task, time] : fired) add_transfer(run, fem_task, time);
 }
 
-bool Transaction::is_open(const std::string& trigger) const {
-    return database_.finds("SELECT 1 FROM triggers WHERE id=? AND state IN ('armed', 'holding')",
-                           {trigger});
-}
-
 /// Armed from the start; open_triggers() leaves it out until its FEM runs.
 std::string Transaction::add_trigger(const std::string& run, const std::string& fem_task,
                                      const TriggerPlan& plan) {

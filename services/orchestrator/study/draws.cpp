@@ -151,12 +151,4 @@ std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const D
     return entries;
 }
 
-/// rfind, because a variant's own name may have "_d" in it.
-std::string repeated_variant(const json& variant) {
-    const auto& name = variant.at("name").get_ref<const std::string&>();
-    if (variant.value("made_by", "") != "draws") return name;
-    const std::size_t suffix = name.rfind("_d");
-    return suffix == std::string::npos ? "" : name.substr(0, suffix);
-}
-
 }  // namespace breach::orchestrator

@@ -64,8 +64,5 @@ void draw(VariantEntry& entry, std::size_t number, const char* pointer, Redrawn 
 /// "d1", "d2", "d3".
 std::vector<VariantEntry> repeated(const std::vector<VariantEntry>& own, const Draws& draws,
                                    Reach reach, const nlohmann::json& scene);
-/// Name of the variant that this one repeats: "soft_d2" -> "soft"; its own name when it is not a
-/// repeat. variant: {name, made_by}.
-std::string repeated_variant(const nlohmann::json& variant);
 
 }  // namespace breach::orchestrator

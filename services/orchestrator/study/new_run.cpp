@@ -17,12 +17,8 @@ namespace {
 /// Batches::spec of a study with "until" or "target"; null for others.
 json batches_of(const Study& study) {
     if (study.target) return {{"target", study.target->question.target}};
-    if (!study.uncertainty || !study.uncertainty->until) return nullptr;
-    const Until& until = *study.uncertainty->until;
-    return {{"quantity", until.quantity},
-            {"percentile", until.percentile},
-            {"half_width", until.half_width},
-            {"batch", until.batch}};
+    if (!study.uncertainty || !study.uncertainty->batch) return nullptr;
+    return {{"batch", *study.uncertainty->batch}};
 }
 
 }  // namespace

@@ -60,10 +60,10 @@ bool is_sound(const std::vector<Fault>& faults, const std::string& entry) {
 void check_time(const Quantity& quantity, const scene::Scene& scene, std::vector<Fault>& faults) {
     if (!quantity.time || !scene.fem) return;
     if (is_late(*quantity.time, *scene.fem))
-        faults.push_back({"/accuracy/quantity",
-                          "the dynamic stages end at " + spelt(dynamic_duration(*scene.fem)) +
-                              " s, before this time",
-                          "ask for an earlier time or lengthen /scene/fem/stages"});
+        faults.push_back(
+            {"/accuracy/quantity",
+             "the dynamic stages end at " + spelt(scene.fem->duration()) + " s, before this time",
+             "ask for an earlier time or lengthen /scene/fem/stages"});
 }
 
 /// Faults of rungs that change nothing for the phases of the quantity.

@@ -116,6 +116,16 @@ void place_transfer(json& document, std::vector<Fault>& faults) {
                           "leave \"transfer_times\" out"});
 }
 
+void give_sample(const UncertaintyPlan& plan, const DrawnSample& sample, const json& scene,
+                 const Lattice& lattice, VariantEntry& entry) {
+    entry.sample = {{"number", sample.number}, {"values", values_of(plan, sample)}};
+    for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
+        if (!lattice && plan.parameters[k].kind == ParameterKind::numerical) continue;
+        for (std::string& each : overrides_of(plan.parameters[k], sample.draws[k], scene, lattice))
+            entry.overrides.push_back(std::move(each));
+    }
+}
+
 std::vector<VariantEntry> variants_of(const UncertaintyPlan& plan, const json& scene, Reach reach) {
     std::vector<VariantEntry> entries;
     for (const DrawnSample& sample : samples_of(plan, plan.drawn)) {
@@ -124,11 +134,7 @@ std::vector<VariantEntry> variants_of(const UncertaintyPlan& plan, const json& s
                            .name_pointer = "/uncertainty",
                            .pointer = "/uncertainty",
                            .made_by = "uncertainty"};
-        entry.sample = {{"number", sample.number}, {"values", values_of(plan, sample)}};
-        for (std::size_t k = 0; k < plan.parameters.size(); ++k)
-            for (std::string& each :
-                 overrides_of(plan.parameters[k], sample.draws[k], scene, lattice_for(reach)))
-                entry.overrides.push_back(std::move(each));
+        give_sample(plan, sample, scene, lattice_for(reach), entry);
         entries.push_back(std::move(entry));
     }
     return entries;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "services/orchestrator/study/accuracy.hpp"
-#include "services/orchestrator/study/uncertainty.hpp"
+#include "services/orchestrator/study/samples.hpp"
 
 namespace breach::orchestrator {
 
@@ -17,6 +17,10 @@ void check_parameters(const nlohmann::json& document, const UncertaintyPlan& pla
 
 /// Turns "transfer" into the study's own transfer_times; a trigger that it names must exist.
 void place_transfer(nlohmann::json& document, std::vector<fault::Fault>& faults);
+
+/// Makes the variant this sample; lattice empty: the variant has its own.
+void give_sample(const UncertaintyPlan& plan, const DrawnSample& sample,
+                 const nlohmann::json& scene, const Lattice& lattice, VariantEntry& entry);
 
 /// The samples so far: "s0001", "s0002", ... scene: completed, with the study's own
 /// overrides.

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "services/orchestrator/records/result_columns.hpp"
-#include "services/orchestrator/study/samples.hpp"
+#include "services/orchestrator/study/sampled_variants.hpp"
 
 namespace breach::orchestrator {
 
@@ -63,7 +63,7 @@ Target read_target(const json& entry, const UncertaintyPlan& plan, Reach reach,
     const auto fault = [&](const std::string& below, std::string cause, std::string remedy) {
         faults.push_back({"/uncertainty/target" + below, std::move(cause), std::move(remedy)});
     };
-    if (plan.until)
+    if (plan.batch)
         fault("", "an inverse study ends by itself", "leave \"until\" or \"target\" out");
     if (!plan.correlations.empty())
         fault("", "the other parameters stay at their medians: nothing is correlated",
@@ -130,13 +130,7 @@ std::vector<VariantEntry> variants_of(const Target& target, const UncertaintyPla
                                .name_pointer = "/uncertainty/target",
                                .pointer = "/uncertainty/target",
                                .made_by = "uncertainty"};
-            entry.sample = {{"number", sample.number}, {"values", values_of(plan, sample)}};
-            for (std::size_t k = 0; k < plan.parameters.size(); ++k) {
-                if (plan.parameters[k].kind == ParameterKind::numerical) continue;
-                for (std::string& each :
-                     overrides_of(plan.parameters[k], sample.draws[k], scene, nullptr))
-                    entry.overrides.push_back(std::move(each));
-            }
+            give_sample(plan, sample, scene, nullptr, entry);
             entries.push_back(std::move(entry));
         }
     }

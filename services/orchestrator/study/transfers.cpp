@@ -109,27 +109,19 @@ std::vector<std::string> fields_of(const std::string& condition) {
 
 }  // namespace
 
-double dynamic_duration(const scene::Fem& fem) {
-    double sum = 0.0;
-    for (const scene::Stage& stage : fem.stages) sum += stage.duration;
-    return sum;
-}
-
 /// A microsecond of slack for sums of stages.
-bool is_late(double time, const scene::Fem& fem) {
-    return time > dynamic_duration(fem) + microsecond;
-}
+bool is_late(double time, const scene::Fem& fem) { return time > fem.duration() + microsecond; }
 
 void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<Fault>& faults) {
     if (times.empty()) return;
     if (is_late(times.back(), fem)) {
-        const std::string in_ms = words::seconds_remedy(times.back(), dynamic_duration(fem));
+        const std::string in_ms = words::seconds_remedy(times.back(), fem.duration());
         faults.push_back(
             {"/transfer_times",
              "the transfer at " + words::text_of(times.back(), 9) +
                  " s comes after the end of the dynamic stages at " +
-                 words::text_of(dynamic_duration(fem), 9) + " s",
+                 words::text_of(fem.duration(), 9) + " s",
              in_ms.empty() ? "transfer earlier or lengthen /scene/fem/stages" : in_ms});
     }
 }
@@ -169,7 +161,7 @@ void check_lines(const scene::Scene& scene, const Study& study, std::vector<Faul
 void read_transfers(const json& document, const scene::Fem* fem, Study& study,
                     std::vector<Fault>& faults) {
     const std::size_t before = faults.size();
-    const double span = fem ? dynamic_duration(*fem) : unknown_span;
+    const double span = fem ? fem->duration() : unknown_span;
     CheckedTriggers checked = check_triggers(document["triggers"], span, "/triggers", faults);
     if (fem) warn_about_late_criteria(document["triggers"], span, study.warnings);
     std::vector<double> times;

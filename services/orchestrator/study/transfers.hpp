@@ -9,9 +9,7 @@
 
 namespace breach::orchestrator {
 
-/// Total duration of the dynamic stages [s]; snapshot times count from the start of the first one.
-double dynamic_duration(const scene::Fem& fem);
-/// Whether the time is after the FEM's end.
+/// Whether the time is after the FEM's end; times count from the start of the first dynamic stage.
 bool is_late(double time, const scene::Fem& fem);
 void check_times(const std::vector<double>& times, const scene::Fem& fem,
                  std::vector<fault::Fault>& faults);

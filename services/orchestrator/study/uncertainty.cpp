@@ -412,16 +412,6 @@ std::vector<AskedCorrelation> read_correlations(const json& entries,
     return asked;
 }
 
-/// The quantity that is shown first, unless "until" names another.
-std::optional<Until> read_until(const json& entry, const UncertaintyPlan& plan) {
-    if (!entry.contains("until")) return std::nullopt;
-    const json& until = entry.at("until");
-    return Until{.quantity = until.value("quantity", plan.quantity),
-                 .percentile = until.at("percentile"),
-                 .half_width = until.at("half_width"),
-                 .batch = until.value("batch", default_batch)};
-}
-
 void check_correlations(const UncertaintyPlan& plan, std::vector<Fault>& faults) {
     if (plan.correlations.empty()) return;
     if (!statistics::cholesky(correlation_matrix(plan)))
@@ -457,9 +447,8 @@ UncertaintyPlan read_uncertainty(const json& entry, const json& scene, std::vect
     plan.samples = entry.at("samples");
     plan.seed = entry.at("seed");
     plan.sampling = words::word_at<Sampling>(entry, "sampling");
-    plan.until = read_until(entry, plan);
-    const std::size_t at_once =
-        plan.until ? std::min(plan.until->batch, plan.samples) : plan.samples;
+    if (entry.contains("until")) plan.batch = entry.at("until").value("batch", default_batch);
+    const std::size_t at_once = std::min(plan.batch.value_or(plan.samples), plan.samples);
     plan.drawn = std::min(plan.samples, entry.value("drawn", at_once));
     plan.first = entry.value("first_block", at_once);
     refuse_repeated_entries(plan.parameters, faults);

@@ -47,14 +47,6 @@ struct AskedCorrelation {
     double rank;
 };
 
-/// Samples are added in batches until the percentile's interval is narrow enough.
-struct Until {
-    std::string quantity;
-    double percentile;  ///< 0 to 100
-    double half_width;  ///< of its interval, over its value
-    std::size_t batch;  ///< samples per batch
-};
-
 struct UncertaintyPlan {
     std::string quantity;     ///< the quantity shown first
     std::size_t samples = 1;  ///< number requested
@@ -64,7 +56,8 @@ struct UncertaintyPlan {
     Sampling sampling = Sampling::latin_hypercube;
     std::vector<Parameter> parameters;
     std::vector<AskedCorrelation> correlations;
-    std::optional<Until> until;
+    /// Of "until": samples are added in batches of this size (uncertainty/batch_watch.hpp).
+    std::optional<std::size_t> batch;
 };
 
 /// The entry, which the schema has accepted; faults have the study's pointers ("/uncertainty/...").

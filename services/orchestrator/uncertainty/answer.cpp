@@ -240,24 +240,15 @@ json rows_of(const Ensemble& ensemble) {
     return rows;
 }
 
-/// The entry "until", with the present accuracy of its percentile: half of the 90 % interval over
-/// the value, the measure by which BatchWatch decides. A value of 0 has no relative accuracy.
+/// The entry "until", with the present accuracy of its percentile.
 json until_of(const Ensemble& ensemble) {
-    const json until = ensemble.entry.value("until", json());
-    if (!until.is_object()) return nullptr;
-    json made = until;
-    made["quantity"] = until.value("quantity", first_quantity(ensemble));
-    made["reached"] = false;
-    made["now"] = nullptr;
+    json made = ensemble.entry.value("until", json());
+    if (!made.is_object()) return nullptr;
+    const Narrowness now = narrowness_of(ensemble);
+    made["quantity"] = now.quantity;
+    made["reached"] = now.reached;
+    made["now"] = or_null(now.half_width);
     made["ended"] = ensemble.ended;
-    const Measured found = measured(ensemble, made["quantity"].get<std::string>());
-    const double p = until.at("percentile");
-    if (found.results.size() < statistics::samples_needed(p)) return made;
-    const statistics::Interval now = statistics::percentile(found.results, p);
-    if (now.value == 0.0) return made;
-    const double half = 0.5 * (now.high - now.low) / std::abs(now.value);
-    made["now"] = half;
-    made["reached"] = half <= until.at("half_width").get<double>();
     return made;
 }
 

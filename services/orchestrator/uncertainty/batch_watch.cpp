@@ -7,52 +7,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/fault/fault.hpp"
-#include "core/statistics/percentiles.hpp"
-#include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/study/sweep_extension.hpp"
 #include "services/orchestrator/uncertainty/inverse_search.hpp"
 
 namespace breach::orchestrator {
 
 using nlohmann::json;
-
-namespace {
-
-/// Results of the samples that have the quantity.
-std::vector<double> results_of(const Store& store, const std::string& run,
-                               const std::string& quantity) {
-    const auto ensemble = ensemble_of(store, run);
-    std::vector<double> values;
-    for (const SampleRow& each : ensemble->samples)
-        // By the time of this call every sample has ended, so what has no value now never will.
-        if (const auto value = result_of(each, quantity)) values.push_back(*value);
-    return values;
-}
-
-/// How well a percentile is known.
-struct Narrowness {
-    std::size_t samples;                 ///< with a result
-    std::optional<double> value;         ///< of the percentile; nothing: too few samples
-    std::optional<double> half_width{};  ///< of its interval, over its value
-    bool reached = false;
-};
-Narrowness narrowness_of(const std::vector<double>& results, const json& spec) {
-    Narrowness narrowness{.samples = results.size(), .value = {}};
-    const double p = spec.at("percentile");
-    if (results.size() < statistics::samples_needed(p)) return narrowness;
-    const statistics::Interval interval = statistics::percentile(results, p);
-    narrowness.value = interval.value;
-    if (interval.value != 0.0)
-        narrowness.half_width = 0.5 * (interval.high - interval.low) / std::abs(interval.value);
-    narrowness.reached =
-        narrowness.half_width && *narrowness.half_width <= spec.at("half_width").get<double>();
-    return narrowness;
-}
-
-}  // namespace
 
 /// seen_event_ moves on only when no run had trouble: otherwise a run that failed for a full disk
 /// would wait for the next event, which may never come. An error is logged when its text changes,
@@ -90,12 +52,10 @@ bool BatchWatch::settle(const Batches& batches) {
     if (batches.spec.contains("target")) return search_on(batches);
     const json study = unless_removed(store_.study_of(batches.run));
     const json& entry = study.at("uncertainty");
-    const std::string quantity = batches.spec.at("quantity");
-    const auto results = results_of(store_, batches.run, quantity);
-    const Narrowness narrowness = narrowness_of(results, batches.spec);
-    if (narrowness.reached) {
+    const Narrowness now = narrowness_of(unless_removed(ensemble_of(store_, batches.run)));
+    if (now.reached) {
         end(batches, "met", "");
-    } else if (results.empty()) {
+    } else if (now.results == 0) {
         // More of the same would cost as much and give as little.
         end(batches, "given_up", "no sample has a result: no more are drawn");
     } else if (entry.at("drawn") >= entry.at("samples")) {
@@ -120,14 +80,14 @@ bool BatchWatch::draw_on(const Batches& batches, const json& study) {
 
 /// Adds the next value of the inverse search.
 bool BatchWatch::search_on(const Batches& batches) {
-    const auto ensemble = ensemble_of(store_, batches.run);
+    const Ensemble ensemble = unless_removed(ensemble_of(store_, batches.run));
     const json scene = json::parse(unless_removed(store_.scene_of(batches.run)));
-    const statistics::InverseAdvice advice = inverse_search(*ensemble, scene)->advice;
+    const statistics::InverseAdvice advice = inverse_search(ensemble, scene)->advice;
     if (advice.run_next.empty()) {
         end(batches, advice.found ? "met" : "given_up", advice.refused);
         return false;
     }
-    json wanted = ensemble->entry;
+    json wanted = ensemble.entry;
     for (const double each : advice.run_next) wanted["target"]["values"].push_back(each);
     return extend(batches, unless_removed(store_.study_of(batches.run)), wanted);
 }

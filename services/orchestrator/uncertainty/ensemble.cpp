@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <map>
 
+#include "core/statistics/percentiles.hpp"
 #include "services/findings/flags.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 
@@ -118,6 +120,23 @@ std::vector<const ResultColumn*> quantities_of(const Ensemble& ensemble) {
             found.push_back(column);
     }
     return found;
+}
+
+/// Samples that have ended without the quantity will never have it and are left out.
+Narrowness narrowness_of(const Ensemble& ensemble) {
+    const json& until = ensemble.entry.at("until");
+    Narrowness now{.quantity = until.value("quantity", first_quantity(ensemble))};
+    std::vector<double> results;
+    for (const SampleRow& each : ensemble.samples)
+        if (const auto value = result_of(each, now.quantity)) results.push_back(*value);
+    now.results = results.size();
+    const double p = until.at("percentile");
+    if (now.results < statistics::samples_needed(p)) return now;
+    const statistics::Interval interval = statistics::percentile(results, p);
+    if (interval.value == 0.0) return now;
+    now.half_width = 0.5 * (interval.high - interval.low) / std::abs(interval.value);
+    now.reached = *now.half_width <= until.at("half_width").get<double>();
+    return now;
 }
 
 SampleTable sample_table(const Ensemble& ensemble) {

@@ -50,6 +50,16 @@ std::optional<double> result_of(const SampleRow& sample, std::string_view quanti
 /// Whether the soil still moved at the end, so that the quantity is a lower bound.
 bool is_lower_bound(const SampleRow& sample, std::string_view quantity);
 
+/// How well the percentile of "until" is known; the study has that entry.
+struct Narrowness {
+    std::string quantity;
+    std::size_t results = 0;             ///< samples that have the quantity
+    std::optional<double> half_width{};  ///< of its interval, over its value; nothing: too few
+                                         ///< samples, or a value of 0
+    bool reached = false;
+};
+Narrowness narrowness_of(const Ensemble& ensemble);
+
 /// The samples with their values and results as a table of its own, one row each.
 struct SampleTable {
     std::vector<std::string> names;  ///< owns the texts that `columns` points to

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
+from breachline import plot
 from breachline.faults import BreachlineError
 
 from .document import Json
@@ -20,10 +21,6 @@ same_time = 5e-7  #: [s]; names of files spell times to the microsecond
 _timed = re.compile(r"[a-z]+_([0-9.]+)\.vtkhdf")
 
 
-class BadInput(BreachlineError):
-    """A file or folder has not what a run's has."""
-
-
 def service_program() -> Path:
     """Beside this program."""
     return Path(sys.argv[0]).absolute().with_name("breachline")
@@ -33,18 +30,13 @@ def ask(question: str, place: Path, asked: Json = None) -> Json:
     """What the service's program says of a run, of a FEM's telemetry or of a scene."""
     done = subprocess.run([service_program(), question, place.absolute()], input=json.dumps(asked), capture_output=True, text=True)
     if done.returncode != 0:
-        raise (BadInput if done.returncode == 65 else OSError)(done.stderr.removeprefix("breachline: ").rstrip())
+        raise (BreachlineError if done.returncode == 65 else OSError)(done.stderr.removeprefix("breachline: ").rstrip())
     return json.loads(done.stdout)
 
 
 def read_json(file: Path) -> Json:
     """None: there is no such file."""
-    if not file.is_file():
-        return None
-    try:
-        return json.loads(file.read_text(encoding="utf-8"))
-    except ValueError as cause:
-        raise BadInput(f"{file}: {cause}; export the run again") from cause
+    return plot.read_json(file) if file.is_file() else None
 
 
 @dataclass(eq=False)
@@ -285,13 +277,13 @@ def read_run(folder: Path) -> Run:
         tasks = [(folder / each["folder"], each) for each in found["tasks"]]
     for needed in ("verdict", "headline"):
         if needed not in about:
-            raise BadInput(f"{folder}/run.json: has no {needed}; export the run again with this version")
+            raise BreachlineError(f"{folder}/run.json: has no {needed}; export the run again with this version")
     study = read_json(folder / "study.json") or {}
     scene = study.get("scene")
     if not isinstance(scene, dict):
         scene = next((found for files, _ in tasks if (found := read_json(files / "scene.completed.json"))), None)
     if scene is None:
-        raise BadInput(f"{folder}: has no scene: neither in study.json nor in a task's folder; export the run again")
+        raise BreachlineError(f"{folder}: has no scene: neither in study.json nor in a task's folder; export the run again")
     phases = [_phase_of(files, task, scene) for files, task in tasks if not task.get("not_reached")]
     phases.sort(key=lambda each: (order.index(each.program), each.time or 0.0, each.variant, each.label))
     for row in entry(results, "/rows", []):

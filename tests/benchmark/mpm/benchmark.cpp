@@ -80,7 +80,7 @@ Speed collapse(double h, double end, const Computing& computing) {
     }
     speed.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     speed.x99 = runout_of(body.points, {1}, 0.0).all;
-    speed.numerical_share = numerical_share(start, energy_of(body));
+    speed.numerical_share = test::numerical_share(start, energy_of(body));
     return speed;
 }
 
@@ -141,7 +141,7 @@ Run run(const scene::Scene& scene) {
     const double began = cpu_seconds();
     test::advance(body, scene, duration);
     return {runout_of(body.points, {1}, 0.0).all, cpu_seconds() - began,
-            numerical_share(start, energy_of(body))};
+            test::numerical_share(start, energy_of(body))};
 }
 
 void measure_errors() {

@@ -193,17 +193,11 @@ TEST(Liquefaction, DepthIsThatOfTheDeepestLiquefiedNodeBelowTheWindow) {
 }
 
 TEST(Liquefaction, RatioIsExcessPressureOverInitialVerticalStress) {
-    const Mesh mesh = level_ground(2, 2);
-    const std::vector<double> sigma_yy{-30e3, -30e3, -10e3, -10e3}, volume{1, 1, 1, 1};
-    const auto sigma_v0 = nodal_vertical_stress(mesh, sigma_yy, volume);
-    EXPECT_DOUBLE_EQ(sigma_v0[0], 30e3);
-    EXPECT_DOUBLE_EQ(sigma_v0[4], 20e3) << "the middle node has all four elements";
-    EXPECT_DOUBLE_EQ(sigma_v0[8], 10e3);
-    const std::vector<double> excess(9, 15e3);
+    const std::vector<double> excess(3, 15e3), sigma_v0{30e3, 20e3, 10e3};
     const auto r_u = pore_pressure_ratio(excess, sigma_v0, 12e3);
     EXPECT_DOUBLE_EQ(r_u[0], 0.5);
-    EXPECT_DOUBLE_EQ(r_u[4], 0.75);
-    EXPECT_EQ(r_u[8], 0.0) << "too little stress for a ratio";
+    EXPECT_DOUBLE_EQ(r_u[1], 0.75);
+    EXPECT_EQ(r_u[2], 0.0) << "too little stress for a ratio";
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(DruckerPrager, EveryReturnEndsOnTheSurfaceAndStaysThere) {
             const Voigt elastic = d_epsilon - update.d_epsilon_plastic;
             const Voigt by_hooke = old.sigma + mechanics::elastic_stress(law.elasticity, elastic);
             ASSERT_LT((by_hooke - update.state.sigma).norm(), 1e-10 * size);
-            ASSERT_GE(mechanics::double_dot(update.state.sigma, update.d_epsilon_plastic),
+            ASSERT_GE(update.state.sigma.dot(update.d_epsilon_plastic),
                       -1e-9 * size * d_epsilon.norm());
             ASSERT_NEAR(update.state.epsilon_q, mechanics::epsilon_q(update.d_epsilon_plastic),
                         1e-12);

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "tests/unit/materials/rotated_stress.hpp"
 #include "tests/unit/materials/samples.hpp"
 
 namespace breach::materials::mohr_coulomb_test {
@@ -88,20 +89,19 @@ TEST(MohrCoulomb, DoesNotSeeTheFrame) {
             const double angle = draw.uniform(-4, 4);
             const auto turned_strain = [&](Voigt e) {  // engineering shear
                 e[3] *= 0.5;
-                e = mechanics::rotated_stress(e, angle);
+                e = rotated_stress(e, angle);
                 e[3] *= 2.0;
                 return e;
             };
             const Update here = integrate(law, old, d_epsilon);
             const Update there =
-                integrate(law, State{mechanics::rotated_stress(old.sigma, angle), old.epsilon_q},
+                integrate(law, State{rotated_stress(old.sigma, angle), old.epsilon_q},
                           turned_strain(d_epsilon));
             const double scale = scale_of(law, old, d_epsilon) +
                                  law.elasticity.constrained_modulus() * d_epsilon.norm();
-            ASSERT_LT((mechanics::rotated_stress(here.state.sigma, angle) - there.state.sigma)
-                          .cwiseAbs()
-                          .maxCoeff(),
-                      10.0 * round_off * scale);
+            ASSERT_LT(
+                (rotated_stress(here.state.sigma, angle) - there.state.sigma).cwiseAbs().maxCoeff(),
+                10.0 * round_off * scale);
             ASSERT_NEAR(here.state.epsilon_q, there.state.epsilon_q,
                         10.0 * round_off * scale / law.elasticity.shear_modulus());
         }
@@ -115,7 +115,7 @@ TEST(MohrCoulomb, PlasticWorkIsNeverNegative) {
             const State old = admissible_state(law, draw);
             const Voigt d_epsilon = draw.strain(1e-1);
             const Update update = integrate(law, old, d_epsilon);
-            const double work = mechanics::double_dot(update.state.sigma, update.d_epsilon_plastic);
+            const double work = update.state.sigma.dot(update.d_epsilon_plastic);
             const double scale = scale_of(law, old, d_epsilon);
             ASSERT_GE(work, -round_off * scale * scale / law.elasticity.shear_modulus());
         }

@@ -27,10 +27,11 @@ bool same_facet_around(const MohrCoulombNumbers& law, const State& old, const Vo
     const auto facet_at = [&](const Voigt& e) {
         const Voigt trial = trial_stress(law.moduli, old.sigma, e);
         if (lies_inside(law.peak, trial)) return -1;
-        const auto p = mechanics::principal(trial);
-        Triple sorted(p.major, p.minor, p.normal);
+        const double centre = 0.5 * (trial[0] + trial[1]);
+        const double radius = std::hypot(0.5 * (trial[0] - trial[1]), trial[3]);
+        Triple sorted(centre + radius, centre - radius, trial[2]);
+        const int rank = trial[2] > sorted[0] ? 0 : trial[2] < sorted[1] ? 2 : 1;
         std::sort(sorted.data(), sorted.data() + 3, std::greater<>());
-        const int rank = p.normal > p.major ? 0 : p.normal < p.minor ? 2 : 1;
         return 3 * static_cast<int>(return_to_cone(law.peak, law.moduli, sorted).facet) + rank;
     };
     const int here = facet_at(d_epsilon);

@@ -52,7 +52,7 @@ TEST(Elasticity, IsSlowedByItsBulkModulusFirst) {
 
 TEST(Elasticity, EnergyIsHalfTheWork) {
     const Voigt sigma = elastic_stress(soil, some_strain);
-    EXPECT_NEAR(elastic_energy_density(soil, sigma), 0.5 * double_dot(sigma, some_strain), 1e-12);
+    EXPECT_NEAR(elastic_energy_density(soil, sigma), 0.5 * sigma.dot(some_strain), 1e-12);
 }
 
 }  // namespace

@@ -109,6 +109,12 @@ inline void advance(Body& body, const scene::Scene& scene, double end,
     }
 }
 
+/// numerical_loss / released; 0 if nothing was released.
+inline double numerical_share(const Energy& start, const Energy& now) {
+    const double available = released(start, now);
+    return available > 0.0 ? numerical_loss(start, now) / available : 0.0;
+}
+
 inline mechanics::Vec2 centre_of_mass(const Points& points) {
     mechanics::Vec2 moment = mechanics::Vec2::Zero();
     double mass = 0.0;

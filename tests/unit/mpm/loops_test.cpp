@@ -146,6 +146,16 @@ TEST(Loops, AnswerTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(alone.tally.friction, together.tally.friction);
 }
 
+TEST(Loops, NameTheFirstPointThatLeavesTheGrid) {
+    const scene::Scene scene = heap_of(sand(5e6, 0.3, 1e3, 30.0), 0.5);
+    for (const InstructionSet instructions : sets_of_this_cpu()) {
+        Body body = body_of(scene, {.instructions = instructions});
+        std::ranges::fill(body.points.vy, 1e6);
+        step(body, 1e-3);
+        EXPECT_EQ(body.tally.lost, 0U);
+    }
+}
+
 TEST(Loops, AnswerTheSameOnAnyCpuToRoundOff) {
     scene::Scene scene = heap_of(sand(5e6, 0.3, 1e3, 30.0), 0.5);
     Body plain = body_of(scene, {.instructions = InstructionSet::plain});

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/unit/materials/rotated_stress.hpp"
 #include "tests/verification/norsand/soils.hpp"
 
 namespace breach::testing {
@@ -18,7 +19,7 @@ const Options tight{.tolerance = 1e-7, .most_evaluations = 10000};
 Voigt turned_strain(const Voigt& strain, double angle) {
     Voigt tensor = strain;
     tensor[3] *= 0.5;
-    tensor = mechanics::rotated_stress(tensor, angle);
+    tensor = rotated_stress(tensor, angle);
     tensor[3] *= 2.0;
     return tensor;
 }
@@ -45,7 +46,7 @@ TEST(NorSandInvariance, TurnedAxesGiveTheTurnedAnswer) {
         const Voigt sigma(-80e3, -120e3, -70e3, 5e3);
         for (const double angle : {0.3, 1.2, -2.0}) {
             State straight = begun(law, sigma);
-            State turned = begun(law, mechanics::rotated_stress(sigma, angle));
+            State turned = begun(law, rotated_stress(sigma, angle));
             int plastic = 0;
             for (int i = 0; i < 300; ++i) {
                 const Update a = integrate(law, straight, strain_of(i), tight);
@@ -58,7 +59,7 @@ TEST(NorSandInvariance, TurnedAxesGiveTheTurnedAnswer) {
             }
             EXPECT_GT(plastic, 100);
             EXPECT_LT(plastic, 300);
-            const Voigt back = mechanics::rotated_stress(stress(straight), angle);
+            const Voigt back = rotated_stress(stress(straight), angle);
             EXPECT_LT((stress(turned) - back).norm() / back.norm(), 1e-6);
             EXPECT_NEAR(turned.p_i / straight.p_i, 1.0, 1e-6);
             EXPECT_NEAR(turned.epsilon_q, straight.epsilon_q, 1e-7);
@@ -121,7 +122,7 @@ TEST(NorSandDissipation, PlasticWorkIsThatOfTheSurfaceAndNeverNegative) {
                 const mechanics::Elasticity elasticity{2.0 * (1.0 + 0.15) * G, 0.15};
                 const Voigt elastic =
                     mechanics::elastic_strain(elasticity, stress(update.state) - stress(state));
-                const double work = mechanics::double_dot(middle, d - elastic);
+                const double work = middle.dot(d - elastic);
                 const double d_epsilon_q = update.state.epsilon_q - state.epsilon_q;
                 EXPECT_GE(d_epsilon_q, 0.0);
                 const Reading after = read(law, update.state);

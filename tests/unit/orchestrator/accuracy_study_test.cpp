@@ -242,7 +242,6 @@ TEST(Draws, OfASweepAreVariantsOfTheirOwn) {
     Study read = read_study(study.dump());
     ASSERT_EQ(read.variants.size(), 2u);
     EXPECT_EQ(read.variants[0].name, "d1");
-    EXPECT_EQ(repeated_variant(read.document["variants"][1]), "");
 
     study["variants"] =
         json::array({{{"name", "soft_dam"}},
@@ -250,8 +249,6 @@ TEST(Draws, OfASweepAreVariantsOfTheirOwn) {
     read = read_study(study.dump());
     ASSERT_EQ(read.variants.size(), 4u);
     EXPECT_EQ(read.variants[1].name, "soft_dam_d2");
-    EXPECT_EQ(repeated_variant(read.document["variants"][0]), "soft_dam");
-    EXPECT_EQ(repeated_variant(read.document["variants"][1]), "soft_dam");
     json stored = read.document;
     stored["scene"] = read.scene;
     EXPECT_EQ(read_study(stored.dump()).document, read.document);

@@ -101,6 +101,20 @@ TEST_F(AuditOfDamage, FindsDamageToTheDatabaseItself) {
     EXPECT_NE(newer.inconsistencies.at(0).remedy.find("program that made it"), std::string::npos);
 }
 
+TEST_F(AuditOfDamage, FindsEachCountThatIsWrong) {
+    for (const std::string count :
+         {"total", "ended", "reached", "failed", "cancelled", "runouts"}) {
+        const auto add = [&](const char* what) {
+            make_database("UPDATE run_counts SET " + count + "=" + count + what +
+                          " WHERE run='r1'");
+        };
+        add("+1");
+        EXPECT_EQ(parts(), Parts{"counts"}) << count;
+        add("-1");
+    }
+    EXPECT_EQ(parts(), Parts{});
+}
+
 TEST_F(AuditOfDamage, RepairsStraysAndCountsAndLosesNothing) {
     fs::create_directories(data_.runs() / "nobodys" / "fem");
     exchange::publish_text(data_.runs() / "nobodys" / "fem" / "output", "kept");

@@ -214,6 +214,16 @@ TEST(Cache, ABreakdownBreaksDownAgainWithoutRunningAndARetryRunsIt) {
     EXPECT_EQ(task_labelled(third, "fem").at("attempts").size(), 1u);
 }
 
+TEST(Cache, ABreakdownOfAnotherInputIsAnotherInput) {
+    const Sandbox sandbox;
+    Service service(sandbox, {"--slots", "1"});
+    const json run = service.wait_for_end(service.submit(study("breaks_from=0", {0.25, 0.5})));
+    ASSERT_EQ(task_labelled(run, "mpm_0.250000").at("state"), "failed");
+    const json reason = why(service, run, "mpm_0.500000");
+    EXPECT_EQ(reason.at("reason"), "input changed");
+    EXPECT_EQ(reason.at("compared_with"), task_labelled(run, "mpm_0.250000").at("id"));
+}
+
 TEST(Cache, IsNotAskedWhenTheStudySaysSo) {
     const Sandbox sandbox;
     Service service(sandbox);

@@ -47,7 +47,7 @@ const std::set<std::string> task_moves{
 const std::set<std::string> attempt_moves{
     "submitting submit submitted", "submitting exit exited", "submitting vanish lost",
     "submitted begin running",     "submitted exit exited",  "submitted vanish lost",
-    "running exit exited",         "running vanish lost",    "lost fence fenced",
+    "running exit exited",         "running vanish lost",
 };
 
 template <class State, class Event>

@@ -227,11 +227,11 @@ TEST_F(StoreTest, AStudyThatCannotContinueDelaysNoOtherAndIsLookedAtAgain) {
     const Numerics numerics;
     std::vector<NewRun> runs{small_run(), small_run()};
     const char* sound =
-        R"({"uncertainty": {"samples": 4, "drawn": 2, "parameters": []}, "variants": []})";
+        R"({"uncertainty": {"samples": 4, "drawn": 2, "parameters": [],
+    "until": {"percentile": 50, "half_width": 0.1}}, "variants": []})";
     runs[1].study = sound;  // the other one's cannot be read
     for (NewRun& each : runs) {
-        each.batches = {
-            {"quantity", "runout"}, {"percentile", 50}, {"half_width", 0.1}, {"batch", 2}};
+        each.batches = {{"batch", 2}};
         store.write([&](Transaction& t) { t.add_run(each); });
         for (std::size_t i = 0; i < each.tasks.size(); ++i)
             bring_to_success(store, task_id(each.id, i), {{"runout", 12.5}});
@@ -699,7 +699,9 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
         database.script(
             "INSERT INTO runs (id, name, title, created, study, scene) VALUES ('r', 'old', '', "
             "'2026-01-01T00:00:00.000Z', '{\"draws\": 2, \"variants\": [{\"name\": "
-            "\"soft_dam\"}, {\"name\": \"soft_dam_d2\", \"made_by\": \"draws\"}]}', '{}');"
+            "\"soft_dam\"}, {\"name\": \"soft_dam_d2\", \"made_by\": \"draws\"}]}', '{}'),"
+            "('unnamed', 'old', '', '2026-01-01T00:00:00.000Z', '{\"draws\": 2, \"variants\": "
+            "[{\"name\": \"d1\", \"made_by\": \"draws\"}]}', '{}');"
             "INSERT INTO tasks (id, run, phase, label, transfer_time, parent, release, input, "
             "overrides, state, finished, result, variant) VALUES "
             "('r-0', 'r', 'transfer_tool', 'ta', 1, NULL, 'at_once', '', '[]', 'succeeded', '1', "
@@ -734,6 +736,10 @@ TEST_F(StoreTest, DrawsHaveTheirMeans) {
     EXPECT_TRUE(value(1, "runout_deviation").is_null());
     EXPECT_EQ(value(1, "missing_draws"), "soft_dam_d2: failed");
     EXPECT_TRUE(store.means("nobody").empty());
+    EXPECT_EQ(store.repeated_variants("r"),
+              (std::map<std::string, std::string>{{"soft_dam", "soft_dam"},
+                                                  {"soft_dam_d2", "soft_dam"}}));
+    EXPECT_EQ(store.repeated_variants("unnamed"), (std::map<std::string, std::string>{{"d1", ""}}));
 }
 
 TEST_F(StoreTest, RowsAreReadByNameInAnyOrder) {

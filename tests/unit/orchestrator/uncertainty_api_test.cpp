@@ -182,6 +182,8 @@ TEST(Samples, ArePlannedBeforeTheyAreSubmitted) {
     EXPECT_EQ(answer.body.at("tasks").at("fem_solver"), 1);
     EXPECT_EQ(answer.body.at("tasks").at("transfer_tool"), 1);
     EXPECT_EQ(answer.body.at("tasks").at("mpm_solver"), 50);  // at most: "until" may stop earlier
+    const std::string picture = service.post("/v1/draw", wanted.dump()).text;
+    EXPECT_NE(picture.find(answer.body.at("lines").back()), std::string::npos) << picture;
     wanted["uncertainty"]["parameters"][0]["distribution"]["to"] = 0.1;
     const Answer refused = service.post("/v1/cost", wanted.dump());
     EXPECT_EQ(refused.status, 422);

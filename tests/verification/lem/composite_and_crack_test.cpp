@@ -77,7 +77,7 @@ TEST(CompositeSurface, SearchOverAFloorStaysOnIt) {
     const scene::Scene scene = small::parsed(text);
     const Model model = make_model(scene);
     Slices slices = make_slices(model.strata, model.slices);
-    const json found = facts_of(model, *found_by_search(scene, model, 1).critical, slices);
+    const json found = facts_of(model, *search(model, *scene.lem->search, 1).critical, slices);
     EXPECT_GE(found.at("lowest_point")[1], -1.0 - 1e-6);
 }
 

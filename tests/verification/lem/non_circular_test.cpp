@@ -35,7 +35,7 @@ json optimised(json text, int vertices = 13) {
     text["lem"]["non_circular"] = {{"vertices", vertices}};
     const scene::Scene scene = small::parsed(text);
     const Model model = make_model(scene);
-    const SearchResult found = found_by_search(scene, model, 1);
+    const SearchResult found = search(model, *scene.lem->search, 1);
     json facts = optimised_polyline(scene, model, found.critical->surface);
     facts["bishop"] = found.critical->bishop.factor_of_safety;
     return facts;

@@ -20,7 +20,7 @@ def read_json(path: Path) -> Any:
     except OSError as cause:
         raise OSError(f"{path}: cannot be read ({cause.strerror}); give a phase's output") from cause
     except ValueError as cause:
-        raise BreachlineError(f"{path}: {cause}; run the phase again") from cause
+        raise BreachlineError(f"{path}: {cause}; run the phase or export the run again") from cause
 
 
 @contextmanager
