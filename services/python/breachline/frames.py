@@ -31,7 +31,7 @@ class Frame:
     units: dict[str, str]
     quads: Array | None = None  #: [elements, 4] corners of a mesh; None: material points
     cell_fields: dict[str, Array] = field(default_factory=dict)  #: [elements] or [elements, components]
-    stress_of_regions: list[str] = field(default_factory=list)  #: "effective" or "total"; empty: all effective
+    stress_of_regions: list[str] = field(default_factory=list)  #: "effective", "total" or "buoyant"; empty: all effective
     transfer_time: float | None = None  #: of material points [s], on the FEM's clock
     inputs: list[tuple[str, str]] = field(default_factory=list)  #: path and SHA-256 of the files that it was made from
 

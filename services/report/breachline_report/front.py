@@ -241,7 +241,7 @@ def _limits_of(run: Run, paper: Paper | None) -> list[str]:
         limits.append("Limit equilibrium: no deformation, and no surface but those that were searched.")
     if asks:
         limits += ["No mixing with water: nothing is diluted, and no free water flows along.",
-                   "Total stress in the runout: strength is that at the transfer, reduced by softening; no pore pressure builds up or drains.",
+                   "No pore pressure builds up or drains in the runout: strength is that at the transfer, reduced by softening.",
                    _limit_at_transfer(run) if run.first(fem) else "Static: whether and when the section fails is not asked."]
     return limits + (paper.remarks if paper else [])
 

@@ -89,7 +89,8 @@ def write_transfer_figures(folder: Path, output: Path) -> None:
 
 
 def _sigma_v(points: Frame) -> Array:
-    """Vertical effective stress, compression positive [kPa]: subtracts the pore pressure from total stress."""
+    """Vertical effective stress, compression positive [kPa]: subtracts the pore pressure from total stress. Buoyant stress is shown as
+    it is: less the excess pressure."""
     stress = points["stress"][:, 1]
     if "pore_pressure" in points.fields:
         total = np.array([each == "total" for each in points.stress_of_regions] or [False] * len(points.regions))
