@@ -49,7 +49,7 @@ void show_as_csv(const json& lines, const Console& console) {
 
 /// A whole id is taken as it is. Everything else costs one request, as the server may have got a
 /// newer run of this name.
-/// A name wins over the beginning of an id. Trap: a name of exactly 26 characters is taken for an
+/// A name wins over the beginning of an id. Trap: a name of exactly 26 characters is read as an
 /// id and not found; use the id or `latest`. Among more than 500 matches only the newest are seen.
 std::string run_named(Server& server, const std::string& name) {
     if (name.size() == length_of_ids) return name;

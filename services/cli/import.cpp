@@ -25,7 +25,7 @@ namespace {
 
 /// Drawings are read whole into memory, once as bytes and once as outlines.
 constexpr std::uintmax_t most_bytes = 256 << 20;
-/// A coarse drawing has hundreds; --json prints all.
+/// A coarse drawing may have hundreds; --json prints all.
 constexpr std::size_t most_lines = 12;  // of corrections
 
 std::string bytes_of(const std::filesystem::path& file) {

@@ -148,7 +148,7 @@ ExitCode send_files(Server& server, const std::vector<fs::path>& files, const Co
     return ExitCode::done;
 }
 
-/// Asks for the run first: the dashboard would show an empty page for a wrong id.
+/// Asks for the run first: a wrong id is reported here and not in a browser.
 ExitCode open_page(Server& server, const std::string& run, const Console& console) {
     const std::string id = run_named(server, run);
     server.get(path_of({"runs", id}));
