@@ -1,5 +1,5 @@
 // `breach motion`: an engineer's first look at records, before a scene uses them, and a study made
-// of a folder of them. The measures are computed here by core/motion, as the service computes them,
+// of a folder of them. The measures are computed here by core/motion, as fem_solver computes them,
 // so that no server is needed; only the comparison of a finished study (--of) asks one.
 #include "services/cli/motion.hpp"
 
