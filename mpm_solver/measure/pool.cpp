@@ -1,7 +1,7 @@
-// Reports at the end of a runout what still water cannot do. It neither flows nor falls: a pool stays
-// full when its dam has gone, and a scarp that sinks below the pool feels the pressure of the dam's
-// pores, as the line of /mpm/water falls through the dam. Called once by results.cpp with the last
-// state. The water may stand at either end of the grid, or at both.
+// Reports at the end of a runout what still water cannot do. It neither flows nor falls: a pool
+// stays full when its dam has gone, and a scarp that sinks below the pool feels the pressure of the
+// dam's pores, as the line of /mpm/water falls through the dam. Called once by results.cpp with the
+// last state. The water may stand at either end of the grid, or at both.
 #include "mpm_solver/measure/pool.hpp"
 
 #include <algorithm>
