@@ -1,6 +1,7 @@
-// Finds PM4Sand's free parameters for run.cpp's run_calibration(). Each evaluation simulates whole tests, and there are no derivatives: the search samples
-// the box of the bounds first, descends from the three best samples, and ends with new simplices
-// around the best. Everything is deterministic: the same document gives the same parameters.
+// Finds PM4Sand's free parameters for run.cpp's run_calibration(). Each evaluation simulates whole
+// tests, and there are no derivatives: the search samples the box of the bounds first, descends
+// from the three best samples, and ends with new simplices around the best. Everything is
+// deterministic: the same document gives the same parameters.
 #include "element_bench/calibration.hpp"
 
 #include <algorithm>
@@ -56,6 +57,7 @@ std::vector<std::string> parameter_names() {
     return names;
 }
 
+/// document.cpp has refused other names: this one can come from code alone.
 double& parameter(SandParameters& parameters, const std::string& name) {
     for (const Named& each : named) {
         if (name == each.name) return parameters.*each.member;
@@ -83,6 +85,7 @@ Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(proble
         double low = std::log(target.CSR), high = low;
         for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
             const CyclicTarget& other = problem_.cyclic[k];
+            // Measured points and those of the reference soil lie on curves of their own.
             const bool same_curve = other.sigma_v == target.sigma_v && other.K0 == target.K0 &&
                                     other.strain == target.strain &&
                                     other.N.has_value() == target.N.has_value();
@@ -98,6 +101,7 @@ Calibration::Calibration(CalibrationProblem problem) : problem_(std::move(proble
 }
 
 /// A soil that does not reach the strain counts as most_cycles: the misfit stays finite.
+/// Without readings on the way (every = 0), as a search runs such tests hundreds of times.
 double Calibration::cycles(const SandParameters& parameters, const CyclicTarget& target) const {
     const CyclicResult result =
         cyclic_stress(specimen(parameters, problem_.options, target.sigma_v, target.K0),
@@ -124,7 +128,8 @@ std::vector<Term> Calibration::strength_terms(const SandParameters& parameters) 
     return terms;
 }
 
-/// A ratio of cycles becomes a ratio of stress: curves are flat, and a factor of two in N is about 13 % in CSR at the usual slope.
+/// A ratio of cycles becomes a ratio of stress: curves are flat, and a factor of two in N is about
+/// 13 % in CSR at the usual slope.
 std::vector<Term> Calibration::cyclic_terms(const SandParameters& parameters) const {
     std::vector<Term> terms;
     for (std::size_t k = 0; k < problem_.cyclic.size(); ++k) {
@@ -176,6 +181,7 @@ struct Start {
 };
 
 /// Point k of Halton's sequence in the box of the bounds, in logarithms.
+/// A lattice would waste points where one parameter matters little; random ones would need a seed.
 std::vector<double> spread_point(int k, const std::vector<FreeParameter>& free) {
     constexpr int primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43};
     std::vector<double> x;
@@ -251,8 +257,11 @@ CalibrationResult calibrate(const Calibration& calibration,
         const std::vector<double> at = spread_point(k, free);
         starts.push_back({at, misfit(at)});
     }
+    // Stable: samples with equal misfits keep the order of the sequence.
     std::stable_sort(starts.begin(), starts.end(),
                      [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
+    // Three fifths of the evaluations at most: with the eighth for samples, a quarter is left for
+    // the end.
     for (std::size_t k = 0; k < 3 && k < starts.size(); ++k) {
         descend(misfit, starts[k].x, 0.2, 5e-3, most / 5);
     }
@@ -263,6 +272,7 @@ CalibrationResult calibrate(const Calibration& calibration,
         std::vector<double> best;
         for (const double value : result.best.values) best.push_back(std::log(value));
         descend(misfit, best, size, 2e-4, most - result.evaluations);
+        // The sign turns: edges the other way find what the last simplex could not.
         size = -0.5 * size;
     }
     result.parameters = calibration.with(result.best.values);

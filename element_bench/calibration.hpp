@@ -100,7 +100,8 @@ struct CalibrationResult {
     SandParameters parameters;
 };
 
-/// Samples the box of the bounds in logarithms, then Nelder-Mead from the best samples and around the best result.
+/// Samples the box of the bounds in logarithms, then Nelder-Mead from the best samples and around
+/// the best result.
 /// Calls `seen` after each evaluation, if not empty.
 CalibrationResult calibrate(const Calibration& calibration,
                             const std::function<void(int, const Fit&)>& seen = {});

@@ -148,6 +148,8 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
     const norsand::Parameters& par = law.parameters;
     const std::string pointer = "/tests/" + plan.name;
     const double p = mean_stress(at, sigma_v);
+    // Each check needs the one before: a state below p_min or on a steep line has no beginning to
+    // look at.
     if (p < par.p_min) {
         faults.push_back({stress_pointer,
                           "is a mean stress of " + three_digits(p / 1e3) + " kPa, below p_min of " +
@@ -172,6 +174,7 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
                           "raise psi_0 (or e_0)"});
         return;
     }
+    // Written out as a state parameter, since that is what the user can change.
     if (begun.eta_limit <= 0.0) {
         const double most = par.M_tc / (begun.state.chi_i * (1.0 + par.N)) + slope;
         faults.push_back(
@@ -184,6 +187,7 @@ void check_beginning(const norsand::Ready& law, const TestPlan& plan, double sig
     }
     if (!begun.shrunk) return;
     const double limit = begun.eta_limit;
+    // q / p of a stress with the ratio K0, solved for K0: compression below 1, extension above.
     const double K0 =
         at.K0 < 1.0 ? (3.0 - limit) / (3.0 + 2.0 * limit) : (3.0 + limit) / (3.0 - 2.0 * limit);
     const bool sheared = at.static_shear > 0.0;
@@ -220,6 +224,7 @@ void check_norsand_tests(json& document, std::vector<Fault>& faults) {
             faults.push_back({pointer + "/psi_0", "is missing: NorSand must know how loose it is",
                               "give psi_0 or e_0 here or in /law"});
         }
+        // S stands for undrained softening; a drained test that took it over would be flagged.
         if (!test.contains("S")) {
             const bool drained = is_drained(words::word_at<Boundary>(test, "boundary"));
             test["S"] = drained ? json(0.0) : law.at("S");
@@ -306,6 +311,8 @@ CalibrationProblem problem_of(const json& entry, const SandLaw& start) {
 
 /// A measured curve: CSR, N and optionally weight per line; the first line may have names, '#'
 /// starts a comment.
+/// Semicolons and tabs count as commas, and a line of names is skipped: files come from
+/// spreadsheets.
 json points_of_file(const std::filesystem::path& file, const std::string& pointer,
                     std::vector<Fault>& faults) {
     std::ifstream stream(file);
@@ -333,6 +340,8 @@ json points_of_file(const std::filesystem::path& file, const std::string& pointe
             sound = sound && *end == '\0' && std::isfinite(value);
             numbers.push_back(value);
         }
+        // A line with digits is data: a typing error there must be a fault and not pass for a
+        // title.
         const bool names =
             !sound && points.empty() && text.find_first_of("0123456789") == std::string::npos;
         if (numbers.empty() || names) continue;
@@ -341,6 +350,7 @@ json points_of_file(const std::filesystem::path& file, const std::string& pointe
         } else if (numbers[0] <= 0.0 || numbers[0] > 2.0) {
             fault(line, "has a CSR that is not in (0, 2]");
         } else if (numbers[1] < 0.25 || numbers[1] > 10000.0) {
+            // A stress cycle has its first peak at a quarter.
             fault(line, "has an N that is not in [0.25, 10000]");
         } else if (numbers.size() == 3 && numbers[2] < 0.0) {
             fault(line, "has a negative weight");
@@ -373,6 +383,8 @@ void take_in_curves(json& document, const std::filesystem::path& folder,
     }
 }
 
+/// All three kinds of target are optional in the schema; a calibration without any would end at
+/// once.
 void check_calibration(const json& document, std::vector<Fault>& faults) {
     if (!document.contains("calibration")) return;
     const json& calibration = document.at("calibration");

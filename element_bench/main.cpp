@@ -7,6 +7,7 @@
 int main(int argc, char** argv) {
     const std::string_view command = argc > 1 ? argv[1] : "";
     const bool calibrates = command == "calibrate";
+    // The command's word is ours; run_phase() reads the rest like any phase's arguments.
     const int skipped = calibrates || command == "element-test" ? 1 : 0;
     return breach::process::run_phase(argc - skipped, argv + skipped,
                                       calibrates ? breach::element_bench::calibrate_phase()

@@ -50,9 +50,12 @@ TriaxialTest test_of(const std::string& name, const json& entry, bool engineerin
     return test;
 }
 
+/// Laboratories report strains over the first length; the law's are logarithmic. A
+/// measured 0.20 becomes 0.22.
 bool is_engineering(const json& entry) { return entry.at("strains") == "engineering"; }
 
 /// Checks a test's columns against its entry.
+/// A wrong unit shows in these: kilopascals given as pascals, or a back pressure left in u.
 void check_test(const std::string& name, const json& entry, bool engineering,
                 std::vector<Fault>& faults) {
     constexpr double most_off = 0.25;  // of p_0, with the first load already applied
@@ -104,6 +107,7 @@ void take_in_triaxial_files(json& entry, const std::filesystem::path& folder,
     for (auto& [name, test] : entry.at("tests").items()) {
         std::filesystem::path file = test.at("file").get<std::string>();
         if (file.is_relative()) file = folder / file;
+        // Only a file that was read without fault has columns to check.
         const std::size_t before = faults.size();
         test["measured"] =
             read_triaxial_file(file, words::word_at<Boundary>(test, "boundary"),

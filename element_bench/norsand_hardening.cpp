@@ -1,5 +1,5 @@
-// Fits H by damped Gauss-Newton on the curves of the chosen tests. Uses the drained tests, or all if none is drained. Derivatives
-// are differences, as the law's curves have none in closed form.
+// Fits H by damped Gauss-Newton on the curves of the chosen tests. Uses the drained tests, or all
+// if none is drained. Derivatives are differences, as the law's curves have none in closed form.
 #include "element_bench/norsand_hardening.hpp"
 
 #include <Eigen/Dense>
@@ -57,6 +57,8 @@ double sum_of_squares(const std::vector<Eigen::VectorXd>& parts) {
 template <class At>
 std::vector<Eigen::MatrixXd> jacobians(const At& at, const Eigen::VectorXd& x,
                                        const std::vector<Eigen::VectorXd>& here) {
+    // 0.5 % of H: far above the integration's tolerance of 1e-4 (norsand_problem_of), which would
+    // show as noise of the derivative.
     constexpr double step = 5e-3;  // of ln H
     std::vector<Eigen::MatrixXd> out;
     for (const Eigen::VectorXd& each : here) out.emplace_back(each.size(), x.size());
@@ -169,6 +171,7 @@ Values Hardening::fitted(const Values& values, bool from_afar) const {
         const Eigen::VectorXd d = A.ldlt().solve(-g).cwiseMax(-1.0).cwiseMin(1.0);
         const Eigen::VectorXd tried =
             (x + d).cwiseMax(std::log(least[H_0])).cwiseMin(std::log(most[H_0]));
+        // The curves do not depend on H here: there is nothing to solve for.
         if (!tried.allFinite()) break;
         const auto there = at(tried);
         if (sum_of_squares(there) >= sum_of_squares(here)) {

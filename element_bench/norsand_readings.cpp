@@ -112,6 +112,7 @@ Readings TestReadings::comparable(const Readings& of_law) const {
     return out;
 }
 
+/// e over ln of kilopascals, the axis that Gamma refers to.
 Points TestReadings::line_points(const Readings& readings) const {
     Points points;
     for (const std::size_t i : line)
@@ -127,6 +128,8 @@ Points TestReadings::friction_points(const Readings& readings) const {
         if (!readings[i]) continue;
         if (readings[i]->peak) points.add(readings[i]->peak->D, readings[i]->peak->eta);
         if (!measured[i]->end.critical && !all_ends) continue;
+        // An end with much scatter counts less. Peaks have full weight: their parabola smooths
+        // them.
         const double error = measured[i]->end.eta_error;
         points.add(readings[i]->end.D, readings[i]->end.eta,
                    1.0 / (1.0 + std::pow(error / between_tests, 2)));
@@ -197,6 +200,7 @@ Values TestReadings::corrected(const Values& old, const Readings& of_law) const 
     return values;
 }
 
+/// Relative, but at least to a tenth of the usual value: N may be 0.
 double largest_move(const Values& from, const Values& to) {
     using enum Sought;
     double largest = 0.0;

@@ -22,6 +22,7 @@ namespace {
 /// deviations from its line are subtracted: they are no scatter.
 std::optional<Eigen::Matrix2d> covariance_of_line(const Points& seen, const Points& own) {
     const std::size_t n = seen.x.size();
+    // A line always fits two points: they show no scatter.
     if (n < 3 || own.x.size() != n) return std::nullopt;
     const Regression a = line_through(seen), b = line_through(own);
     double sum = 0.0;
@@ -115,6 +116,7 @@ void warn(const TestReadings& tests, bool settled, NorSandFit& fit) {
             "pressures, or give Gamma and lambda");
     }
     std::string assumed, weak;
+    // H_psi is usually assumed, as its usual value 0 means one hardening for all densities.
     for (const Sought k : {Gamma, lambda, M_tc, N, chi_tc, H_0, H_psi}) {
         const Estimate& each = fit.estimates[k];
         const std::string name = sought::names[k];
@@ -181,6 +183,7 @@ NorSandFit calibrate(const NorSandProblem& problem, const std::function<void(int
         values = hardening.fitted(values, round == 0);
         found = curves(problem, values, all);
         for (const std::size_t i : all) {
+            // A reading of an earlier round would be compared with values that have moved since.
             of_law[i].reset();
             if (found[i]) of_law[i] = read_curve(problem.tests[i], *found[i], tests.peak_rows[i]);
         }

@@ -116,6 +116,7 @@ bool seeks_norsand(const scene::Scene& scene) {
     return json::parse(scene.completed).contains(entry_key);
 }
 
+/// What is given is listed too: one sees from the plan what the tests must determine.
 process::Plan norsand_calibration_plan(const scene::Scene& scene) {
     const json entry = entry_of(scene);
     process::Plan plan;

@@ -30,7 +30,8 @@ class Test {
     const Specimen& specimen() const { return record_.last; }
     double strain() const { return driven_strain(record_.last, boundary_); }
     double answer() const { return response(record_.last, boundary_); }
-    /// By the vertical stress alone: at constant total stress, what it loses is excess pore pressure.
+    /// By the vertical stress alone: at constant total stress, what it loses is excess pore
+    /// pressure.
     double r_u() const {
         return sigma_yy_0_ != 0.0 ? 1.0 + stress(record_.last)[1] / sigma_yy_0_ : 0.0;
     }
@@ -181,6 +182,8 @@ Trial step_onto(Test& test, Boundary boundary, double d, double target, double t
 
 /// Strain is driven until the response passes the target; that step is repeated to end on it
 /// (step_onto), and the direction turns.
+/// N is read from the stress, not counted in steps: it is continuous, and a specimen that flows
+/// stays at the phase that it reached.
 CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const CyclicStress& load,
                            const Limit& limit, const Pace& pace) {
     CyclicResult result;
@@ -207,6 +210,7 @@ CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const Cycli
         N = std::max(N, 0.5 * half_cycles + direction * phase);
         const double r_u = test.r_u();
         result.largest_r_u = std::max(result.largest_r_u, r_u);
+        // Turning points are always read: the ends of loops are what a figure needs.
         if (test.due() || turns) test.read(N);
         const double strain = std::abs(test.strain());
         if (result.N_1_percent < 0.0 && strain >= 0.01) result.N_1_percent = N;
@@ -225,6 +229,8 @@ CyclicResult cyclic_stress(const Specimen& start, Boundary boundary, const Cycli
     return result;
 }
 
+/// A law that fails ends the test here; hysteresis() recognises it by the readings that are
+/// missing.
 Record cyclic_strain(const Specimen& start, Boundary boundary, double amplitude, int cycles,
                      const Pace& pace) {
     Test test(start, boundary, pace);
@@ -256,6 +262,7 @@ Loop hysteresis(const Specimen& start, Boundary boundary, double amplitude, int 
     const std::size_t peak = static_cast<std::size_t>(steps) * (4 * (cycles - 1) + 1);
     const std::size_t next = peak + 4 * static_cast<std::size_t>(steps);
     if (next >= all.size()) return {amplitude, std::nullopt, std::nullopt};
+    // The area by trapezoids: all[i] are a step apart, and the loop closes only if it has settled.
     double lost = 0.0, high = all[peak].response, low = high;
     for (std::size_t i = peak; i < next; ++i) {
         lost += 0.5 * (all[i].response + all[i + 1].response) * (all[i + 1].strain - all[i].strain);

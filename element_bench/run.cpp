@@ -54,6 +54,7 @@ json cost_of(const Record& record) {
 }
 
 /// What the tests of a document have added so far.
+/// Kept in memory until all tests have ended: the archive is one file, written once.
 struct Results {
     json numbers = json::object();
     exchange::Archive curves = empty_archive();
@@ -63,6 +64,7 @@ struct Results {
 /// curve's columns follow after a point.
 std::string label(const std::string& test, double sigma_v, const char* what = "",
                   double value = 0.0) {
+    // %g: 100 kPa is "100" and 62.5 is "62.5", as the document has them.
     char text[64];
     if (*what) {
         std::snprintf(text, sizeof text, "_sv%gkPa_%s%g", sigma_v / 1e3, what, value);

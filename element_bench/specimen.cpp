@@ -46,6 +46,7 @@ Ending strain_point(SandPoint& point, const Voigt& d, Counts& counts) {
 }
 
 /// Halves a step that the law could not integrate, and the halves again.
+/// A step that cannot be integrated returns the old state: the halves begin there.
 Ending strain_in_parts(NorSandPoint& point, const Voigt& d, int cuts_left,
                        norsand::Counts& counts) {
     const auto update = norsand::integrate(point.law, point.state, d, point.options);
@@ -67,6 +68,8 @@ Ending strain_point(NorSandPoint& point, const Voigt& d, Counts& counts) {
 }
 
 /// Strain increment of a boundary from the driven and the free strain.
+/// epsilon_zz is 0 in plane strain and epsilon_xx in a triaxial cell; undrained increments have no
+/// volume.
 Voigt increment(Boundary boundary, double d, double free) {
     switch (boundary) {
         case Boundary::undrained_shear:
@@ -211,6 +214,8 @@ Trial driven(const Specimen& specimen, Boundary boundary, double d, double held)
         f0 = f;
         x -= f / (std::isfinite(slope) && slope > 1e-4 * stiffness ? slope : stiffness);
     }
+    // Looser than the aim of 1e-8, for laws that jump; beyond it the boundary would not be that
+    // test's.
     if (least > 1e-4 * scale) best = {specimen, Ending::failed, {}};
     best.counts = counts;
     return best;

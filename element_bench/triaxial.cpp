@@ -83,6 +83,7 @@ std::vector<double> stress_ratios(const TriaxialCurve& curve) {
 }
 
 /// A window of 15 % of the strain, or of five rows in a sparse file.
+/// A straight line: over this window curves bend little, and a parabola would follow the scatter.
 EndReading read_end(const TriaxialTest& test, const TriaxialCurve& curve,
                     const std::vector<double>& eta) {
     constexpr double window = 0.15;
@@ -104,6 +105,7 @@ EndReading read_end(const TriaxialTest& test, const TriaxialCurve& curve,
     const auto rows = static_cast<double>(x.size());
     const bool drained = is_drained(test.boundary);
     const double D = drained ? dilatancy(volume.slope) : 0.0;
+    // Undrained volume is constant by itself: only p and q tell whether the state still moves.
     const bool critical =
         drained ? std::abs(D) <= critical_dilatancy && std::abs(r.slope) <= critical_eta_rate
                 : std::abs(p.slope) <= critical_log_rate * p.value &&
@@ -121,6 +123,7 @@ EndReading read_end(const TriaxialTest& test, const TriaxialCurve& curve,
 struct Window {
     std::size_t from, to;
 };
+/// None near the ends of a test: a parabola with points on one side has a wrong slope.
 std::optional<Window> window_around(const std::vector<double>& strain, std::size_t row) {
     constexpr double reach = 0.0075;       // strain on either side
     constexpr std::size_t least_rows = 2;  // on either side

@@ -1,5 +1,6 @@
 // Checks every line of a laboratory's file while it reads: a wrong unit or sign would otherwise
-// become a plausible but wrong parameter. The first faulty line ends a file, as later faults would follow from it. Called by norsand_document.cpp for each test.
+// become a plausible but wrong parameter. The first faulty line ends a file, as later faults would
+// follow from it. Called by norsand_document.cpp for each test.
 #include "element_bench/triaxial_file.hpp"
 
 #include <algorithm>
@@ -34,6 +35,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 /// NaN if the text is no number.
+/// from_chars() reads points as decimals in every locale, and takes no rest such as "5kPa".
 double number_from(const std::string& text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -123,6 +125,7 @@ void Reader::check_row(std::size_t line) {
         return fault(line, "epsilon_1 is " + std::to_string(epsilon_1) + ", per cent?",
                      "give strains as fractions: 0.01 for 1 %");
     }
+    // The readings interpolate over strain: an unloading loop would give two stresses at one place.
     if (strain.size() > 1 && epsilon_1 <= strain[strain.size() - 2]) {
         return fault(line, "epsilon_1 does not ascend",
                      "sort the rows; each strain once, without unloading");
@@ -154,6 +157,7 @@ void Reader::check_row(std::size_t line) {
 
 /// Empty after a fault. Remarks (#), blank lines and rows of empty cells are skipped.
 json Reader::columns(std::istream& stream) {
+    // Fewer rows give no slope at the end and no parabola at a peak.
     constexpr std::size_t least_rows = 20, most_rows = 20000, longest = 4096;
     std::string text;
     std::size_t line = 0;

@@ -1,3 +1,6 @@
+// Sets the nodal pressures once, when the body is made or the transfer begins; the loops only read
+// them. First the line, hydrostatic below it; then, within its mesh, the FEM's steady pore
+// pressure: a line drawn through a core presses too hard there.
 #include "core/scene/standing_water.hpp"
 
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
-// The inner loops for CPUs with AVX-512; flags in CMakeLists.txt. BREACH_WITHOUT_AVX512: left out of
-// a build for one CPU that lacks it (quickstart); body/choose.cpp never asks for them there.
+// The inner loops for CPUs with AVX-512; flags in CMakeLists.txt. BREACH_WITHOUT_AVX512: left out
+// of a build for one CPU that lacks it (quickstart); body/choose.cpp never asks for them there.
 #include "mpm_solver/loops/loops_of.hpp"
 
 namespace breach::mpm {

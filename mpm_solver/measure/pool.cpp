@@ -1,3 +1,7 @@
+// Reports at the end of a runout what still water cannot do. It neither flows nor falls: a pool
+// stays full when its dam has gone, and a scarp that sinks below the pool feels the pressure of the
+// dam's pores, as the line of /mpm/water falls through the dam. Called once by results.cpp with the
+// last state. The water may stand at either end of the grid, or at both.
 #include "mpm_solver/measure/pool.hpp"
 
 #include <algorithm>
@@ -25,6 +29,7 @@ struct Shore {
 Shore shore_from(bool left, const scene::Pool& pool, double level, const FlowView& view,
                  const std::vector<double>& top) {
     Shore shore;
+    // Where the line ends lower, the water has run through the dam and is no pool.
     const double here = geometry::level_at(pool.line, left ? view.low : view.high);
     if (here < level - 1e-6 * std::max(1.0, std::abs(level))) return shore;
     shore.is_held = false;
@@ -53,6 +58,8 @@ std::vector<Flag> flags_of_pool(const scene::Scene& scene, const Body& body, con
     if (!scene::mpm_of(scene).water) return {};
     const scene::Pool& pool = *scene::mpm_of(scene).water;
     const std::vector<double> places = profile_places(view);
+    // The highest point of the line within the grid: a line may rise to the pool beyond its first
+    // vertex.
     double level =
         std::max(geometry::level_at(pool.line, view.low), geometry::level_at(pool.line, view.high));
     for (const scene::Vec2& each : pool.line)
@@ -71,6 +78,8 @@ std::vector<Flag> flags_of_pool(const scene::Scene& scene, const Body& body, con
         for (const std::size_t k : shore.wet) {
             const double due = pool.density * scene.gravity * (level - surfaces.top[k]);
             const double lack = due - body.water.pressure({places[k], surfaces.top[k]});
+            // Less than a tenth, or than the pressure of one column's width of water, is within
+            // what columns resolve.
             if (lack <= 0.1 * due || lack <= pool.density * scene.gravity * view.width) continue;
             missing = std::max(missing, lack);
             from = std::min(from, places[k]), to = std::max(to, places[k]);

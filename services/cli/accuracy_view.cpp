@@ -14,6 +14,7 @@ using nlohmann::json;
 namespace {
 
 /// "3.2 %"; "-" for null.
+/// Two digits, as an error is an estimate itself. From 99.5 on, %.2g would print 1e+02.
 std::string percent_of(const json& share) {
     if (!share.is_number()) return "-";
     char text[32];
@@ -29,6 +30,7 @@ std::string setting_of(const json& row) {
     return words;
 }
 
+/// Rows have no id of their own: a ladder and its step identify one.
 bool is_recommended(const json& row, const json& answer) {
     const json& best = answer.at("recommended");
     return best.is_object() && best.at("ladder") == row.at("ladder") &&
@@ -47,6 +49,7 @@ std::string note_of(const json& row, const json& answer) {
 }
 
 /// From the mean within the requested error; "-": none.
+/// The server gives no mean where more than 20 repeats would be needed.
 std::string of_mean(const json& row, const char* key) {
     const json& mean = row.at("mean_within_asked");
     return mean.is_object() ? cell(mean, key) : "-";

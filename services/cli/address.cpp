@@ -7,6 +7,8 @@
 
 namespace breach::cli {
 
+/// Byte by byte, so that UTF-8 needs no care. isalnum() depends on the locale; this program never
+/// sets one, so only ASCII letters and digits pass.
 std::string percent_encoded(std::string_view text) {
     constexpr std::string_view digits = "0123456789ABCDEF";
     std::string encoded;
@@ -24,6 +26,8 @@ std::string percent_encoded(std::string_view text) {
 }
 
 std::optional<Address> address_from(const std::string& url) {
+    // No user name, query or fragment: a token comes from a file, and paths are added here. An IPv6
+    // address stands in brackets, as its colons would look like a port.
     static const std::regex shape(
         R"((https?://(?:[A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(?::[0-9]{1,5})?)(/[^?#\s]*)?)");
     std::smatch match;
@@ -40,6 +44,7 @@ std::string path_of(std::initializer_list<std::string_view> parts) {
     return path;
 }
 
+/// In all option structs an empty text means "not given", so that callers need no conditions.
 std::string query_of(std::initializer_list<std::pair<std::string_view, std::string>> pairs) {
     std::string query;
     for (const auto& [name, value] : pairs) {

@@ -43,6 +43,7 @@ std::optional<std::string> read_token(const std::string& file) {
     return token;
 }
 
+/// A flag wins over its environment variable, so that one call can use another server.
 void add_own_options(CLI::App& app, Connection& to) {
     app.set_version_flag("--version", std::string("breach ") + version());
     app.require_subcommand(1);
@@ -92,6 +93,7 @@ void parse(CLI::App& app, int argc, char** argv) {
     app.parse(words);
 }
 
+/// --quiet silences the notes only: faults go through tell(), which writes to stderr itself.
 ExitCode execute(const Program& program, const Connection& to) {
     Server server(*address_from(to.server), read_token(to.token_file), to.authority);
     const Style style = to.json ? Style::json : program.csv ? Style::csv : Style::people;
@@ -121,6 +123,8 @@ ExitCode guarded(const Program& program, const Connection& to) {
         tell(error.what(), error.faults());
         return ExitCode::bad_input;
     } catch (const fault::BadInput& error) {
+        // Not through harmless(), which would remove the line breaks of the list. These faults are
+        // about files that the user named.
         std::cerr << "breach: " << error.what() << "\n";  // what() lists the faults
         return ExitCode::bad_input;
     } catch (const Unreachable& error) {
@@ -157,6 +161,7 @@ int run(int argc, char** argv) {
         return explain(program.app, error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
     }
     const ExitCode code = guarded(program, to);
+    // A full disk or a closed pipe shows at the last flush: a cut file must not end with code 0.
     std::cout.flush();
     if (!std::cout && code == ExitCode::done) return static_cast<int>(ExitCode::io);
     return static_cast<int>(code);

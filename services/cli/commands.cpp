@@ -36,6 +36,7 @@ void show_as_csv(const json& lines, const Console& console) {
     std::vector<std::string> keys;
     for (const auto& [key, value] : lines.front().items())
         if (value.is_primitive()) keys.push_back(key);
+    // A line that lacks a key gets an empty field, so that the later fields stay in their columns.
     for (std::size_t i = 0; i < keys.size(); ++i) console.out << (i > 0 ? "," : "") << keys[i];
     for (const json& line : lines) {
         for (std::size_t i = 0; i < keys.size(); ++i)
@@ -48,6 +49,8 @@ void show_as_csv(const json& lines, const Console& console) {
 
 /// A whole id is taken as it is. Everything else costs one request, as the server may have got a
 /// newer run of this name.
+/// A name wins over the beginning of an id. Trap: a name of exactly 26 characters is read as an
+/// id and not found; use the id or `latest`. Among more than 500 matches only the newest are seen.
 std::string run_named(Server& server, const std::string& name) {
     if (name.size() == length_of_ids) return name;
     const bool latest = name == "latest";
@@ -124,6 +127,7 @@ ExitCode extend(Server& server, const Extension& by, const Console& console) {
     return ExitCode::done;
 }
 
+/// "no runs" is a note: a program that reads the table gets an empty one.
 ExitCode list_runs(Server& server, std::size_t most, const Console& console) {
     const json runs =
         server.get("/v1/runs" + query_of({{"limit", std::to_string(most)}})).at("runs");
@@ -165,6 +169,8 @@ ExitCode rename(Server& server, const std::string& run, const std::string& title
         console);
 }
 
+/// A questionable result is no failure by default, as people read the note. Scripts do not, and say
+/// --strict.
 ExitCode code_of_end(const json& run, Questionable questionable, const Console& console) {
     if (end_of(run) == RunEnd::bad) return ExitCode::breakdown;
     if (!is_doubtful(run)) return ExitCode::done;
@@ -183,6 +189,7 @@ ExitCode results(Server& server, const ResultsOptions& options, const Console& c
                                                      {"table", options.means ? "means" : ""},
                                                      {"state", options.state},
                                                      {"flag", options.flag}});
+    // Before the rows, so that these are at least as new as the state in the note below.
     const json run = server.get(path_of({"runs", id}));
     if (csv) {
         console.out << server.get_text(path).body;
@@ -222,6 +229,8 @@ ExitCode show_uncertainty(Server& server, const UncertaintyOptions& options,
     return ExitCode::done;
 }
 
+/// With --json one object a line, like the phase's own telemetry.jsonl, so that the same scripts
+/// read both. A phase that still writes has no end: the loop stops where `next` stands still.
 ExitCode telemetry(Server& server, const TelemetryOptions& options, const Console& console) {
     const std::string path = path_of({"runs", run_named(server, options.run), "telemetry"});
     json lines = json::array();
@@ -252,6 +261,8 @@ ExitCode telemetry(Server& server, const TelemetryOptions& options, const Consol
     return ExitCode::done;
 }
 
+/// The file appears whole or not at all (publish_text): a hydraulic model must not start with half
+/// of a flood.
 ExitCode hydrograph(Server& server, const HydrographOptions& options, const Console& console) {
     const std::string target = console.style == Style::json ? "json" : options.target;
     const TextAnswer answer =

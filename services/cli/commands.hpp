@@ -70,7 +70,8 @@ struct ResultsOptions {
 /// Returns code_of_end.
 fault::ExitCode results(Server& server, const ResultsOptions& options, const Console& console);
 
-/// The table of an accuracy study, its ladders and its recommendation. asked_error: instead of the study's; empty: the study's.
+/// The table of an accuracy study, its ladders and its recommendation. asked_error: instead of the
+/// study's; empty: the study's.
 fault::ExitCode show_accuracy(Server& server, const std::string& run,
                               const std::string& asked_error, const Console& console);
 

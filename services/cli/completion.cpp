@@ -8,6 +8,7 @@ namespace breach::cli {
 
 namespace {
 
+/// Long names only: a short one is a single letter, which needs no completion.
 std::string options_of(const CLI::App& app) {
     std::string words;
     for (const CLI::Option* each : app.get_options())
@@ -38,9 +39,12 @@ bool takes_a_run(const CLI::App& word) {
 }
 
 /// By sed, as jq may not be installed; it relies on the indentation of --json.
+/// Without a server the key offers `latest` alone; a message would land in the line that the user
+/// types.
 constexpr const char* ids_of_runs =
     R"sed(breach --json list 2>/dev/null | sed -n 's/^    "id": "\(.*\)",$/\1/p')sed";
 
+/// For fish, where \' stands for a quote within quotes. POSIX shells have no such escape.
 std::string quoted(const std::string& text) {
     std::string safe = "'";
     for (const char each : text) safe += each == '\'' ? std::string("\\'") : std::string(1, each);
@@ -49,6 +53,7 @@ std::string quoted(const std::string& text) {
 
 void add_fish_options(const CLI::App& word, const std::string& when, std::string& script) {
     for (const CLI::Option* each : word.get_options()) {
+        // -r tells fish that a value follows; it then offers files instead of the next option.
         const bool has_value = each->get_items_expected_max() > 0;
         for (const std::string& name : each->get_lnames())
             script += "complete -c breach" + when + " -l " + name + (has_value ? " -r" : "") +

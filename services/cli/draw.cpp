@@ -30,6 +30,7 @@ json study_of(const DrawOptions& options, bool is_study) {
 /// The fem_solver beside this program; meshes go to the user's cache folder.
 /// Meshes of a large section take a while, and are the same until the scene changes: hence the
 /// cache.
+/// Beside this program, not by PATH: a build and an installed package must not mix their solvers.
 drawing::Mesher mesher_here() {
     const auto value = [](const char* name) {
         const char* found = std::getenv(name);
@@ -74,6 +75,8 @@ struct Preview {
 };
 
 /// Asks the server for the cost of earlier runs; without an answer uses the scene alone.
+/// A refusal about a file only means that the server has not got it yet: submit would send it. A
+/// refusal without faults, such as a missing token, counts as no answer, as drawing needs no right.
 Preview preview_of(Server& server, const json& document, const drawing::Draft& draft,
                    const std::optional<estimate::MeshCounts>& mesh) {
     std::vector<fault::Fault> faults;
@@ -120,6 +123,7 @@ ExitCode draw(Server& server, const DrawOptions& options, const Console& console
             {each.at("code"), fault::Severity::warning, each.at("message"), each.at("pointer")});
     if (!options.picture.empty())
         exchange::publish_text(options.picture, drawing::as_svg(draft, additions));
+    // Not thrown earlier: the picture that marks the faults is what the user asked for.
     if (faults.empty()) return ExitCode::done;
     console.notes << "breach: "
                   << fault::BadInput(options.document.string(), std::move(faults)).what() << "\n";

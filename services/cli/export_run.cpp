@@ -38,6 +38,7 @@ void claim(const fs::path& folder, const std::string& run) {
 }
 
 /// Bytes that are not UTF-8 are replaced: a log's message must not end an export.
+/// Published whole, so that an export that was killed leaves no half JSON for claim() to read.
 void write_json(const fs::path& file, const json& content) {
     exchange::publish_text(file,
                            content.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
@@ -58,7 +59,8 @@ bool fetch(Server& server, const char* kind, const std::string& promised, const 
     return true;
 }
 
-/// Artifacts come after all tables, so that an interrupted export already has the results. A second export recognises its folder by run.json.
+/// Artifacts come after all tables, so that an interrupted export already has the results. A second
+/// export recognises its folder by run.json.
 class Export {
   public:
     Export(Server& server, fs::path folder, const Console& console)
@@ -69,6 +71,8 @@ class Export {
         claim(folder_, id);
         const json tasks = run.at("tasks");
         const json study = run.at("study");
+        // First the files: study.json in this folder refers to them, and can be submitted again
+        // from here.
         for (const json& each : run.value("files", json::array())) sent_file(each);
         run.erase("tasks");
         run.erase("study");
@@ -98,6 +102,8 @@ class Export {
 
   private:
     /// For a study of several motions.
+    /// With fewer than two FEMs there is nothing to compare. The server answers 404 where too few
+    /// of them were shaken and have ended, which must not end an export.
     void keep_motions(const std::string& path, const json& tasks) {
         const auto is_fem = [](const json& each) { return each.at("phase") == "fem_solver"; };
         if (std::ranges::count_if(tasks, is_fem) < 2) return;

@@ -25,6 +25,7 @@ namespace {
 
 /// Drawings are read whole into memory, once as bytes and once as outlines.
 constexpr std::uintmax_t most_bytes = 256 << 20;
+/// A coarse drawing may have hundreds; --json prints all.
 constexpr std::size_t most_lines = 12;  // of corrections
 
 std::string bytes_of(const std::filesystem::path& file) {
@@ -56,10 +57,12 @@ bool is_confirmed(const importing::Imported& imported, const Console& console) {
     console.notes << "Is that right? [y/N] " << std::flush;
     std::string answer;
     std::getline(std::cin, answer);
+    // Anything else means no, also the end of the input.
     return answer == "y" || answer == "Y" || answer == "yes";
 }
 
 /// Study and motion beside the scene, with the file names of `breach new`.
+/// The study names the scene by its file name alone, so that the folder can be moved.
 Files beside(const std::filesystem::path& scene, importing::Imported& imported) {
     if (imported.motion.empty()) return {};
     imported.study["scene"] = scene.filename().string();
@@ -109,6 +112,8 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
         exchange::publish_text(options.picture, drawing::as_svg(draft, {}));
     if (!imported.faults.empty())
         throw fault::BadInput(options.drawing.string(), std::move(imported.faults));
+    // The scene itself is not among the files that are protected: --output names it, and a drawing
+    // is imported again and again. study.json and motion.csv the user did not name.
     Files files = beside(options.output, imported);
     if (!options.force) refuse_to_overwrite(files, "breach import");
     files[options.output] = imported.scene.dump(1) + "\n";

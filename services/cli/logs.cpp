@@ -16,6 +16,7 @@ using nlohmann::json;
 
 namespace {
 
+/// Logs have no long poll, unlike events: following one means asking.
 constexpr auto time_between_looks = std::chrono::milliseconds(500);
 
 /// The log beyond `offset`, which is advanced. The server may send it in parts.
@@ -50,6 +51,7 @@ std::int64_t newest_attempt(const json& task) {
 
 std::string_view last_lines(std::string_view text, std::size_t count) {
     if (count == 0 || text.empty()) return text;
+    // The last line break ends a line; it does not begin an empty one.
     std::size_t begin = text.ends_with('\n') ? text.size() - 1 : text.size();
     for (std::size_t found = 0; found < count; ++found) {
         if (begin == 0) return text;
@@ -84,6 +86,7 @@ ExitCode show_log(Server& server, const LogOptions& options, const Console& cons
             offset = 0;
             continue;
         }
+        // With --attempt, a newer attempt means that this one has ended.
         if (is_final_task(task) || newest > attempt) break;
         std::this_thread::sleep_for(time_between_looks);
     }

@@ -16,6 +16,7 @@ using nlohmann::json;
 
 namespace {
 
+/// The clock of an ISO 8601 time; the title of the column says that it is UTC.
 std::string clock_of(const json& object, const char* key) {
     const std::string time = cell(object, key);
     return time.size() < 19 ? time : time.substr(11, 8);
@@ -28,6 +29,7 @@ std::string counts_of(const json& counts) {
     return text;
 }
 
+/// One transfer may feed several runouts. One without a result yet shows its state.
 std::string runouts_of(const json& transfer) {
     const std::string text = words::list_of(transfer.at("runouts"), [](const json& each) {
         return cell(each, each.at("runout").is_number() ? "runout" : "state");
@@ -43,6 +45,7 @@ ExitCode workers(Server& server, const Console& console) {
     std::vector<Cells> rows;
     for (const json& each : answer.at("workers")) {
         std::string note = cell(each, "message") == "-" ? "" : cell(each, "message");
+        // Slurm's reason wins: why a job waits is what its owner can change.
         if (each.at("job_reason").is_string()) note = cell(each, "job_reason");
         rows.push_back({cell(each, "task"), cell(each, "label"), cell(each, "state"),
                         clock_of(each, "since"), cell(each, "host"),

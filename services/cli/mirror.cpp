@@ -1,3 +1,8 @@
+// `breach mirror`: reverses the sign of every x in a scene. The table of entries is the whole
+// knowledge: an entry of the scene's schema that holds an x, or a side, must be added to it, or the
+// mirrored scene mixes both directions without a fault. Lines are reversed as well, since the
+// scene's readers expect them from left to right, and outlines keep their sense of rotation. Keys
+// keep their order (ordered_json): the user compares the two files.
 #include "services/cli/mirror.hpp"
 
 #include <algorithm>
@@ -66,6 +71,7 @@ constexpr Entry entries[] = {
 };
 
 /// 0 stays 0 and does not become -0.
+/// Whole numbers stay whole: 40 must not become -40.0.
 void turn(ordered_json& x) {
     if (x.is_number_integer())
         x = -x.get<std::int64_t>();
@@ -130,6 +136,7 @@ void turn_all(ordered_json& node, std::string_view pattern, Turn kind) {
     }
 }
 
+/// Refused, not left out: the mirrored scene would run and answer another question.
 void refuse_what_has_no_image(const ordered_json& scene, const std::string& file) {
     std::vector<fault::Fault> faults;
     for (const auto& [pointer, why] :
@@ -158,6 +165,8 @@ ordered_json mirrored(ordered_json scene, const std::string& file) {
                 if (strips.contains(key)) turn(strips.at(key));
             swap_keys(strips, "left_of", "right_of");
         }
+    // Seen from behind, an acceleration to the right points to the left. The record is not
+    // rewritten.
     if (const ordered_json::json_pointer motion("/fem/motion"); scene.contains(motion)) {
         ordered_json& shaking = scene.at(motion);
         if (shaking.value("reversed", false))
@@ -179,6 +188,7 @@ fault::ExitCode mirror(const MirrorOptions& options, const Console& console) {
         throw fault::BadInput(options.scene.string(),
                               {{"/", "is no scene", "give a scene file (breachline-scene/1)"}});
     ordered_json turned = mirrored(scene, options.scene.string());
+    // A relative path starts at the scene's folder, and the mirrored scene may be in another one.
     if (const ordered_json::json_pointer file("/fem/motion/file"); turned.contains(file)) {
         const std::filesystem::path name = turned.at(file).get<std::string>();
         const auto folder_of = [](const std::filesystem::path& of) {

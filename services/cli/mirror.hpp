@@ -16,7 +16,8 @@ struct MirrorOptions {
     std::filesystem::path output;  ///< file to write; must not exist
 };
 
-/// x becomes -x everywhere, and the motion's sense is reversed; mirrored twice it is the same scene.
+/// x becomes -x everywhere, and the motion's sense is reversed; mirrored twice it is the same
+/// scene.
 /// Throws BadInput for entries that have no mirror image (mesh files, lines of liquefied soil).
 nlohmann::ordered_json mirrored(nlohmann::ordered_json scene, const std::string& file);
 

@@ -1,3 +1,6 @@
+// `breach motion`: an engineer's first look at records, before a scene uses them, and a study made
+// of a folder of them. The measures are computed here by core/motion, as fem_solver computes them,
+// so that no server is needed; only the comparison of a finished study (--of) asks one.
 #include "services/cli/motion.hpp"
 
 #include <algorithm>
@@ -70,6 +73,7 @@ struct Measured {
 
 /// The records of a folder, sorted by name. Names and skips files that are not a record, or not a
 /// possible motion.
+/// Sorted, as a folder lists its files in any order: two calls must print the same study.
 std::vector<Measured> records_in(const MotionOptions& options, const Console& console) {
     std::vector<std::filesystem::path> files;
     for (const auto& each : std::filesystem::directory_iterator(options.file))
@@ -95,6 +99,8 @@ std::vector<Measured> records_in(const MotionOptions& options, const Console& co
 
 /// A variant's name from the record's name and its peak: "el_centro_30"; numbered where another
 /// record has this name.
+/// At most 32 characters, and lower case, as the study's schema allows. The number and the peak
+/// come from the end of that room, so that a long name cannot cut them off.
 std::string variant_named(const std::filesystem::path& file, std::optional<double> pga_g,
                           const json& others) {
     std::string name;
@@ -113,6 +119,8 @@ std::string variant_named(const std::filesystem::path& file, std::optional<doubl
 }
 
 /// A study that applies each record at each peak, and transfers in the middle of the window.
+/// Absolute paths: the study is printed, and the user may store it anywhere. The conditions of the
+/// trigger are those of the shipped Mochikoshi studies.
 json study_of(const std::vector<Measured>& records, const MotionOptions& options) {
     json variants = json::array();
     const auto add = [&](const Measured& each, std::optional<double> pga_g) {

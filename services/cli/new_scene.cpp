@@ -1,3 +1,6 @@
+// `breach new`: the command's options are made from the catalogue in services/templates, so that a
+// new template or option needs no code here. Called before any server runs: a first scene must not
+// depend on one.
 #include "services/cli/new_scene.hpp"
 
 #include <algorithm>
@@ -67,6 +70,8 @@ void take_option(CLI::App& word, const Option& option, NewOptions& chosen) {
 }
 
 /// A name from the folder's name, as far as names allow its characters.
+/// The detour over "/." gives `.` and `dams/` the name of their folder too. Where the folder's name
+/// does not fit a scene's (64 characters, lower case), the template chooses one.
 std::string name_for(const std::filesystem::path& folder) {
     std::string name =
         std::filesystem::absolute(folder / ".").lexically_normal().parent_path().filename();
@@ -87,6 +92,7 @@ void list_templates(const Console& console) {
 }
 
 /// Names options in faults as flags if they were given as flags.
+/// The dashboard calls the same templates with JSON, where a fault's pointer is an entry.
 templates::Made made_of(const NewOptions& chosen, const json& options) {
     try {
         return templates::make(chosen.made_from, options);
@@ -149,6 +155,7 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
     Files files{{folder / "scene.json", templates::as_text(made.scene)},
                 {folder / "study.json", templates::as_text(made.study)}};
     if (!made.motion.empty()) files[folder / "motion.csv"] = made.motion;
+    // After make(): wrong options are reported even where the files exist.
     if (!chosen.force) refuse_to_overwrite(files, "breach new");
     std::error_code error;
     std::filesystem::create_directories(folder, error);

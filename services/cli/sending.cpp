@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// More would hide a server that keeps failing; another call resumes where this one ended.
 constexpr int most_tries = 3;
 
 /// Visits the path of every entry that names a file, in the scene and in overrides.
@@ -41,6 +42,7 @@ bool is_this_machine(const std::string& origin) {
 
 /// Two clients may send one file at a time, or an old part may be damaged: the next try asks the
 /// server how much has arrived.
+/// Other refusals, such as a file that is no motion, are final.
 bool is_about_a_part(const Refused& refused) {
     return refused.type() == "/problems/hash-mismatch" ||
            refused.type() == "/problems/other-part" || refused.type() == "/problems/being-sent";
@@ -68,6 +70,8 @@ std::size_t send_files_of(Server& server, json& study, const Console& console) {
 
 /// Goes on where an interrupted upload ended. Waits one second longer after each try.
 std::string send_file(Server& server, const fs::path& file, const Console& console) {
+    // By content: a renamed file is not sent twice, and a changed one is never mistaken for the
+    // old.
     const std::string sha256 = exchange::sha256_of_file(file);
     bool from_its_beginning = false;
     for (int tries = 1;; ++tries) {
@@ -144,6 +148,7 @@ json post_study(Server& server, const std::string& route, json study, const Head
     return answer;
 }
 
+/// Wrapped as a study while files are sent, since the entries are looked up below /scene.
 json post_scene(Server& server, const std::string& route, const json& scene, Sending sending,
                 const Console& console) {
     json answer =

@@ -49,6 +49,8 @@ std::string meant(const std::string& word, const std::vector<std::string>& known
 
 }  // namespace
 
+/// A value may be spelt like a command, as in `--key list`: a word after an option that takes a
+/// value is none.
 std::vector<std::string>::iterator command_in(const CLI::App& program,
                                               std::vector<std::string>& words) {
     const auto takes_value = [](const CLI::App& app, const std::string& name) {
@@ -72,6 +74,7 @@ std::vector<std::string>::iterator command_in(const CLI::App& program,
 
 /// CLI11 would print "The following argument was not expected". Required and excluded options keep
 /// its message, which names the option.
+/// Options first: CLI11 also counts the values of an unknown option among the unknown words.
 int explain(const CLI::App& program, const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // help was requested
     const CLI::App& named = named_command(program);

@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// After a cancel: the server refuses to remove a run whose processes are still ending.
+/// Without a limit: how long a process may take to end is the server's setting.
 void wait_for_the_end(Server& server, const std::string& run) {
     constexpr auto pause = std::chrono::milliseconds(200);
     while (server.get(path_of({"runs", run})).at("finished").is_null())
@@ -35,6 +36,7 @@ struct Removed {
     double bytes = 0.0;  ///< freed by the removal
 };
 
+/// A size that the server does not know counts as 0: it must not keep anything from being removed.
 std::vector<Removed> meant(Server& server, const std::vector<std::string>& names) {
     const json runs = server.get("/v1/storage").at("runs");
     const json files = server.get("/v1/files").at("files");
@@ -55,6 +57,7 @@ std::vector<Removed> meant(Server& server, const std::vector<std::string>& names
     return all;
 }
 
+/// On stderr, so that it is seen with stdout redirected, and with --quiet: a question is no remark.
 bool wants(const std::vector<Removed>& all) {
     double bytes = 0.0;
     for (const Removed& each : all) {
@@ -145,6 +148,7 @@ ExitCode send_files(Server& server, const std::vector<fs::path>& files, const Co
     return ExitCode::done;
 }
 
+/// Asks for the run first: a wrong id is reported here and not in a browser.
 ExitCode open_page(Server& server, const std::string& run, const Console& console) {
     const std::string id = run_named(server, run);
     server.get(path_of({"runs", id}));
@@ -152,6 +156,7 @@ ExitCode open_page(Server& server, const std::string& run, const Console& consol
     return ExitCode::done;
 }
 
+/// Powers of 1000, as disks are sold. From 999.5 on the next unit, or 1000 kB would be printed.
 std::string in_bytes(double bytes) {
     constexpr const char* units[] = {"B", "kB", "MB", "GB", "TB"};
     std::size_t unit = 0;

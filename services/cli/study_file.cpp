@@ -66,6 +66,7 @@ json read_study(const std::filesystem::path& file, const std::vector<std::string
     return study;
 }
 
+/// Overrides of single variants are left out: `plan` explains one scene, not each variant.
 json scene_of_study(const std::filesystem::path& file) {
     drawing::BaseScene base = drawing::base_scene_of(read_study(file, {}));
     check::Checked checked =
@@ -82,6 +83,9 @@ json study_around(const std::filesystem::path& scene, const std::vector<std::str
     return study;
 }
 
+/// A variant's overrides are applied after the study's, to which --set adds. An override of an
+/// entry replaces everything below it, so that a parent counts too. Without this note --set looks
+/// ignored.
 std::vector<std::string> overruled(const json& study, const std::vector<std::string>& overrides) {
     const auto pointer_of = [](const std::string& each) { return each.substr(0, each.find('=')); };
     const json variants = study.is_object() ? study.value("variants", json()) : json();

@@ -24,6 +24,7 @@ std::size_t width_of(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
 }
 
+/// No blanks at the end: a last column of remarks is often empty, and diffs would show them.
 std::string line_of(const std::vector<Column>& columns, const std::vector<std::size_t>& widths,
                     const Cells& cells) {
     std::string line;
@@ -64,6 +65,8 @@ std::string printed(const char* format, double number) {
 
 }  // namespace
 
+/// Whole units from 10,000 on, as readers compare lengths and counts. Texts of a log need not be
+/// UTF-8: what cannot be printed is replaced.
 std::string cell(const json& value) {
     if (value.is_null()) return "-";
     if (value.is_string()) return harmless(value.get_ref<const std::string&>());
@@ -104,6 +107,7 @@ std::string harmless(std::string_view text) {
     return safe;
 }
 
+/// Rounded down, so that 100 % means the end. The comparison is written for NaN, which becomes 0.
 std::string bar(double fraction) {
     if (!(fraction > 0.0)) fraction = 0.0;
     fraction = std::min(fraction, 1.0);

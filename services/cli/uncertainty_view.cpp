@@ -19,6 +19,7 @@ std::string with_interval(const json& object, const char* value, const char* low
     return cell(object, value) + " (" + cell(object, low) + " to " + cell(object, high) + ")";
 }
 
+/// Both counts, as percentiles of the samples that ended may be those of the easy ones.
 std::string title_of(const std::string& name, const json& statistics) {
     const std::string unit = cell(statistics, "unit");
     return name + (unit == "1" ? "" : " [" + unit + "]") + ", " + cell(statistics, "count") +
@@ -59,6 +60,8 @@ std::string bar_of(const json& tornado, const json& parameter) {
 
 /// One row per parameter and one column per measure of its influence, each with its interval; the
 /// sentence below says of which model p10 and p90 are.
+/// A polynomial is fitted only where the server finds it good enough; Q2 is its share of the
+/// variance in samples that it was not fitted to.
 std::string importance_table(const json& statistics) {
     std::vector<Cells> rows;
     const json& tornado = statistics.at("tornado");

@@ -19,6 +19,8 @@ fault::ExitCode verify(const VerifyOptions& options, const Console& console) {
     std::vector<char*> arguments;
     for (std::string& each : words) arguments.push_back(each.data());
     arguments.push_back(nullptr);
+    // execv() replaces this process and drops what is buffered. In exchange the exit code and
+    // Ctrl-C are those of the program itself.
     console.out << std::flush;
     execv(program.c_str(), arguments.data());
     throw fault::IoError(program.string() + ": cannot be started: " + std::strerror(errno));

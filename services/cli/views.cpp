@@ -22,6 +22,7 @@ bool is_one_of(const std::string& state, std::initializer_list<const char*> stat
 std::string state_of(const json& object) { return object.at("state").get<std::string>(); }
 
 /// "2026-11-21T02:38:53.123Z" -> "2026-11-21 02:38:53"
+/// Without fractions of a second and the Z: all times of the server are UTC.
 std::string moment(const json& object, const char* key) {
     std::string text = cell(object, key);
     if (text.size() < 19) return text;

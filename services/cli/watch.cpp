@@ -45,8 +45,9 @@ class EventTail {
     }
 
   private:
-    /// Reads from the first event of the server: it has no list by run. Past events come in parts
-    /// without waiting; then each call waits for one. With "reset" the server gives a number from which to go on, also a lower one.
+    /// Reads the events of all runs from the first one on and keeps its own. Past events come in
+    /// parts without waiting; then each call waits for one. With "reset", after a restored backup,
+    /// the server gives a number from which to go on, also a lower one.
     std::vector<json> take() {
         std::vector<json> found;
         do {
@@ -82,6 +83,8 @@ bool is_busy(const json& task) {
 }
 
 /// Draws over its previous picture.
+/// Escape sequences: A moves the cursor up to the first line, K clears the rest of a line, J what a
+/// taller picture left below.
 class Picture {
   public:
     explicit Picture(std::ostream& out) : out_(out) {}
@@ -112,6 +115,7 @@ class Picture {
 };
 
 /// Prints one line per task with a new state.
+/// For log files and CI. Tasks that wait are no news: a large study makes thousands at once.
 class Diary {
   public:
     explicit Diary(std::ostream& out) : out_(out) {}
@@ -196,6 +200,7 @@ ExitCode watch(Server& server, const std::string& name, Questionable questionabl
                 return code_of_end(run, questionable, console);
             }
         } catch (const Unreachable&) {
+            // A wrong address fails at once: only a server that has answered is worth waiting for.
             if (!ever_answered || steady_clock::now() - answered > patience_for_the_server) throw;
             std::this_thread::sleep_for(std::chrono::seconds(1));
         }

@@ -1,5 +1,6 @@
 // Commands that fetch what the tasks of a run left: logs, telemetry, flows past sections, files.
-// Called by command_line.cpp. Numbers that only the server can check stay texts here and are sent as given.
+// Called by command_line.cpp. Numbers that only the server can check stay texts here and are sent
+// as given.
 #include "services/cli/commands.hpp"
 #include "services/cli/export_run.hpp"
 #include "services/cli/logs.hpp"

@@ -53,6 +53,7 @@ void draw_loads(Canvas& canvas, const scene::Scene& scene,
             std::string path;
             for (int i = 0; i <= arrows; ++i) {
                 const double x = a.x() + (b.x() - a.x()) * i / arrows;
+                // Level of the ground under each arrow: a load on a slope shows where it acts.
                 const double y =
                     canvas.panel
                         .at({0.0, geometry::level_at(ground, canvas.panel.back({x, 0.0}).x())})

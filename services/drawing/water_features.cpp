@@ -56,6 +56,7 @@ void draw_boundaries(Canvas& canvas, const scene::GroundWater& water) {
 
 }  // namespace
 
+/// Empty lines are skipped: a phase without water has none to compare.
 void draw_water(Canvas& canvas, const scene::Scene& scene) {
     struct Found {
         Line line;

@@ -27,6 +27,7 @@ std::vector<Vec2> points_on_arc(const Vec2& from, const Vec2& to, double bulge, 
     const double radius = 0.25 * length * (bulge + 1.0 / bulge);  // with the sign of the bulge
     const Vec2 left(-chord.y() / length, chord.x() / length);
     const Vec2 centre = from + 0.5 * chord + left * (0.25 * length * (1.0 / bulge - bulge));
+    // More than a radius off is no arc any more: acos() would give NaN.
     const double off = std::min(sagitta / std::abs(radius), 1.0);
     // The chord that is at most `sagitta` from the arc: sagitta = r (1 - cos(step / 2)).
     const double step = 2.0 * std::acos(1.0 - off);

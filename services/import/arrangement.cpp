@@ -54,6 +54,7 @@ class Snapping {
         return result_.nodes.size() - 1;
     }
 
+    /// A plain loop: most_nodes bounds it, and a tree would have to follow every new node.
     std::optional<std::size_t> node_near(const Vec2& place) const {
         std::optional<std::size_t> nearest;
         double least = tolerance_;
@@ -105,6 +106,7 @@ class Snapping {
     }
 
     /// The box around the edge, widened by the tolerance, spares the distance for most nodes.
+    /// A foot at or beyond an end is left to that end's own node.
     std::vector<Insertion> nodes_beside(std::size_t c, std::size_t e) {
         const auto& chain = result_.chains[c];
         const std::size_t a = chain[e], b = chain[(e + 1) % chain.size()];
@@ -195,6 +197,7 @@ class Snapping {
         return changed;
     }
 
+    /// Edges that share a node meet there and nowhere else.
     std::optional<geometry::Crossing> crossing(const Segment& s, const Segment& t) const {
         if (s.a == t.a || s.a == t.b || s.b == t.a || s.b == t.b) return std::nullopt;
         const std::vector<Vec2>& nodes = result_.nodes;
@@ -236,6 +239,7 @@ class Fan {
 };
 
 /// Closed walks along directed edges, each used once.
+/// Starts at the smallest edge that is left, so that the result depends on the drawing alone.
 std::vector<std::vector<std::size_t>> walks(const std::vector<Vec2>& nodes,
                                             const std::vector<Edge>& directed) {
     const Fan fan(nodes, directed);
@@ -263,6 +267,7 @@ double least_distance(const Vec2& place, const Polygon& ring) {
 }
 
 /// Levels midway between vertices, at most 48: those in the widest gaps.
+/// A vertex is often a tip, where a circle has no room.
 std::vector<double> levels_between(const Polygon& ring) {
     std::vector<double> ys;
     for (const Vec2& each : ring) ys.push_back(each.y());
@@ -293,6 +298,8 @@ std::vector<Vec2> middles_at(const Polygon& ring, double y) {
 }
 
 /// Places the largest of the tried circles; `others` may lie within the ring.
+/// Whether a soil contains a face is tested at `inside` alone: the centroid of a bent face may lie
+/// outside of it.
 void find_inside(Face& face, const Polygon& ring, const std::vector<Polygon>& others) {
     face.width = 0.0;
     face.inside = ring.front();

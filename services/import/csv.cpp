@@ -15,6 +15,8 @@ namespace {
 constexpr const char* shape =
     "write a header region,x,y (or x,y for one line; x_ft,y_ft for feet), then one vertex a row";
 
+/// Quotes as spreadsheets write them: "" within quotes is one quote. A quoted line break is not
+/// read.
 std::vector<std::string> fields_of(std::string_view row, char separator) {
     std::vector<std::string> fields;
     std::string field;
@@ -100,6 +102,7 @@ class CsvReader {
         : layers_(layers), asked_(asked), unit_(asked.value_or(Unit{"m", 1.0})), alone_(alone) {}
 
     Drawing read(std::string_view text) {
+        // Spreadsheets begin UTF-8 with a byte order mark; it would become part of the first title.
         if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
         while (!text.empty() && !stopped_) {
             const std::size_t end = text.find('\n');
@@ -203,6 +206,7 @@ class CsvReader {
         std::string field = fields[column];
         if (separator_ == ';') std::ranges::replace(field, ',', '.');
         const auto value = number_in(field);
+        // Larger numbers are no coordinates; 1e300 would overflow in areas.
         if (value && std::abs(*value) < 1e12) return *value * unit_.metres;
         refuse("\"" + as_utf8(std::string_view(field).substr(0, 30)) + "\" is no number",
                "write coordinates as 12.5");
@@ -264,6 +268,8 @@ class CsvReader {
                 unknown.first = current_.points.front(), unknown.origin = current_.origin;
             return;
         }
+        // A table has no mark for closed: what a layer means decides. A repeated first vertex,
+        // which many programs write, is dropped.
         current_.closed = role == Role::soil;
         if (current_.closed && current_.points.size() > 1 &&
             current_.points.front() == current_.points.back())

@@ -15,6 +15,7 @@ namespace breach::importing {
 
 namespace {
 
+/// 2.5 becomes "2p5": the name of a region appears in file names and tables.
 std::string short_text(double depth) {
     std::string digits = std::to_string(depth);
     digits.erase(digits.find_last_not_of('0') + 1);
@@ -41,6 +42,7 @@ std::size_t part_at(const LayerRequest& request, const std::vector<Vec2>& line, 
 }
 
 /// The line lowered by `depth` and extended horizontally to both sides of the ring.
+/// Moved down, not parallel: hydrostatic pressure depends on the vertical distance to the line.
 std::vector<Vec2> lowered(const std::vector<Vec2>& line, double depth, const Polygon& ring) {
     const geometry::Box box = geometry::bounding_box(ring);
     const double aside = 1.0 + (box.high - box.low).norm();
@@ -54,6 +56,7 @@ std::vector<Vec2> lowered(const std::vector<Vec2>& line, double depth, const Pol
 }
 
 /// The parts of a line inside the ring.
+/// Tested at the middle of each stretch: its ends lie on the ring, where inside is undecided.
 std::vector<Chain> inside_of(const Polygon& ring, const std::vector<Vec2>& line) {
     std::vector<Chain> chains;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -116,6 +119,7 @@ void take_in_thin_parts(Shares& shares, const LayerRequest& request, std::size_t
             if (shares.owners[f] == label && shares.faces[f].width > width)
                 width = shares.faces[f].width, at = shares.faces[f].inside;
         if (width == 0.0 || width > tolerance) continue;
+        // To the part below it; the deepest one has none and joins the part above.
         const int other = part <= request.depths.size() ? label + 1 : label - 1;
         std::ranges::replace(shares.owners, label, other);
         changes.push_back({"sliver", {soils[static_cast<std::size_t>(label)].name}, at, width});

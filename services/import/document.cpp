@@ -23,6 +23,7 @@ json line_as_json(const std::vector<Vec2>& line) {
     return list;
 }
 
+/// A scene's polygon repeats its first point; rings here do not.
 json section_of(const std::vector<Soil>& soils, double element_size) {
     json regions = json::array();
     for (const Soil& each : soils) {
@@ -37,6 +38,7 @@ json section_of(const std::vector<Soil>& soils, double element_size) {
 }
 
 /// Regions that reach above the toe; lower ones are ground and do not run out.
+/// Half a cell above the toe: ground whose top is drawn slightly above it must not count as runout.
 json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell) {
     json names = json::array();
     for (const Soil& each : soils)
@@ -52,6 +54,7 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     const double section_end = geometry::extent(all).low.x();
     all.push_back(&terrain);
     const geometry::Box box = geometry::extent(all);
+    // 1e-9 of a cell: a level that is a multiple up to rounding must not gain another cell.
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
     const double floor = down(box.low.y() - 2.0 * cell);

@@ -21,6 +21,7 @@ std::string digits(const char* format, double value) {
 }
 
 /// To a millimetre, unless the value is large.
+/// Millimetres are finer than any survey. Beyond 1e9 the factor 1e3 would only add digits of noise.
 std::string coordinate(double value) {
     return digits("%.10g", std::abs(value) < 1e9 ? std::round(1e3 * value) / 1e3 : value);
 }
@@ -39,6 +40,7 @@ std::string text(const Vec2& place) {
 
 std::string metres(double length) { return digits("%.3g", length) + " m"; }
 
+/// Whole metres from 100 m on: such a length tells a wrong unit, no more.
 std::string extent(double length) {
     return length < 100.0 ? metres(length) : std::to_string(std::lround(length)) + " m";
 }

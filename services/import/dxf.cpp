@@ -16,6 +16,7 @@ namespace breach::importing {
 
 namespace {
 
+/// INSERT is here because a block may hold part of the section; take_insert() decides.
 constexpr std::array<std::string_view, 6> shapes{"LWPOLYLINE", "POLYLINE", "LINE",
                                                  "ARC",        "CIRCLE",   "INSERT"};
 /// Entities without soil; passing over them needs no word of the user's.
@@ -73,6 +74,7 @@ class DxfReader {
         }
     }
 
+    /// In the header, code 9 names a variable and the groups after it are its values.
     void take_header(const Record& record) {
         std::string_view variable;
         for (const Group& each : record.groups) {
@@ -225,6 +227,7 @@ class DxfReader {
                                    "explode the block in the drawing program"});
     }
 
+    /// Remarks, no faults: title blocks and dimensions are in nearly every drawing.
     void tell_passed_over() {
         const std::string list = words::list_of(passed_over_, [](const auto& each) {
             return std::to_string(each.second) + " " + as_utf8(each.first);

@@ -33,12 +33,14 @@ std::string text_of(const Record& record, int code) {
     return text;
 }
 
+/// The format's default: an entity without code 8 is on layer 0.
 std::string layer_of(const Record& record) {
     for (const Group& each : record.groups)
         if (each.code == 8) return as_utf8(each.value);
     return "0";
 }
 
+/// The handle (code 5) is what a CAD program searches for; R12 files may have none.
 std::string entity_of(const Record& record) {
     std::string entity(record.type);
     for (const Group& each : record.groups)
@@ -191,6 +193,7 @@ void DxfOutlines::begin(const Record& record, const std::string& layer) {
     open_ = false;
     solid_ = record.type == "LINE" || record.type == "3DFACE";
     mirrored_ = false;
+    // The direction may be left out where it is (0, 0, 1).
     if (const double z = value_of(record, 230, 1.0); z != 1.0) mirrored_ = z == -1.0;
     const double aside = std::abs(value_of(record, 210)) + std::abs(value_of(record, 220));
     tilted_ = aside > 1e-6;

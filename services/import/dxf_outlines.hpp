@@ -1,5 +1,5 @@
-// Inside services/import only: outlines of DXF entities. An old POLYLINE is several records: it stays
-// open while its VERTEX records follow, and any other record ends it.
+// Inside services/import only: outlines of DXF entities. An old POLYLINE is several records: it
+// stays open while its VERTEX records follow, and any other record ends it.
 #pragma once
 
 #include <optional>

@@ -19,6 +19,7 @@ constexpr const char* again =
 constexpr std::size_t most_groups = 1'000'000;  // of one record
 constexpr int largest_code = 1071;
 
+/// Group codes end at 1071. Binary rubbish fails here, at its first line.
 std::optional<int> code_in(std::string_view text) {
     text = trimmed(text);
     int code = 0;
@@ -31,6 +32,8 @@ std::optional<int> code_in(std::string_view text) {
 
 }  // namespace
 
+/// What users send instead of DXF text: a binary export, the DWG itself (it begins with AC10 and
+/// the version), a file saved as UTF-16.
 std::vector<Fault> form_faults(std::string_view bytes) {
     if (bytes.starts_with("AutoCAD Binary DXF"))
         return {{at_line(1), "is DXF in binary form", "save it as DXF in text (ASCII) form"}};

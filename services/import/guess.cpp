@@ -1,3 +1,8 @@
+// What a drawing does not say, guessed from the line of the ground. Real sections have berms, a
+// pond on the crest, a second face upstream and ground that keeps falling beyond the toe: hence
+// shares of the fall as limits instead of the extreme points. Called by document.cpp for every
+// import, by shake.cpp for the terrain, by steps.cpp and section_scene.cpp for checks of size and
+// shape. A wrong guess is shown in the report, and the user corrects it in the scene.
 #include "services/import/guess.hpp"
 
 #include <algorithm>
@@ -31,6 +36,8 @@ bool is_gentle_beyond(const std::vector<Vec2>& ground, std::size_t crest, std::s
 
 /// Crest: the last place nearly as high as the highest. Toe: the first place right of it, below
 /// half of the fall, where the face ends.
+/// The last high place, as a slip enters near the face. 5 % of the fall: a camber or a road on the
+/// crest is no slope.
 Slope falling_right(const std::vector<Vec2>& ground) {
     const auto y = [](const Vec2& each) { return each.y(); };
     const double highest = std::ranges::max(ground, {}, y).y();
@@ -146,6 +153,7 @@ double element_size_for(double height) {
     return power * (share < 1.5 ? 1.0 : share < 3.5 ? 2.0 : share < 7.5 ? 5.0 : 10.0);
 }
 
+/// Down: a larger cell would leave fewer than twenty over the height.
 double cell_size_for(double height) {
     const double most = std::max(height, 0.01) / 20.0;
     const double digit = std::pow(10.0, std::floor(std::log10(most)) - 1.0);

@@ -143,6 +143,7 @@ std::vector<Boundary> boundaries_of(const Record& record, const Number& number) 
         }
         // The last two corners of SOLID and TRACE are crossed.
         if (record.type != "3DFACE") std::swap(boundary.corners[2], boundary.corners[3]);
+        // A triangle has its third corner twice.
         if (meets(boundary.corners[2], boundary.corners[3])) boundary.corners.pop_back();
         return {std::move(boundary)};
     }

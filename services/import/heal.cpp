@@ -31,6 +31,7 @@ double spike_width(const Vec2& before, const Vec2& tip, const Vec2& after) {
 }
 
 /// Drops vertices within the tolerance of the previous one.
+/// Compared with the last vertex that was kept: a dense curve is thinned, not eaten up.
 void drop_short_sides(Soil& soil, double tolerance, std::vector<Change>& changes) {
     Polygon kept;
     for (const Vec2& each : soil.ring) {
@@ -82,6 +83,7 @@ std::optional<Vec2> crossing(const Vec2& a, const Vec2& b, const Vec2& c, const 
 }
 
 /// Mean width of a slender ring [m].
+/// Twice the area over the length of the outline: exact for a long strip.
 double slimness(const Polygon& ring) {
     double length = 0.0;
     for (std::size_t i = 0; i < ring.size(); ++i)
@@ -91,6 +93,7 @@ double slimness(const Polygon& ring) {
 
 /// Crossings of the outline with itself that cut off more than a sliver. A sliver within the
 /// tolerance is no fault.
+/// At most 20: a scribble would otherwise fill the report.
 std::vector<Vec2> self_crossings(const Polygon& ring, double tolerance) {
     std::vector<Vec2> places;
     const std::size_t n = ring.size();
@@ -185,6 +188,7 @@ void tell_meetings(const Snapped& snapped, const std::vector<Soil>& soils,
 }
 
 /// Nodes along the terrain's chain, without those that snapping moved backwards.
+/// A terrain has one level at every x, which two merged nodes can violate.
 std::vector<Vec2> terrain_of(const Snapped& snapped, std::size_t chain) {
     std::vector<Vec2> line;
     for (const std::size_t node : snapped.chains[chain])
@@ -226,6 +230,7 @@ std::map<int, double> borders(const Shares& shares, const std::set<std::size_t>&
 }
 
 /// Among all owners if `among` is empty; -1: no border.
+/// The longest border, not the larger soil: the change of both outlines is then smallest.
 int longest_of(const std::map<int, double>& lengths, const std::vector<int>& among) {
     int best = -1;
     double most = 0.0;

@@ -1,3 +1,7 @@
+// CAD users draw an outline as single lines and arcs, in any order and direction. This joins them
+// before an outline is judged open. Called by sort_out.cpp for each layer and by section_lines.cpp
+// for each kind of line. The nearest end wins; where ends are equally near, the piece drawn first,
+// so that the same drawing gives the same outline. A branch stays as a piece of its own.
 #include "services/import/join_lines.hpp"
 
 #include <algorithm>
@@ -7,6 +11,7 @@ namespace breach::importing {
 
 namespace {
 
+/// Four points at least: with three, the joined ends would leave two, which enclose nothing.
 bool closes(const Outline& outline, double tolerance) {
     return outline.points.size() > 3 &&
            (outline.points.front() - outline.points.back()).norm() <= tolerance;

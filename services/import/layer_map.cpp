@@ -11,6 +11,7 @@ namespace breach::importing {
 
 namespace {
 
+/// Only English words: a layer of another name is mapped by the user.
 std::optional<Role> line_named(const std::string& word) {
     if (word == "phreatic" || word == "phreatic_line" || word == "phreatic line")
         return Role::phreatic;
@@ -56,6 +57,7 @@ Meaning LayerMap::meaning_of(const std::string& layer) const {
     if (const auto found = own_.find(name); found != own_.end())
         return {Role::soil, found->second, false};
     if (name == "defpoints") return {Role::none};  // CAD never plots this layer
+    // A layer that happens to be named "none" was not left out by anybody: it needs a meaning.
     if (name == "none") return {};
     if (const auto line = line_named(name)) return {*line};
     return {};

@@ -30,6 +30,7 @@ constexpr std::array<Known, 10> units{{{"m", 6, 1.0},
 
 }  // namespace
 
+/// \r as well: lines of files from Windows end with \r\n and are split at \n.
 std::string_view trimmed(std::string_view text) {
     constexpr std::string_view blanks = " \t\r";
     const std::size_t first = text.find_first_not_of(blanks);
@@ -37,6 +38,8 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
+/// from_chars() knows no locale, so that 1.5 is read alike everywhere, and refuses a leading plus,
+/// which CAD programs write.
 std::optional<double> number_in(std::string_view text) {
     text = trimmed(text);
     if (!text.empty() && text.front() == '+') text.remove_prefix(1);

@@ -27,6 +27,7 @@ std::string unit_line(const json& report) {
 }
 
 /// The crest and the toe of the slope that is searched.
+/// In the report because most guesses follow from it.
 std::string slope_line(const json& slope) {
     const auto place = [&](const char* name) {
         return Vec2(slope.at(name)[0].get<double>(), slope.at(name)[1].get<double>());
@@ -52,6 +53,7 @@ std::vector<std::string> lines_of(const json& report, std::size_t most) {
         ++counts[each.at("kind")];
         largest = std::max(largest, each.at("size").get<double>());
     }
+    // The largest one tells whether healing was rounding or redrawing.
     if (!healed.empty()) {
         const auto count_of = [](const auto& kind_and_count) {
             return std::to_string(kind_and_count.second) + " " + kind_and_count.first;

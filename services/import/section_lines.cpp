@@ -26,6 +26,7 @@ const Kind kinds[]{
     {Role::ground, "ground", "ground line", &Lines::ground, &Request::ground}};
 
 /// `file`: source of the line with a blank, if not the drawing.
+/// Two pieces are refused, not joined over the gap: the line would be invented there.
 void take_line(const std::vector<Outline>& pieces, const Kind& kind, const std::string& file,
                Lines& lines, Notes& notes) {
     if (pieces.empty()) return;

@@ -18,6 +18,7 @@ using nlohmann::json;
 namespace {
 
 /// Without the motion, whose file is not written yet.
+/// The folder does not matter: an imported scene names no other file.
 check::Checked checked(json document, const Request& request) {
     if (document.contains("fem")) document["fem"].erase("motion");
     return check::checked_document(std::move(document), request.drawing.name, ".", {});
@@ -49,6 +50,7 @@ Document made(const Section& section, const Request& request, double share) {
 }
 
 /// Replaces the regions' pointers by lines of the drawing in the reader's faults.
+/// Regions in the scene have the order of the soils, hence the index.
 std::vector<Fault> seen_from_drawing(std::vector<Fault> faults, const std::vector<Soil>& soils) {
     constexpr std::string_view regions = "/section/regions/";
     for (Fault& each : faults) {
@@ -87,6 +89,8 @@ std::pair<Document, check::Checked> with_sound_cells(const Section& section,
 
 /// Sizes and shapes that suggest a mistake.
 void check_shape(const std::vector<Soil>& soils, const std::optional<Slope>& slope, Notes& notes) {
+    // Dams and slopes outside of these exist, but wrong units are far more frequent: hence a
+    // question.
     constexpr double least = 3.0, most = 500.0;  // m
     const geometry::Box box = box_of(soils);
     const Vec2 size = box.high - box.low;

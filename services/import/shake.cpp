@@ -139,6 +139,7 @@ std::pair<earthquake::Soil, std::string> like(const std::string& material,
 }
 
 /// What the user gives replaces what "breach new" assumes for such a soil.
+/// c and phi of a PM4Sand material are in limit_strength, as that law has none.
 earthquake::Soil with_given(earthquake::Soil soil, const json& own) {
     const json& law = own.at("law");
     const json strength = own.value("limit_strength", law);
@@ -276,6 +277,7 @@ void add_earthquake(const Earthquake& asked, const std::vector<Soil>& soils, con
     scene["lem"]["liquefaction"] = *earthquake::liquefaction_of(section);
     scene["fem"] = earthquake::fem_of(section, asked.motion);
     scene["transfer"] = earthquake::transfer_of(section);
+    // After a FEM the runout starts from the stresses of the transfer.
     scene["mpm"].erase("fill_stress");
     make_room(box.low.x(), document);
     const auto guess = [&](const std::string& pointer, const std::string& from) {

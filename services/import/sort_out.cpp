@@ -12,6 +12,7 @@ namespace breach::importing {
 namespace {
 
 /// Whether corners and middles of the sides lie in the polygon.
+/// Corners alone would accept a hatch that crosses a bay of the outline.
 bool lies_in(const std::vector<Vec2>& inner, const std::vector<Vec2>& outer, double off) {
     for (std::size_t i = 0; i < inner.size(); ++i) {
         const Vec2 middle = 0.5 * (inner[i] + inner[(i + 1) % inner.size()]);

@@ -36,6 +36,7 @@ std::set<std::string> names_in(const json& materials) {
 }
 
 /// By the name if it says so, because a CSV file may contain the word SECTION.
+/// A DWG counts as one, so that the message about its form is shown instead of that of a table.
 bool is_dxf(const Sent& sent) {
     const std::string extension = lower(std::filesystem::path(sent.name).extension().string());
     if (extension == ".dxf" || extension == ".dwg") return true;
@@ -54,6 +55,7 @@ bool is_between(const char* option, double value, double least, double most,
 }
 
 /// Adds the depth layers that are asked for.
+/// All options are checked before the drawing is read: a user corrects them in one go.
 bool check_request(std::vector<LayerRequest>& layers, Notes& notes) {
     const Request& request = notes.request;
     const json& materials = materials_in(request.materials);
@@ -247,6 +249,8 @@ void fit(std::vector<Soil>& soils, Section section, Notes& notes) {
 }
 
 /// Keeps only the faults and the outlines as sent.
+/// An incomplete scene cannot be read. The materials are, for their colours; regions are added
+/// after the check, which would refuse them.
 void give_up(const std::vector<Soil>& soils, Notes& notes) {
     const Request& request = notes.request;
     notes.result.scene = nullptr;

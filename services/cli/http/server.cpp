@@ -22,6 +22,7 @@ struct Server::Connection {
 
 namespace {
 
+/// TCP alone would try for minutes where a firewall drops the packets.
 constexpr std::chrono::seconds patience_to_connect{5};
 /// Longer than the longest wait for events that a command asks for.
 constexpr std::chrono::seconds patience_for_an_answer = longest_poll + std::chrono::seconds(40);
@@ -56,6 +57,7 @@ std::vector<fault::Fault> faults_of(const json& problem) {
     throw Refused(status, summary, faults_of(problem), text_or(problem, "type", ""));
 }
 
+/// Something else than the server may answer 200 with HTML: a proxy's login page, for example.
 json parsed(const std::string& body) {
     json answer = json::parse(body, nullptr, false);
     if (answer.is_discarded()) throw fault::IoError("the server's answer is not JSON");
@@ -74,6 +76,7 @@ Server::Server(const Address& address, const std::optional<std::string>& token,
     client.set_read_timeout(patience_for_an_answer);
     if (token) client.set_bearer_token_auth(*token);
     if (authority.empty()) return;
+    // Checked here, where the file's name is known; good() only sees that nothing was loaded.
     if (!std::ifstream(authority) || std::filesystem::is_directory(authority))
         throw fault::IoError(authority.string() +
                              ": cannot be read; --tls-ca and BREACH_TLS_CA name a PEM file with "
@@ -156,6 +159,7 @@ json Server::remove(const std::string& path) {
 }
 
 /// 404 is an answer here: how much of the file has arrived.
+/// HEAD, as GET would send the whole file. Its answer has no body: the headers say all.
 KnownFile Server::known_file(const std::string& path) {
     const auto result = connection_->client.Head(connection_->prefix + path);
     if (result && result->status == 404)
@@ -166,6 +170,7 @@ KnownFile Server::known_file(const std::string& path) {
 }
 
 /// Reads the file in parts of 64 KiB, as it may be larger than memory.
+/// A file that becomes shorter meanwhile ends the upload as Unreachable; send_file() tries again.
 json Server::upload(const std::string& path, const std::filesystem::path& file, std::size_t from) {
     std::ifstream in(file, std::ios::binary);
     std::error_code error;
@@ -199,6 +204,8 @@ void Server::download(const std::string& path, const std::filesystem::path& file
             return true;
         },
         [&](const char* data, std::size_t size) {
+            // The status comes before the body. Returning false ends the transfer: a full disk need
+            // not wait for gigabytes.
             if (status == 200) {
                 out.write(data, static_cast<std::streamsize>(size));
                 return out.good();

@@ -84,7 +84,8 @@ class Server {
     std::unique_ptr<Connection> connection_;
 };
 
-/// Longest time that the server keeps a long poll open; the client's time limit is longer.
+/// Longest poll that a command may ask for; the client's time limit is longer. The server would
+/// keep one open for up to 60 s.
 inline constexpr std::chrono::seconds longest_poll{20};
 
 }  // namespace breach::cli
