@@ -171,6 +171,9 @@ def _whole_run(arguments: list[str]) -> int:
                         help="other runs: their runouts in the figure, their variants behind those of this one")
     parser.add_argument("--alone", action="store_true", help="the page only, without files of its figures and their data")
     asked = parser.parse_args(arguments)
+    if asked.output.suffix.lower() == ".pdf":
+        page = asked.output.with_suffix(".html")
+        parser.error(f"argument --output: names a PDF, and the report is HTML; write {page} and then: weasyprint {page} {asked.output}")
     return guarded(asked.run, lambda: write_report(
         document_of(read_run(asked.run), Choice(asked.snapshots, asked.transfers, asked.companions, asked.element_tests)), asked.output, asked.alone))
 

@@ -274,6 +274,12 @@ class Refusals(WetRun):
             self.assertIn(words, done.stderr)
         self.assertEqual(subprocess.run([report], capture_output=True).returncode, 2)
 
+    def test_a_pdf_as_page_is_refused_with_the_way_to_one(self):
+        done = self.run_report(self.folder, "--output", str(self.folder / "page.pdf"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"weasyprint {self.folder / 'page.html'} {self.folder / 'page.pdf'}", done.stderr)
+        self.assertFalse((self.folder / "page.pdf").exists())
+
     def test_damaged_files_are_named(self):
         (self.folder / "results.json").write_text("{")
         done = self.run_report(self.folder)
