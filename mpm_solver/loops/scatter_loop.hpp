@@ -7,18 +7,29 @@
 
 namespace breach::mpm {
 
-/// -grad p of standing water at one point: bilinear between nodes, 0 where p is not positive. xi,
-/// eta: its place in cells from the first node.
-[[gnu::always_inline]] inline void still_pull(const GridArrays& grid, double xi, double eta,
-                                              double& x, double& y) {
-    const std::int32_t i = static_cast<std::int32_t>(xi), j = static_cast<std::int32_t>(eta);
-    const double* left = grid.still + static_cast<std::int64_t>(i) * grid.rows + j;
-    const double* right = left + grid.rows;
-    const double tx = xi - i, ty = eta - j;
-    const double up_left = left[1] - left[0], up_right = right[1] - right[0];
-    const double p_left = left[0] + ty * up_left, p_right = right[0] + ty * up_right;
-    const double slope = p_right - p_left;
-    const double wet = p_left + tx * slope > 0.0 ? -grid.per_h : 0.0;
+/// -grad p of standing water at a block's points: bilinear between nodes, 0 where p is not positive.
+/// xi, eta: places in cells from the first node. Only the reads are point by point.
+template <int N>
+[[gnu::always_inline]] inline void still_pull(const GridArrays& grid, const Lanes<N>& xi,
+                                              const Lanes<N>& eta, Lanes<N>& x, Lanes<N>& y) {
+    using namespace materials::lanes;
+    using Real = Lanes<N>;
+    const Integers<N> i = integers(xi), j = integers(eta);
+    const Integers<N> cell = i * grid.rows + j;
+    Real left(0.0), left_up(0.0), right(0.0), right_up(0.0);
+    for (int k = 0; k < N; ++k) {
+        const double* node = grid.still + cell[k];
+        left.v[k] = node[0], left_up.v[k] = node[1];
+        right.v[k] = node[grid.rows], right_up.v[k] = node[grid.rows + 1];
+    }
+    Real column, row;
+    column.v = __builtin_convertvector(i, typename Real::Vector);
+    row.v = __builtin_convertvector(j, typename Real::Vector);
+    const Real tx = xi - column, ty = eta - row;
+    const Real up_left = left_up - left, up_right = right_up - right;
+    const Real p_left = left + ty * up_left;
+    const Real slope = right + ty * up_right - p_left;
+    const Real wet = select(p_left + tx * slope > Real(0.0), Real(-grid.per_h), Real(0.0));
     x = wet * slope;
     y = wet * (up_left + tx * (up_right - up_left));
 }
@@ -86,12 +97,8 @@ template <int N>
 [[gnu::always_inline]] inline void fill_water(Gifts<N>& gifts, const ZoneWork& work,
                                               const PointArrays& a, std::size_t p,
                                               const Lanes<N>& xi, const Lanes<N>& eta) {
-    Lanes<N> x(0.0), y(0.0);
-    for (int k = 0; k < N; ++k) {
-        double pull_x, pull_y;
-        still_pull(work.grid, xi.v[k], eta.v[k], pull_x, pull_y);
-        x.v[k] = pull_x, y.v[k] = pull_y;
-    }
+    Lanes<N> x, y;
+    still_pull(work.grid, xi, eta, x, y);
     const Lanes<N> V = load<Lanes<N>>(a.displaced + p), none(0.0);
     to_points(none, none, V * x, V * y, gifts.D);
 }
