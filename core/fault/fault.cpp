@@ -10,7 +10,7 @@ constexpr std::size_t longest_text = 1000;
 constexpr std::size_t longest_list = 88'000;  // [bytes] in JSON, with room for the keys
 
 /// Drops the middle of a long text, at the boundaries of UTF-8 characters.
-std::string shortened(const std::string& text) {
+std::string shortened(std::string text) {
     if (text.size() <= longest_text) return text;
     const auto continues = [&](std::size_t i) { return (text[i] & 0xC0) == 0x80; };
     std::size_t end = longest_text / 2, begin = text.size() - longest_text / 4;
@@ -26,15 +26,16 @@ std::size_t size_of(const std::string& text) {
     return size;
 }
 
-FirstFaults kept_of(const std::vector<Fault>& faults, std::size_t more) {
+FirstFaults kept_of(std::vector<Fault> faults, std::size_t more) {
     FirstFaults kept{.faults = {}, .more = more};
     std::size_t size = 0;
-    for (const Fault& each : faults) {
+    for (Fault& each : faults) {
         if (kept.more > more || kept.is_full()) {
             ++kept.more;
             continue;
         }
-        Fault next{shortened(each.pointer), shortened(each.cause), shortened(each.remedy)};
+        Fault next{shortened(std::move(each.pointer)), shortened(std::move(each.cause)),
+                   shortened(std::move(each.remedy))};
         size += size_of(next.pointer) + size_of(next.cause) + size_of(next.remedy);
         if (size > longest_list)
             ++kept.more;
@@ -64,7 +65,7 @@ std::string list_all(const std::string& file, const FirstFaults& kept) {
 }  // namespace
 
 BadInput::BadInput(std::string file, std::vector<Fault> faults, std::size_t more)
-    : BadInput(std::move(file), kept_of(faults, more)) {}
+    : BadInput(std::move(file), kept_of(std::move(faults), more)) {}
 
 BadInput::BadInput(std::string file, FirstFaults kept)
     : std::runtime_error(list_all(file, kept)), file_(std::move(file)), kept_(std::move(kept)) {}
