@@ -129,8 +129,6 @@ cases = [
         {"parameter": "friction_angle", "of": "embankment", "distribution": "normal", "coefficient_of_variation": 3}]}}),
     Case("residual strength above the peak", M, "warned", r"residual strength of .* is above its peak", {"/lem/liquefaction/0/residual_strength_kPa": 400}),
     Case("residual strength in Pa", M, "warned|refused", r"residual_strength_kPa", {"/lem/liquefaction/0/residual_strength_kPa": 3000}),
-    Case("a reservoir that falls steeply in sand, without seepage", "slope", "warned", r"falls by 6 m over 4 m in the frictional soil",
-         {"/mpm/water": {"line": [[0, 9], [8, 9], [12, 3], [60, 3]]}}, drops=["/fem", "/transfer"]),
     Case("standing water over the crest", "slope", "refused", r"water/line.*out of scope[\s\S]*overtopping", {"/mpm/water": {"line": [[0, 10.5]]}}),
     Case("standing water below all soil", "slope", "refused", r"water/line.*outside the grid", {"/mpm/water": {"line": [[0, -5.5]]}}),
     Case("standing water beside the grid", "slope", "refused", r"water/line.*outside the grid", {"/mpm/water": {"line": [[100, 5], [200, 4]]}}),

@@ -14,6 +14,12 @@ from phases import root  # noqa: E402
 from service import Service  # noqa: E402
 
 
+def reservoir_without_seepage():
+    """Water falls steeply in frictional soil, and no FEM says how it seeps."""
+    scene = {key: part for key, part in shipped("slope").items() if key not in ("fem", "transfer")}
+    return scene | {"mpm": scene["mpm"] | {"water": {"line": [[0, 9], [8, 9], [12, 3], [60, 3]]}}}
+
+
 def studies():
     bases = {each.base: shipped(each.base) for each in [*rows, *cases] if isinstance(each.base, str)}
     for each in [*rows, *cases]:
@@ -21,6 +27,7 @@ def studies():
             scene = each.scene(bases)
             yield {"scene": scene, **({"transfer_times": [0.1]} if "fem" in scene else {})}
     yield {"scene": shipped("merriespruit")}
+    yield {"scene": reservoir_without_seepage()}
     column = {"scene": shipped("column"), "transfer_times": [0.1]}
     yield column | {"overrides": ["/mpm/cfl=0.3", "/mpm/cfl=0.31"]}
     yield column | {"variants": [{"name": name, "overrides": ["/mpm/cfl=0.3"]} for name in "ab"]}
