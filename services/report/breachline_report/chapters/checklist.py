@@ -116,7 +116,7 @@ def add(of: Material, document: Document) -> None:
         ("How fine is the runout, and what does its scheme take?", runout and _runout(run, runout)),
         ("How far may the runout be off?", runout and _error(runout)),
         ("What is left out?", "a plane section: no third dimension, no channel; no mixing with water on the way; no consolidation while it flows; no "
-                              "water of the pond")]
+                              "water that flows along")]
     document.add(Chapter("What a reviewer asks", tables=[Table(
         "checklist", "What a reviewer asks", ["question", "answer of this run"],
         [[question, answer or "not modelled"] for question, answer in answers],
