@@ -6,6 +6,7 @@
 #include "core/geometry/polyline.hpp"
 #include "core/scene/checks.hpp"
 #include "core/scene/resolution.hpp"
+#include "core/scene/standing_water.hpp"
 #include "core/scene/stiffness.hpp"
 #include "core/words/number.hpp"
 
@@ -95,14 +96,11 @@ void check_places(Reader& reader, const Mpm& mpm, const std::vector<Place>& plac
 void check_pool(Reader& reader, const Scene& scene, const Mpm& mpm) {
     if (!mpm.water || mpm.water->line.empty()) return;
     const char* pointer = "/mpm/water/line";
-    const auto level = [&](double x) { return geometry::level_at(mpm.water->line, x); };
-    double highest = std::max(level(mpm.domain_x[0]), level(mpm.domain_x[1]));
-    bool inside = mpm.water->line.size() == 1;
-    for (const Vec2& point : mpm.water->line) {
-        if (point.x() < mpm.domain_x[0] || point.x() > mpm.domain_x[1]) continue;
-        inside = true;
-        highest = std::max(highest, point.y());
-    }
+    const double highest = highest_level(*mpm.water, mpm.domain_x[0], mpm.domain_x[1]);
+    const bool inside =
+        mpm.water->line.size() == 1 || std::ranges::any_of(mpm.water->line, [&](const Vec2& point) {
+            return point.x() >= mpm.domain_x[0] && point.x() <= mpm.domain_x[1];
+        });
     if (!inside || highest <= mpm.floor.level || highest > mpm.domain_y[1]) {
         reader.add(pointer, "lies outside the grid",
                    "give levels in m, in the section's datum, between /mpm/floor/level and "

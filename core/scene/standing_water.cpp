@@ -29,6 +29,14 @@ std::optional<double> value_at(const geometry::Corners& x, const Eigen::Vector4d
 
 }  // namespace
 
+double highest_level(const Pool& pool, double from, double to) {
+    double highest =
+        std::max(geometry::level_at(pool.line, from), geometry::level_at(pool.line, to));
+    for (const Vec2& point : pool.line)
+        if (point.x() >= from && point.x() <= to) highest = std::max(highest, point.y());
+    return highest;
+}
+
 StandingWater::StandingWater(const Scene& scene, const mechanics::NodalField& steady) {
     const Mpm& mpm = mpm_of(scene);
     if (!mpm.water) return;

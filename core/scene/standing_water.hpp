@@ -13,6 +13,9 @@
 
 namespace breach::scene {
 
+/// The pool's highest level between the ends of the MPM's grid [m].
+double highest_level(const Pool& pool, double from, double to);
+
 /// Bilinear between the nodes of the MPM's grid, its ghost row included, so that sum V p is the
 /// potential of the force -V grad p. The nodes keep values below zero above the water, and only
 /// what is read is cut off there: level water is exact.

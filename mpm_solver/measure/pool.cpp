@@ -60,10 +60,7 @@ std::vector<Flag> flags_of_pool(const scene::Scene& scene, const Body& body, con
     const std::vector<double> places = profile_places(view);
     // The highest point of the line within the grid: a line may rise to the pool beyond its first
     // vertex.
-    double level =
-        std::max(geometry::level_at(pool.line, view.low), geometry::level_at(pool.line, view.high));
-    for (const scene::Vec2& each : pool.line)
-        if (each.x() >= view.low && each.x() <= view.high) level = std::max(level, each.y());
+    const double level = scene::highest_level(pool, view.low, view.high);
     std::vector<Flag> flags{
         {"standing_water", Severity::warning,
          "the water stands still: its pressure acts, its drag on moving soil (rho v^2 / 2) and the "

@@ -19,6 +19,9 @@ scene::Scene heap() {
     return scene;
 }
 
+const exchange::Provenance of_no_input{
+    .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+
 Simulation fresh(const scene::Scene& scene) { return {scene, filled_body(scene), 0.0}; }
 
 /// As after a transfer with water.
@@ -63,8 +66,7 @@ TEST(Resume, IsBitIdenticalToAnUninterruptedRun) {
     scene::Scene scene = heap();
     scene.materials[0].viscosity = 100.0;
     scene.mpm->overlap_correction = {.rate = 5.0, .tolerance = 0.0};
-    const exchange::Provenance provenance{
-        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+    const exchange::Provenance& provenance = of_no_input;
     const breach::test::Folder folder;
     const auto file = folder / "checkpoint.h5";
     Simulation whole = fresh_and_wet(scene);
@@ -101,23 +103,28 @@ Simulation fresh_by(int threads, const scene::Scene& scene) {
     return {scene, make_body(scene, std::move(points), "test", {.threads = threads}), 0.0};
 }
 
-TEST(NonlocalRun, HasTheSameBitsForTwoThreadsAndAfterAStop) {
-    scene::Scene scene = brittle_heap();
-    const exchange::Provenance provenance{
-        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
-    const breach::test::Folder folder;
-    const auto file = folder / "checkpoint.h5";
-    Simulation whole = fresh_by(1, scene);
-    ASSERT_GT(whole.body().points.size(), 2000U) << "too few for two threads";
-    Simulation stopped = fresh_by(2, scene);
+/// Two threads and a stop after 150 of 300 steps change no bit. `fresh`: by number of threads.
+/// Returns the uninterrupted run of one thread; the checkpoint stays in `file`.
+Simulation same_after_a_stop(const scene::Scene& scene, const std::filesystem::path& file,
+                             Simulation (*fresh)(int, const scene::Scene&)) {
+    Simulation whole = fresh(1, scene);
+    EXPECT_GT(whole.body().points.size(), 2000U) << "too few for two threads";
+    Simulation stopped = fresh(2, scene);
     advance_looking(whole, 150);
     advance_looking(stopped, 150);
     expect_same_bits(whole, stopped);
-    save_checkpoint(file, stopped, 42, provenance);
-    Resumed resumed = load_checkpoint(file, scene, provenance, {.threads = 2});
+    save_checkpoint(file, stopped, 42, of_no_input);
+    Resumed resumed = load_checkpoint(file, scene, of_no_input, {.threads = 2});
     advance_looking(whole, 150);
     advance_looking(resumed.simulation, 150);
     expect_same_bits(whole, resumed.simulation);
+    return whole;
+}
+
+TEST(NonlocalRun, HasTheSameBitsForTwoThreadsAndAfterAStop) {
+    scene::Scene scene = brittle_heap();
+    const breach::test::Folder folder;
+    const Simulation whole = same_after_a_stop(scene, folder / "checkpoint.h5", fresh_by);
 
     scene.materials[0].nonlocal_length.reset();
     Simulation local = fresh_by(1, scene);
@@ -141,26 +148,15 @@ Simulation fresh_in_water(int threads, const scene::Scene& scene) {
 TEST(RunInWater, HasTheSameBitsForTwoThreadsAndAfterAStop) {
     scene::Scene scene = brittle_heap();
     scene.mpm->water = {{{0.0, 2.0}}, 1000.0};
-    const exchange::Provenance provenance{
-        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
     const breach::test::Folder folder;
     const auto file = folder / "checkpoint.h5";
-    Simulation whole = fresh_in_water(1, scene);
-    Simulation stopped = fresh_in_water(2, scene);
-    advance_looking(whole, 150);
-    advance_looking(stopped, 150);
-    expect_same_bits(whole, stopped);
-    save_checkpoint(file, stopped, 42, provenance);
-    Resumed resumed = load_checkpoint(file, scene, provenance, {.threads = 2});
-    advance_looking(whole, 150);
-    advance_looking(resumed.simulation, 150);
-    expect_same_bits(whole, resumed.simulation);
+    const Simulation whole = same_after_a_stop(scene, file, fresh_in_water);
     Simulation by_line{scene, filled_body(scene), 0.0};
     advance_looking(by_line, 300);
     EXPECT_NE(whole.body().points.x, by_line.body().points.x) << "the mesh's pressure counts";
 
     scene.mpm->water.reset();
-    EXPECT_THROW(load_checkpoint(file, scene, provenance), fault::BadInput);
+    EXPECT_THROW(load_checkpoint(file, scene, of_no_input), fault::BadInput);
 }
 
 TEST(RunInWater, TakesOnlyPointsThatWereMadeForIt) {
@@ -192,8 +188,7 @@ Simulation fresh_and_shaken(const scene::Scene& scene) {
 TEST(ShakenRun, GoesOnAfterAStopWithTheSameBits) {
     scene::Scene scene = heap();
     scene.mpm->shaking = scene::Shaking::goes_on;
-    const exchange::Provenance provenance{
-        .phase = "mpm_solver", .version = "0", .scene = "{}", .overrides = {}, .inputs = {}};
+    const exchange::Provenance& provenance = of_no_input;
     const breach::test::Folder folder;
     const auto file = folder / "checkpoint.h5";
     Simulation whole = fresh_and_shaken(scene);
