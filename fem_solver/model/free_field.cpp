@@ -42,7 +42,7 @@ std::map<std::array<std::int32_t, 2>, std::int32_t> regions_of_edges(const Mesh&
 void add_column(const scene::FreeField& field, const Body& body, Side side, double tolerance,
                 Mesh& mesh, FreeFieldColumns& columns) {
     const auto edge = side_nodes(mesh, body, side, tolerance);
-    // Each column element has the soil of the element that it stands beside.
+    // Each column element has the soil of its neighbour in the section.
     const auto regions = regions_of_edges(mesh, body);
     const auto refuse = [side] {
         throw fault::BadInput("scene",

@@ -25,14 +25,16 @@ void keep_largest(const Model& model, const Motion& motion, const Beginning& beg
     largest.r_u.resize(points);
     largest.shear_strain.resize(points);
     for (std::size_t i = 0; i < excess.size(); ++i) raise(largest.excess_pressure[i], excess[i]);
+    std::vector<Eigen::Vector4d> N;  // of every element's points
+    for (std::size_t g = 0; g < per_element; ++g)
+        N.push_back(
+            geometry::shape_functions(per_element == 1 ? Vec2(0.0, 0.0) : gauss_positions()[g]));
     for (std::size_t e = 0; e < model.body.elements; ++e) {
         const auto& quad = model.mesh.quads[e];
         for (std::size_t g = 0; g < per_element; ++g) {
             const std::size_t p = e * per_element + g;
-            const Vec2 xi = per_element == 1 ? Vec2(0.0, 0.0) : gauss_positions()[g];
-            const Eigen::Vector4d N = geometry::shape_functions(xi);
             double d_u = 0.0;
-            for (int k = 0; k < 4; ++k) d_u += N[k] * excess[static_cast<std::size_t>(quad[k])];
+            for (int k = 0; k < 4; ++k) d_u += N[g][k] * excess[static_cast<std::size_t>(quad[k])];
             if (const double sigma = beginning.sigma_v0_points[p]; sigma > 0.0)
                 raise(largest.r_u[p], d_u / sigma);
             raise(largest.shear_strain[p], shear_strain(motion.strain[p]));

@@ -63,7 +63,7 @@ class Lister {
                 visit(value[i], items, pointer + "/" + std::to_string(i));
         } else {
             const std::string unit = schema.value("unit", "");
-            // The default stands beside the oneOf, not in its alternatives.
+            // The entry has the default, not the alternatives of its oneOf.
             const json& written = resolved(property);
             const bool is_default = written.contains("default") && written.at("default") == value;
             found.push_back(

@@ -119,7 +119,7 @@ std::vector<VariantEntry> own_variants(const json& document) {
     const json& entries = document["variants"];
     std::vector<VariantEntry> own;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        // Of a stored study: generated variants stand beside the author's.
+        // Of a stored study: generated variants are added to the author's.
         if (entries[i].contains("made_by")) continue;
         const std::string at = "/variants/" + std::to_string(i);
         own.push_back({.name = entries[i].at("name"),
