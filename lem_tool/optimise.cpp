@@ -156,11 +156,12 @@ class Descent {
         Polyline polyline = surface();
         polyline.points = points;
         ++analysed_;
-        const auto found = analyse(model_, polyline, slices_);
+        const auto found = analyse(model_, polyline, slices_, near_);
         if (!found || found->depth < least_depth_ * (1.0 - 1e-9)) return no_answer;
         // Not valid, as in the search for circles.
         if (found->spencer.m_alpha < least_m_alpha) return no_answer;
         if (found->spencer.theta < least_theta_) return no_answer;
+        near_ = found->spencer;
         return found->spencer.factor_of_safety;
     }
 
@@ -241,6 +242,7 @@ class Descent {
     bool upper_left_;
     Slices slices_;
     Points points_;
+    std::optional<Spencer> near_;  ///< answer of the last valid surface
     double value_ = no_answer;
     double least_theta_ = -no_answer;
     double least_depth_ = 0.0;
@@ -260,13 +262,14 @@ double frictionless_share(const Slices& slices) {
 
 }  // namespace
 
-std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices) {
+std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices,
+                            const std::optional<Spencer>& near) {
     const scene::Circle pivot = pivot_of(polyline);
     if (cut(model.strata, model.soils, polyline, pivot, model.slices, slices) != Cut::done)
         return std::nullopt;
     const bool to_left = polyline.points.front().y() < polyline.points.back().y();
     const auto found =
-        spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h);
+        spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h, near);
     const auto* balanced = std::get_if<Spencer>(&found);
     if (balanced == nullptr) return std::nullopt;
     return Bent{polyline, *balanced, slices.depth, frictionless_share(slices)};

@@ -22,8 +22,9 @@ struct Bent {
 };
 
 /// Spencer's method on a polyline that slides towards its lower end. Empty if the polyline leaves
-/// the soil or no equilibrium is found.
-std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices);
+/// the soil or no equilibrium is found. near: as in spencer().
+std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices,
+                            const std::optional<Spencer>& near = std::nullopt);
 
 /// Limits of a surface: ends, depth, number of vertices.
 struct Room {
