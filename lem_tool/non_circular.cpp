@@ -126,14 +126,17 @@ json given_polyline(const scene::Scene& scene, const Model& model) {
     return facts_of(model, *found, slices);
 }
 
-json optimised_polyline(const scene::Scene& scene, const Model& model, const Surface& circle) {
-    const auto found = optimise(model, room_of(*scene.lem, model.strata), circle);
+json optimised_polyline(const scene::Scene& scene, const Model& model,
+                        const std::vector<Start>& starts) {
+    const auto found = optimise(model, room_of(*scene.lem, model.strata), starts);
     if (!found) return nullptr;
     Slices slices = make_slices(model.strata, model.slices);
     json facts = facts_of(model, *analyse(model, found->best.surface, slices), slices);
     // For comparison: what the descent gained over the circle by the same method.
-    facts["start_factor_of_safety"] = found->start;
+    const auto if_known = [](double value) { return std::isfinite(value) ? json(value) : json(); };
+    facts["start_factor_of_safety"] = if_known(found->start);
     facts["surfaces_analysed"] = found->analysed;
+    facts["search_error"] = if_known(found->error);
     return facts;
 }
 

@@ -1,7 +1,7 @@
-// The critical polyline: starts from the critical circle and moves vertices while Spencer's factor
-// of safety decreases. Deterministic.
-// Called by non_circular.cpp. The descent only goes down from its start, so that the circle's
-// factor by Spencer's method is an upper bound of the result.
+// The critical polyline: descents of Spencer's factor of safety from wedges and circles.
+// Deterministic.
+// Called by non_circular.cpp. The critical circle is among the starts, and a descent only goes
+// down: its factor by Spencer's method is an upper bound of the result.
 #pragma once
 
 #include <cstdint>
@@ -37,12 +37,21 @@ Room room_of(const scene::Lem& lem, const Strata& strata);
 
 struct Optimised {
     Bent best;
-    double start;  ///< Spencer's factor of safety of the circle as a polyline [-]
+    double start;  ///< Spencer's factor of safety of the circle as a polyline; infinite: none [-]
+    double error;  ///< relative gap between the two best descents; infinite: only one ended
     std::int64_t analysed;
 };
 
+/// A surface from which a descent starts, in its own strata: a composite one has its own floor.
+struct Start {
+    const Strata& strata;
+    const Surface& surface;
+};
+
 /// The optimised polyline; convex (no vertex above the line through others), so that the mass can
-/// slide on all of it. Empty if Spencer's method fails for the circle.
-std::optional<Optimised> optimise(const Model& model, const Room& room, const Surface& circle);
+/// slide on all of it. Starts: the critical circle first. Empty if no descent ends within the
+/// limits.
+std::optional<Optimised> optimise(const Model& model, const Room& room,
+                                  const std::vector<Start>& starts);
 
 }  // namespace breach::lem

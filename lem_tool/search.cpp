@@ -37,30 +37,6 @@ struct Place {
     int which = 0;  ///< touching: which of the two circles
 };
 
-/// All straight boundaries below ground, each once.
-std::vector<Line> boundaries_of(const Strata& strata) {
-    std::vector<Line> lines;
-    const double middle = 0.5 * (strata.left() + strata.right());
-    const double width = strata.right() - strata.left();
-    const auto add = [&](const Line& line) {
-        // The same boundary in many strips is tried once.
-        const auto same = [&](const Line& other) {
-            return std::abs(other.at(middle) - line.at(middle)) < 1e-9 * width &&
-                   std::abs(other.slope - line.slope) < 1e-9;
-        };
-        if (std::none_of(lines.begin(), lines.end(), same)) lines.push_back(line);
-    };
-    for (const Strip& strip : strata.strips) {
-        const double x = 0.5 * (strip.from + strip.to);
-        const double limit = std::max(strip.bottom.at(x), strip.floor.at(x));
-        for (std::size_t k = strip.first + 1; k < strip.last; ++k) {
-            if (strata.layers[k].top.at(x) > limit) add(strata.layers[k].top);
-        }
-        add(strip.floor.at(x) >= strip.bottom.at(x) ? strip.floor : strip.bottom);
-    }
-    return lines;
-}
-
 /// Analyses places one by one; keeps the best and counts.
 class Probe {
   public:
@@ -322,6 +298,29 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<Line> boundaries_of(const Strata& strata) {
+    std::vector<Line> lines;
+    const double middle = 0.5 * (strata.left() + strata.right());
+    const double width = strata.right() - strata.left();
+    const auto add = [&](const Line& line) {
+        // The same boundary in many strips is tried once.
+        const auto same = [&](const Line& other) {
+            return std::abs(other.at(middle) - line.at(middle)) < 1e-9 * width &&
+                   std::abs(other.slope - line.slope) < 1e-9;
+        };
+        if (std::none_of(lines.begin(), lines.end(), same)) lines.push_back(line);
+    };
+    for (const Strip& strip : strata.strips) {
+        const double x = 0.5 * (strip.from + strip.to);
+        const double limit = std::max(strip.bottom.at(x), strip.floor.at(x));
+        for (std::size_t k = strip.first + 1; k < strip.last; ++k) {
+            if (strata.layers[k].top.at(x) > limit) add(strata.layers[k].top);
+        }
+        add(strip.floor.at(x) >= strip.bottom.at(x) ? strip.floor : strip.bottom);
+    }
+    return lines;
+}
 
 Tally& Tally::operator+=(const Tally& other) {
     analysed += other.analysed;

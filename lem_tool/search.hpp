@@ -64,6 +64,9 @@ struct SearchResult {
 inline constexpr int coarse_slices = 25;
 /// coarse: only the grid, an upper bound of the whole search's result.
 enum class Effort { whole, coarse };
+/// All straight boundaries below ground, each once.
+std::vector<Line> boundaries_of(const Strata& strata);
+
 SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1,
                     Effort effort = Effort::whole);
 
