@@ -140,6 +140,7 @@ json facts_of(const Searched& searched) {
                   slices.stands_on.begin() + static_cast<std::ptrdiff_t>(slices.count),
                   Base::straight) !=
         slices.stands_on.begin() + static_cast<std::ptrdiff_t>(slices.count);
+    if (std::isfinite(searched.found.error)) facts["search_error"] = searched.found.error;
     const Crack& crack = searched.model.strata.crack;
     if (crack.reach == Crack::Reach::none) return facts;
     const double whole = searched.factor_with_whole_crack;

@@ -24,7 +24,7 @@ constexpr double second_step = 0.03;          // after vertices were moved along
 constexpr double last_step = 5e-4;            // of the surface's width
 constexpr double least_gain_of_round = 1e-3;  // relative, per round; below it the steps get smaller
 constexpr double agreement = 1e-3;            // of two descents, relative: no more are tried
-constexpr int wedges_per_range = 12;          // a grid of ends
+constexpr int wedges_per_range = 16;          // a grid of ends
 constexpr std::size_t wedges_followed = 4;
 /// The mass shears internally at a kink, and this resistance is missing with one inclination of
 /// interslice forces: surfaces with sharper kinks have too low a factor of safety. Over a stretch
@@ -134,7 +134,8 @@ struct Limits {
     double kink = sharpest_kink;
     double rise = steepest_rise;
     double depth = 1e-9;
-    double theta = 0.0;  ///< least inclination of the interslice forces [rad]
+    double theta = 0.0;     ///< least inclination of the interslice forces [rad]
+    double kinked = -1e-6;  ///< largest kinked_without_friction
 };
 
 /// A surface during its descent. Its vertices are moved from the upper end on, in directions that
@@ -169,9 +170,10 @@ class Descent {
         refine(start, static_cast<std::size_t>(room_.vertices));
         price_ = lenient;
         value_ = no_answer;
+        near_.reset();
         if (!take(std::move(start))) return false;
         descend(first_step);
-        for (int n = 0; n < 2; ++n) {
+        for (int n = 0; n < 3; ++n) {
             const double before = value_;
             use_idle_vertices();
             descend(second_step);
@@ -199,9 +201,12 @@ class Descent {
     double excess_of(const Points& points, const Bent& found) const {
         const std::size_t pieces = points.size() - 1;
         const auto rise = [&](std::size_t piece) { return rise_of(points, piece, upper_left_); };
-        double excess = std::max(0.0, rise(upper_left_ ? pieces - 1 : 0) - limits_.rise) +
-                        std::max(0.0, 1.0 - found.depth / limits_.depth) +
-                        std::max(0.0, limits_.theta - found.spencer.theta);
+        double excess =
+            std::max(0.0, rise(upper_left_ ? pieces - 1 : 0) - limits_.rise) +
+            std::max(0.0, 1.0 - found.depth / limits_.depth) +
+            std::max(0.0, limits_.theta - found.spencer.theta) +
+            std::max(0.0, kinked_without_friction(found.frictionless, found.frictionless_mass) -
+                              limits_.kinked);
         const double stretch =
             bend * mean_piece(points.back().x() - points.front().x(), room_.vertices);
         rises_.resize(pieces);
@@ -281,8 +286,25 @@ class Descent {
                     [&] { return upper_left_ ? with_part(i, last, move) : with_part(0, i, move); });
             }
         }
+        for (std::size_t k = 0; k <= last; ++k) {
+            const std::size_t i = upper_left_ ? k : last - k;
+            for (int n = 0; n < 8; ++n) {
+                const double angle = 0.25 * M_PI * n;
+                const Vec2 move(along * std::cos(angle), step * std::sin(angle));
+                repeat([&] { return with_vertex(i, move); });
+            }
+        }
         for (std::size_t k = 1; k < last; ++k)
             rest_on_boundaries(upper_left_ ? k : last - k, 4.0 * step);
+    }
+
+    /// A vertex moved, and its neighbours by half as much.
+    Points with_vertex(std::size_t i, const Vec2& move) const {
+        Points points = points_;
+        points[i] += move;
+        if (i > 0) points[i - 1] += 0.5 * move;
+        if (i + 1 < points.size()) points[i + 1] += 0.5 * move;
+        return points;
     }
 
     /// Vertices moved from one to another, as a wedge whose foot slides along a layer.
@@ -338,7 +360,7 @@ class Descent {
     /// and so does its value.
     void use_idle_vertices() {
         const std::size_t count = points_.size();
-        const double least = 0.04 * width();
+        const double least = 2.0 * shortest_piece * mean_piece(width(), room_.vertices);
         for (std::size_t i = count - 2; i > 0; --i)
             if (kink_at(points_, i) < 0.01 && points_.size() > 3)
                 points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
@@ -395,11 +417,11 @@ std::vector<Points> best_wedges(const Model& model, const Room& room,
     const auto add = [&](const Line& line, const Vec2& upper, const Vec2& lower) {
         const double width = std::abs(upper.x() - lower.x());
         if ((upper.x() < lower.x()) != upper_left || width == 0.0) return;
-        const double least = bend * mean_piece(width, room.vertices);
+        const double least = 1.01 * bend * mean_piece(width, room.vertices);
         Judged best{{}, no_answer};
         for (const double steep : {2.0 * sharpest_kink, 1.5 * sharpest_kink}) {
             for (const double flat : {sharpest_kink, 0.5 * sharpest_kink}) {
-                Points points = wedge(line, upper, lower, steep, flat, least);
+                Points points = wedge(line, upper, lower, 0.999 * steep, 0.999 * flat, least);
                 if (points.empty()) continue;
                 const double value = judge.value_of(points);
                 if (value < best.value) best = {std::move(points), value};
@@ -434,6 +456,34 @@ std::vector<Points> best_wedges(const Model& model, const Room& room,
     return chosen;
 }
 
+/// Share of the mass's area without friction.
+double frictionless_mass(const Model& model, const Slices& slices) {
+    double all = 0.0;
+    double without = 0.0;
+    for (std::size_t i = 0; i < slices.count; ++i) {
+        const double x = slices.left[i] + 0.5 * slices.width[i];
+        const Strip& strip = model.strata.strips[strip_at(model.strata, x)];
+        for (std::size_t k = strip.first; k < strip.last; ++k) {
+            const Layer& layer = model.strata.layers[k];
+            const double top = layer.top.at(x);
+            // Layers are ordered from the ground down: the rest is below the surface.
+            if (top <= slices.base[i]) break;
+            const double bottom =
+                k + 1 < strip.last ? std::max(slices.base[i], model.strata.layers[k + 1].top.at(x))
+                                   : slices.base[i];
+            const Soil& soil = model.soils[layer.region];
+            all += slices.width[i] * (top - bottom);
+            if (soil.tan_phi > 0.0) continue;
+            const double wet =
+                soil.above_water && soil.line
+                    ? std::min(top, model.strata.pressures[strip.pressures + *soil.line].top.at(x))
+                    : top;
+            without += slices.width[i] * std::max(0.0, wet - bottom);
+        }
+    }
+    return without / all;
+}
+
 double frictionless_share(const Slices& slices) {
     double all = 0.0;
     double without = 0.0;
@@ -446,6 +496,12 @@ double frictionless_share(const Slices& slices) {
 
 }  // namespace
 
+double kinked_without_friction(double share_of_base, double share_of_mass) {
+    constexpr double most_of_base = 0.5;
+    constexpr double thin_layer = 0.1;  // over the mass: the soil above the layer deforms at kinks
+    return std::min(share_of_base - most_of_base, share_of_mass - thin_layer);
+}
+
 std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices,
                             const std::optional<Spencer>& near) {
     const scene::Circle pivot = pivot_of(polyline);
@@ -456,7 +512,11 @@ std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices
         spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h, near);
     const auto* balanced = std::get_if<Spencer>(&found);
     if (balanced == nullptr) return std::nullopt;
-    return Bent{polyline, *balanced, slices.depth, frictionless_share(slices)};
+    Bent bent{polyline, *balanced, slices.depth, frictionless_share(slices), 0.0};
+    // The mass is only asked for where the base is mostly without friction: it costs as much as a cut.
+    if (kinked_without_friction(bent.frictionless, 1.0) >= 0.0)
+        bent.frictionless_mass = frictionless_mass(model, slices);
+    return bent;
 }
 
 Room room_of(const scene::Lem& lem, const Strata& strata) {
@@ -490,6 +550,9 @@ std::optional<Optimised> optimise(const Model& model, const Room& room,
     if (as_polyline) {
         limits.depth = std::min(limits.depth, std::max(as_polyline->depth, 1e-9));
         limits.theta = std::min(0.0, as_polyline->spencer.theta) - 1e-6;
+        limits.kinked = std::max(
+            limits.kinked,
+            kinked_without_friction(as_polyline->frictionless, as_polyline->frictionless_mass));
     }
 
     Descent descent(model, room, limits, upper_left);

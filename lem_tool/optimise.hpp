@@ -19,7 +19,13 @@ struct Bent {
     Spencer spencer;
     double depth;         ///< greatest vertical depth of the mass [m]
     double frictionless;  ///< share of the base length without friction [-]
+    /// share of the mass's area without friction, if most of the base is [-]
+    double frictionless_mass;
 };
+
+/// Whether most of a polyline's base is without friction, other than in a thin layer under soil
+/// with friction, by how much: from 0 on its factor neglects the shearing of the mass at the kinks.
+double kinked_without_friction(double share_of_base, double share_of_mass);
 
 /// Spencer's method on a polyline that slides towards its lower end. Empty if the polyline leaves
 /// the soil or no equilibrium is found. near: as in spencer().

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <numeric>
 
 #include "core/numerics/blocks.hpp"
 #include "lem_tool/simplex.hpp"
@@ -17,7 +17,7 @@ namespace breach::lem {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
-constexpr std::size_t valleys_followed = 12;
+constexpr std::size_t valleys_followed = 24;
 constexpr double least_gain = 1e-5;  // relative: a tenth of the resolution with 50 slices
 constexpr double least_gain_polished = 1e-7;
 /// Flatter arcs are practically infinite slopes; radii beyond 100 chords lose digits.
@@ -176,18 +176,29 @@ class Search {
             follow(starts[i], probes[i], grid_step(), least_gain);
         });
         numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) { polish(probes[i]); });
+        double second = none;
         for (const Probe& each : probes) {
             result_.tally += each.tally();
-            if (each.best()) keep(*each.best());
+            if (!each.best()) continue;
+            const double F = each.best()->bishop.factor_of_safety;
+            const double least =
+                result_.critical ? result_.critical->bishop.factor_of_safety : none;
+            second = std::min(second, std::max(F, least));
+            keep(*each.best());
         }
+        if (second < none) result_.error = second / result_.critical->bishop.factor_of_safety - 1.0;
         return std::move(result_);
     }
 
   private:
-    /// The best surface of a pair of ends.
-    struct Pair {
+    struct Valued {
         Place place;
-        double value = none;
+        double value;
+    };
+
+    /// The surfaces of a pair of ends: the best of the depths, and those that follow something.
+    struct Pair {
+        std::vector<Valued> places;
         std::optional<PairBest> best;
     };
 
@@ -210,8 +221,8 @@ class Search {
             Probe here = probe(std::min(model_.slices, coarse_slices));
             for (std::size_t j = 0; j < exits; ++j) {
                 pairs_[i * exits + j] =
-                    best_of_pair(here, static_cast<double>(i) / static_cast<double>(entries - 1),
-                                 static_cast<double>(j) / static_cast<double>(exits - 1));
+                    pair_of(here, static_cast<double>(i) / static_cast<double>(entries - 1),
+                            static_cast<double>(j) / static_cast<double>(exits - 1));
             }
             tallies[i] = here.tally();
         });
@@ -221,42 +232,51 @@ class Search {
         }
     }
 
-    Pair best_of_pair(Probe& here, double entry, double exit) const {
-        Pair pair{{entry, exit, 0.5}, none, std::nullopt};
-        const auto consider = [&](const Place& place) {
+    Pair pair_of(Probe& here, double entry, double exit) const {
+        Pair pair{{{{entry, exit, 0.5}, none}}, std::nullopt};
+        const auto value_of = [&](const Place& place) {
             const double F = here.try_at(place);
             // Depths first, then tangents: of equal factors the first one stays.
-            if (F >= pair.value) return;
-            pair = {place, F, PairBest{here.entry_of(place), here.exit_of(place), here.last()}};
+            if (F < none && (!pair.best || F < pair.best->critical.bishop.factor_of_safety))
+                pair.best = PairBest{here.entry_of(place), here.exit_of(place), here.last()};
+            return F;
         };
         for (int k = 1; k <= ranges_.depths; ++k) {
-            consider({entry, exit, static_cast<double>(k) / ranges_.depths});
+            const Place place{entry, exit, static_cast<double>(k) / ranges_.depths};
+            const double F = value_of(place);
+            if (F < pair.places[0].value) pair.places[0] = {place, F};
         }
+        const auto add = [&](const Place& place) {
+            if (const double F = value_of(place); F < none) pair.places.push_back({place, F});
+        };
         for (int line = 0; line < static_cast<int>(boundaries_.size()); ++line) {
             for (int which = 0; which < 2; ++which)
-                consider({entry, exit, 0.5, Sag::touching, line, which});
+                add({entry, exit, 0.5, Sag::touching, line, which});
         }
-        if (ranges_.minimum_depth > 0.0) consider({entry, exit, 0.5, Sag::shallowest});
+        if (ranges_.minimum_depth > 0.0) add({entry, exit, 0.5, Sag::shallowest});
         return pair;
     }
 
-    /// The best pairs, at least a twelfth of the ranges apart.
+    /// The best places; those that follow the same at least a twelfth of the ranges apart: each
+    /// boundary has valleys of its own, which other circles through the same ends may hide.
     std::vector<Place> valleys() const {
-        std::vector<std::size_t> order(pairs_.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<Valued> all;
+        for (const Pair& pair : pairs_)
+            std::ranges::copy_if(pair.places, std::back_inserter(all),
+                                 [](const Valued& each) { return each.value < none; });
         // Stable: equal factors keep the order of the grid.
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return pairs_[a].value < pairs_[b].value;
-        });
+        std::ranges::stable_sort(all, {}, &Valued::value);
         std::vector<Place> starts;
-        for (const std::size_t n : order) {
-            if (pairs_[n].value == none || starts.size() == valleys_followed) break;
-            const Place& place = pairs_[n].place;
+        for (const Valued& each : all) {
+            if (starts.size() == valleys_followed) break;
+            const Place& place = each.place;
             const auto near = [&](const Place& other) {
-                return std::abs(other.entry - place.entry) < 1.0 / 12.0 &&
+                return other.sag == place.sag && other.line == place.line &&
+                       other.which == place.which &&
+                       std::abs(other.entry - place.entry) < 1.0 / 12.0 &&
                        std::abs(other.exit - place.exit) < 1.0 / 12.0;
             };
-            if (std::none_of(starts.begin(), starts.end(), near)) starts.push_back(place);
+            if (std::ranges::none_of(starts, near)) starts.push_back(place);
         }
         return starts;
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -56,6 +57,8 @@ struct PairBest {
 
 struct SearchResult {
     std::optional<Critical> critical;
+    /// Relative gap between the two best descents; infinite: fewer than two ended.
+    double error = std::numeric_limits<double>::infinity();
     Tally tally;
     std::vector<PairBest> pairs;
 };
