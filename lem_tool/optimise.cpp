@@ -23,8 +23,10 @@ constexpr double first_step = 0.1;            // of the surface's width
 constexpr double second_step = 0.03;          // after vertices were moved along the surface
 constexpr double last_step = 5e-4;            // of the surface's width
 constexpr double least_gain_of_round = 1e-3;  // relative, per round; below it the steps get smaller
-constexpr double agreement = 1e-3;            // of two descents, relative: no more are tried
-constexpr int wedges_per_range = 16;          // a grid of ends
+constexpr double least_gain_of_return = 1e-4;  // relative, of a descent with moved vertices
+constexpr int most_returns = 3;
+constexpr double agreement = 1e-3;    // of two descents, relative: no more are tried
+constexpr int wedges_per_range = 16;  // a grid of ends
 constexpr std::size_t wedges_followed = 4;
 /// The mass shears internally at a kink, and this resistance is missing with one inclination of
 /// interslice forces: surfaces with sharper kinks have too low a factor of safety. Over a stretch
@@ -160,32 +162,33 @@ class Descent {
         // Not valid, as in the search for circles.
         if (!found || found->spencer.m_alpha < least_m_alpha) return no_answer;
         near_ = found->spencer;
-        const double excess = excess_of(points, *found);
+        excess_ = excess_of(points, *found);
         // Round-off must not cost anything.
-        return found->spencer.factor_of_safety * (1.0 + price_ * (excess > 1e-9 ? excess : 0.0));
+        if (excess_ < 1e-9) excess_ = 0.0;
+        return found->spencer.factor_of_safety * (1.0 + price_ * excess_);
     }
 
     /// False if the surface has no answer or cannot keep the limits.
     bool settle(Points start) {
+        constexpr double far_beyond = 0.05;
         refine(start, static_cast<std::size_t>(room_.vertices));
         price_ = lenient;
         value_ = no_answer;
         near_.reset();
         if (!take(std::move(start))) return false;
         descend(first_step);
-        for (int n = 0; n < 3; ++n) {
+        if (excess() > far_beyond) return false;
+        for (int n = 0; n < most_returns; ++n) {
             const double before = value_;
             use_idle_vertices();
             descend(second_step);
-            if (value_ > before * (1.0 - 1e-4)) break;
+            if (!(value_ < before * (1.0 - least_gain_of_return))) break;
         }
+        if (excess() == 0.0) return true;
         price_ = strict;
         value_ = value_of(points_);
-        const auto as_it_is = analyse(model_, surface(), slices_, near_);
-        if (as_it_is && value_ == as_it_is->spencer.factor_of_safety) return true;
         descend(second_step);
-        const auto found = analyse(model_, surface(), slices_, near_);
-        return found && value_ <= found->spencer.factor_of_safety * (1.0 + 1e-6);
+        return excess() < 1e-6;
     }
 
   private:
@@ -196,6 +199,12 @@ class Descent {
     }
 
     double width() const { return points_.back().x() - points_.front().x(); }
+
+    /// Of the present surface.
+    double excess() {
+        value_of(points_);
+        return excess_;
+    }
 
     /// Sum of what exceeds the limits [rad, or relative].
     double excess_of(const Points& points, const Bent& found) const {
@@ -227,7 +236,7 @@ class Descent {
         for (double step = first * width(); step > last_step * width();) {
             const double before = value_;
             round(step);
-            if (value_ > before * (1.0 - least_gain_of_round)) step *= 0.5;
+            if (!(value_ < before * (1.0 - least_gain_of_round))) step *= 0.5;
         }
     }
 
@@ -397,6 +406,7 @@ class Descent {
     Points points_;
     double value_ = no_answer;
     double price_ = lenient;
+    double excess_ = 0.0;                ///< of the last surface with a value
     std::optional<Spencer> near_;        ///< answer of the last valid surface
     mutable std::vector<double> rises_;  ///< of the pieces, scratch memory
     std::int64_t analysed_ = 0;
@@ -550,9 +560,6 @@ std::optional<Optimised> optimise(const Model& model, const Room& room,
     if (as_polyline) {
         limits.depth = std::min(limits.depth, std::max(as_polyline->depth, 1e-9));
         limits.theta = std::min(0.0, as_polyline->spencer.theta) - 1e-6;
-        limits.kinked = std::max(
-            limits.kinked,
-            kinked_without_friction(as_polyline->frictionless, as_polyline->frictionless_mass));
     }
 
     Descent descent(model, room, limits, upper_left);
@@ -564,18 +571,23 @@ std::optional<Optimised> optimise(const Model& model, const Room& room,
     const double start = as_polyline ? as_polyline->spencer.factor_of_safety : no_answer;
     std::optional<Optimised> best;
     double second = no_answer;
+    const auto follow = [&](const Points& from) {
+        if (!descent.settle(from)) return;
+        const auto found = analyse(model, descent.surface(), slices);
+        if (!found) return;
+        const double F = found->spencer.factor_of_safety;
+        const double least = best ? best->best.spencer.factor_of_safety : no_answer;
+        second = std::min(second, std::max(F, least));
+        if (F < least) best = Optimised{*found, start, 0.0, 0};
+    };
     for (std::size_t n = 0; n < all.size(); ++n) {
         if (n > 2 && second <= best->best.spencer.factor_of_safety * (1.0 + agreement)) break;
-        if (!descent.settle(all[n])) continue;
-        const auto found = analyse(model, descent.surface(), slices);
-        if (!found) continue;
-        const double F = found->spencer.factor_of_safety;
-        if (best && F >= best->best.spencer.factor_of_safety) {
-            second = std::min(second, F);
-            continue;
-        }
-        if (best) second = best->best.spencer.factor_of_safety;
-        best = Optimised{*found, start, 0.0, 0};
+        follow(all[n]);
+    }
+    if (!best) {
+        // In soil without friction no polyline is valid; a flag then says so of this one.
+        limits.kinked = no_answer;
+        follow(circle);
     }
     if (!best) return std::nullopt;
     best->error = second / best->best.spencer.factor_of_safety - 1.0;
