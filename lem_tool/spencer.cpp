@@ -182,7 +182,7 @@ Spencer answer(const Mass& mass, const Leftover& balanced) {
 /// Newton's method for both equations from a similar mass's answer. None if it leaves the branch
 /// of that answer, or a base turns over.
 std::optional<Leftover> beside(const Mass& mass, const Spencer& near) {
-    constexpr double farthest = 0.3;  // [rad]; beyond it another root may be the nearest to level
+    constexpr double farthest = 0.1;  // [rad]; beyond it another root may be the nearest to level
     double F = near.factor_of_safety;
     double inclination = near.theta;
     for (int n = 0; n < 8; ++n) {
@@ -286,10 +286,8 @@ std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Cir
                                           Slide slide, double k_h,
                                           const std::optional<Spencer>& near) {
     const Mass mass = mass_of(slices, circle, slide, k_h);
-    if (near) {
+    if (near)
         if (const auto found = beside(mass, *near)) return answer(mass, *found);
-        return Unbalanced{0.0, 0.0, 0.0, false};
-    }
     const bool frictionless =
         std::ranges::all_of(mass.blocks, [](const Block& b) { return b.tan_phi == 0.0; });
     const auto level = leftover(mass, 0.0);

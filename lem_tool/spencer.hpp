@@ -47,7 +47,7 @@ struct Unbalanced {
 /// Spencer (1967): all interslice forces have the same inclination; the whole mass is in
 /// equilibrium of forces and moments. Searches from -0.6 to 1.2 rad, with positive base forces
 /// only. circle: reference of the slices' moments. near: the answer of a similar surface, from which
-/// Newton's method is several times faster; without convergence there is no answer near it.
+/// Newton's method is several times faster; without convergence the whole search follows.
 std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
                                           Slide slide, double k_h,
                                           const std::optional<Spencer>& near = std::nullopt);
