@@ -1,10 +1,10 @@
-#include "transfer_tool/collapse.hpp"
+#include "core/liquefied/collapse.hpp"
 
 #include <algorithm>
 
-#include "transfer_tool/shapes.hpp"
+#include "core/liquefied/elements.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 namespace {
 
 using exchange::MeshSnapshot;
@@ -71,4 +71,4 @@ std::optional<Collapse::Soil> Collapse::at(std::size_t element, const Vec2& xi) 
     return soils_[element * places.size() + static_cast<std::size_t>(nearest - places.begin())];
 }
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied
