@@ -94,7 +94,8 @@ class Recorder:
             subprocess.run([programs / "report", exported, "--output", page], check=True, capture_output=True)
             for each in sorted((pathlib.Path(scratch) / "report_files").glob("*.csv")):
                 self.keep(f"{at}/report/{each.name}", each.read_text())
-            words = re.sub(r"(?s)<(svg|style|script).*?</\1>|<[^>]+>", "\n", page.read_text())
+            together = re.sub(r'<span class="short">(.*?)</span>', r"\1", page.read_text())
+            words = re.sub(r"(?s)<(svg|style|script).*?</\1>|<[^>]+>", "\n", together)
             self.keep(f"{at}/report.txt", words_of(words))
 
 
