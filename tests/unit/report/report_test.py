@@ -5,8 +5,9 @@ import subprocess
 import unittest
 
 from wet_run import IMPLAUSIBLE, LATE, MOVING, SCENE, SOFT, STRONG, STUDY, WetRun, cell, figures, marks, row, shaking, tables
+from breachline.plot import Axis, Chart, Figure
 from breachline_report.chapters.variants import changes_of
-from breachline_report.document import Table, as_file_name
+from breachline_report.document import Chapter, Document, Table, as_file_name
 from breachline_report.ended import how_it_ended
 from breachline_report.page import as_html
 from breachline_report.program import guarded, write_report
@@ -264,6 +265,15 @@ class Pages(WetRun):
         self.assertNotEqual(*names)
         self.assertLess(max(len(each.encode()) for each in names), 200)
         self.assertEqual(as_file_name("a/b"), "a_b")
+
+    def test_a_name_is_given_once(self):
+        document = Document("")
+        document.front.pictures = [Figure("overview", Chart("", Axis(""), Axis("")))]
+        document.add(Chapter("", tables=[Table("empty", "", ["a"]), Table("a/b", "", ["a"], [["1"]])]))
+        document.add(Chapter("", tables=[Table("empty", "", ["a"], [["1"]])]))
+        for name in ("overview", "a_b"):
+            with self.assertRaisesRegex(ValueError, f'"{name}" names two'):
+                document.add(Chapter("", tables=[Table(name, "", ["a"], [["1"]])]))
 
     def test_tables_quote_text_and_keep_numbers(self):
         self.assertEqual(Table("t", "", ["a", "b [m]"], [['x "y"', "1e-5"], ["12 m", "\u2265 3"]]).csv(),
