@@ -17,7 +17,7 @@ from .words import entry, number
 
 lem, fem, post_seismic, transfer, mpm = "lem_tool", "fem_solver", "post_seismic", "transfer_tool", "mpm_solver"
 order = [lem, fem, post_seismic, transfer, mpm]
-same_time = 5e-7  #: [s]; names of files spell times to the microsecond
+same_time = 5e-7  #: [s]; names of files spell times to the microsecond, of figures with ten digits
 _timed = re.compile(r"[a-z]+_([0-9.]+)\.vtkhdf")
 
 
@@ -88,7 +88,7 @@ class Phase:
     def file_word(self) -> str:
         """Its part of file names: "13s", "filled_soft"."""
         if self.time is not None:
-            return f"{self.time:.6g}s"
+            return f"{self.time:.10g}s"
         return f"filled_{self.variant}" if self.variant else "filled"
 
     @property
