@@ -41,7 +41,7 @@ template <class Law>
 concept AnswersForStateParameter = Remembers<Law> &&
     requires(const Law& law, Law& own, const typename Law::Memory& memory,
              std::span<const typename Law::Memory> memories, std::span<const double> bounds,
-             const Voigt& sigma, double number, const Place& place, OnPath part) {
+             std::span<const Voigt> sigmas, double number, const Place& place, OnPath part) {
     /// psi of level ground consolidated under sigma'_v0 [-].
     { psi_at(law, place) } -> std::same_as<double>;
     { instability(law, memory) } -> std::same_as<Instability>;
@@ -49,8 +49,10 @@ concept AnswersForStateParameter = Remembers<Law> &&
     { least_mean_stress(law) } -> std::same_as<double>;
     /// In plane strain, from each memory; at most the critical strength at the bound of p' [Pa].
     { undrained_strengths(law, memories, bounds) } -> std::same_as<std::vector<UndrainedStrength>>;
-    /// In plane strain, for a point with stress sigma, state parameter psi and pore pressure u.
-    { undrained_strength(law, sigma, number, number) } -> std::same_as<UndrainedStrength>;
+    /// In plane strain, for points with stresses, state parameters and pore pressures.
+    {
+        undrained_strengths(law, sigmas, bounds, bounds)
+        } -> std::same_as<std::vector<UndrainedStrength>>;
     /// In simple shear, for level ground.
     { undrained_by_place(law, part) } -> std::same_as<UndrainedByPlace>;
     /// Sets S, the additional softening of undrained soil [-].
