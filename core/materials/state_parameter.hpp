@@ -23,10 +23,10 @@ struct Instability {
 /// Undrained shear strength [Pa]: c of an equivalent Mohr-Coulomb soil with phi = 0.
 struct UndrainedStrength {
     double peak;      ///< largest on the path, its start included
-    double critical;  ///< at the critical state of the void ratio; at most the peak
+    double residual;  ///< at the path's minimum or at the critical state; at most the peak
 };
 
-/// Which strength of an undrained path: its largest shear stress, or that of the critical state.
+/// Which strength of an undrained path.
 enum class OnPath { peak, residual };
 /// Undrained strength [Pa] at a place of level ground with the pore pressure u [Pa].
 using UndrainedByPlace = std::function<double(const Place&, double u)>;

@@ -98,7 +98,7 @@ inline std::vector<UndrainedStrength> undrained_strengths(const Peat& law,
 inline UndrainedByPlace undrained_by_place(const Peat& law, OnPath part) {
     return [law, part](const Place& place, double u) {
         const UndrainedStrength found = strength_of(law, place.sigma_v0 + u);
-        return part == OnPath::peak ? found.peak : found.critical;
+        return part == OnPath::peak ? found.peak : found.residual;
     };
 }
 inline void set_s(Peat& law, double S) { law.S = S; }
