@@ -75,9 +75,9 @@ struct Dip {
             state = integrate(law, state, Voigt(0.0, 0.0, 0.0, 1e-5), {}).state;
         }
         least = peak;
-        for (double shear = 0.0; shear < 1.01 * least; least = std::min(least, shear)) {
+        for (int step = 0; step < 3000; ++step) {
             state = integrate(law, state, Voigt(0.0, 0.0, 0.0, 1e-5), {}).state;
-            shear = simple_shear(state);
+            least = std::min(least, simple_shear(state));
         }
     }
 };
