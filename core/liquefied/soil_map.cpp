@@ -212,10 +212,10 @@ materials::PointStrength SoilMap::strength_at(std::size_t element, const Vec2& x
     const auto& profile = soils_[at(element, xi)].strength;
     if (!profile) return {};
     if (const auto soil = state_at(element, xi)) {
-        const auto& [peak, critical] = soil->strength;
+        const auto& [peak, residual] = soil->strength;
         // phi = 0: the MPM has total stress and no pore pressure, so the undrained strength is a
         // cohesion.
-        return {soil->collapsed ? critical : peak, 0.0, critical, 0.0};
+        return {soil->collapsed ? residual : peak, 0.0, residual, 0.0};
     }
     const RegionRule& rule = rules_[mesh_.region_of_element[element]];
     const Vec2 place = undeformed_corners(mesh_, element) * shape_functions(xi);

@@ -42,7 +42,7 @@ TEST_F(CollapsedSoil, WetSoilHasTheStrengthsOfItsStateAndDrySoilNone) {
     EXPECT_FALSE(wet->collapsed);
     // docs/reference/methods/norsand.md, section 15: 0.039360 of sigma'_v0 at psi_0 = 0.05, K_0 =
     // 0.7.
-    EXPECT_NEAR(wet->strength.critical / 100e3, 0.039360, 5e-6);
+    EXPECT_NEAR(wet->strength.residual / 100e3, 0.039360, 5e-6);
     EXPECT_GT(wet->strength.peak, 0.2 * 100e3);
     EXPECT_FALSE(collapse.at(1, {0.0, 0.5}).has_value());
 }
