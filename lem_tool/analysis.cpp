@@ -14,6 +14,7 @@
 
 #include "core/exchange/archive.hpp"
 #include "core/words/number.hpp"
+#include "lem_tool/after_shaking.hpp"
 #include "lem_tool/answer.hpp"
 #include "lem_tool/drained.hpp"
 #include "lem_tool/facts.hpp"
@@ -237,14 +238,39 @@ void flag_each_once(process::Session& session, std::vector<fault::Flag>& flags) 
 
 }  // namespace
 
+namespace {
+
+/// The model of the last snapshot, to be analysed as any other; rows for all before it.
+Shaken last_of(const scene::Scene& scene, process::Session& session, json& rows) {
+    const Model sound = make_model(scene);
+    const std::vector<std::filesystem::path> snapshots = snapshots_of(session.input());
+    for (std::size_t i = 0;; ++i) {
+        Shaken now = shaken(sound, session.scene(), snapshots[i]);
+        if (i + 1 == snapshots.size() || session.stop_requested()) return now;
+        json given;
+        const Families found = first_families(scene, now.model, session.settings().threads, given);
+        rows.push_back(row_of(now.time, answer(scene, found, given)));
+        session.progress(static_cast<double>(i + 1) / static_cast<double>(snapshots.size()),
+                         words::formatted("factor of safety at %.4g s", now.time));
+    }
+}
+
+}  // namespace
+
 process::Outcome run(process::Session& session) {
     const auto began = std::chrono::steady_clock::now();
-    const scene::Scene scene = limit_scene(session.scene());
+    const bool has_shaken = !session.settings().inputs.empty();
+    const scene::Scene scene =
+        limit_scene(has_shaken ? without_states(session.scene()) : session.scene());
     const scene::Lem& lem = scene::lem_of(scene);
     const int threads = session.settings().threads;
     // With the scene as written: in limit_scene, laws give way to their strength.
-    for (fault::Flag& each : flags_of_drained(session.scene())) session.flag(std::move(each));
-    const Model model = make_model(scene);
+    if (!has_shaken)
+        for (fault::Flag& each : flags_of_drained(session.scene())) session.flag(std::move(each));
+    json rows = json::array();
+    const Shaken last = has_shaken ? last_of(scene, session, rows) : Shaken{0.0, make_model(scene)};
+    if (session.stop_requested()) return process::Outcome::stopped;
+    const Model& model = last.model;
     json& result = session.result();
     const Families found = first_families(scene, model, threads, result);
     result = answer(scene, found, result);
@@ -261,6 +287,11 @@ process::Outcome run(process::Session& session) {
         std::ranges::move(flags_of_stages(result.at("stages")), std::back_inserter(flags));
     }
     flag_each_once(session, flags);
+    if (has_shaken) {
+        rows.push_back(row_of(last.time, result));
+        write_table(session, "after_shaking", table_of_times(rows));
+        result["after_shaking"] = std::move(rows);
+    }
     if (lem.probability) {
         const Samples samples = add_probability(session.scene(), threads, result);
         write_table(session, "samples", table_of(samples));

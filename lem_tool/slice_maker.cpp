@@ -2,6 +2,8 @@
 // forms.
 #include "lem_tool/slice_maker.hpp"
 
+#include "lem_tool/snapshot_strength.hpp"
+
 namespace breach::lem {
 
 namespace {
@@ -97,9 +99,11 @@ void SliceMaker::add_slice(const Strip& strip, const Layer& layer, const Soil& s
     if (soil.coefficient > 0.0) slices_.c[i] += undrained(strip, layer, soil, middle, i);
     if (soil.profile || soil.by_state) slices_.c[i] = by_place(strip, layer, soil, middle, i);
     slices_.tan_phi[i] = soil.tan_phi;
+    if (soil.of_snapshot) take_snapshot(*soil.of_snapshot, middle, i);
     const double flat = slices_.length[i] * slices_.cos_a[i];
     slices_.force[i] =
-        (slices_.c[i] * flat + (slices_.weight[i] - u * flat) * soil.tan_phi) * slices_.lever[i];
+        (slices_.c[i] * flat + (slices_.weight[i] - slices_.u[i] * flat) * slices_.tan_phi[i]) *
+        slices_.lever[i];
 }
 
 /// Part of s_u that increases with the vertical effective stress below soil and free water.
@@ -126,6 +130,16 @@ double SliceMaker::by_place(const Strip& strip, const Layer& layer, const Soil& 
     const materials::Place place{ground.at(x) - y, y, weight - u};
     return soil.factor * (soil.by_state ? (*soil.by_state)(place, u)
                                         : materials::strength_at(*soil.profile, place).c);
+}
+
+/// Excess pressure is at most the whole weight: what the FEM has above that is inertia.
+void SliceMaker::take_snapshot(const SnapshotStrength& snapshot, double x, std::size_t i) {
+    const SnapshotStrength::Place* found = snapshot.at({x, slices_.base[i]});
+    if (!found) return;
+    slices_.c[i] = found->c;
+    slices_.tan_phi[i] = found->tan_phi;
+    const double most = slices_.weight[i] / slices_.width[i];
+    slices_.u[i] = std::max(slices_.u[i], std::min(slices_.u[i] + found->excess, most));
 }
 
 /// Adds the weight of free water and its thrust on the slope; returns the thrust's moment over R.

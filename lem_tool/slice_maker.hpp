@@ -78,6 +78,7 @@ class SliceMaker {
                      std::size_t i) const;
     double by_place(const Strip& strip, const Layer& layer, const Soil& soil, double x,
                     std::size_t i) const;
+    void take_snapshot(const SnapshotStrength& snapshot, double x, std::size_t i);
     double add_free_water(const Strip& strip, std::size_t i, const Chord& ends);
 
     const Strata& strata_;

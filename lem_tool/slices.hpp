@@ -17,6 +17,8 @@ namespace breach::lem {
 /// The end of a surface at a vertical crack.
 enum class CrackAt { none, left, right };
 
+class SnapshotStrength;
+
 /// Strength of a region in limit equilibrium: c + coefficient (sigma'_v0 / p_a)^exponent.
 struct Soil {
     enum class Passage {
@@ -33,7 +35,8 @@ struct Soil {
     std::optional<std::size_t> line{};  ///< index into Strata::lines; none: dry
     std::shared_ptr<const materials::StrengthCurve> profile{};      ///< s_u by place, replaces c
     std::shared_ptr<const materials::UndrainedByPlace> by_state{};  ///< s_u by the law, replaces c
-    double factor = 1.0;                        ///< multiplies s_u of profile or law [-]
+    double factor = 1.0;  ///< multiplies s_u of profile or law [-]
+    std::shared_ptr<const SnapshotStrength> of_snapshot{};  ///< within its mesh replaces all these
     std::shared_ptr<const Soil> above_water{};  ///< liquefied soil: strength above its water line
 };
 

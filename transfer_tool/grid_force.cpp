@@ -99,7 +99,8 @@ class GridOnce {
         const double h = mpm_.cell_size;
         const double x = mpm_.domain_x[0] + h * static_cast<double>(column);
         const double y = mpm_.floor.level + h * static_cast<double>(row);
-        if (!mpm_.terrain.empty() && y < level_at(mpm_.terrain, x) + h) return Vec2::Zero();
+        if (!mpm_.terrain.empty() && y < geometry::level_at(mpm_.terrain, x) + h)
+            return Vec2::Zero();
         const bool walled = (column <= 0 && mpm_.left != scene::Wall::open) ||
                             (column >= columns_ && mpm_.right != scene::Wall::open);
         const bool fixed = (column <= 0 && mpm_.left == scene::Wall::fixed) ||

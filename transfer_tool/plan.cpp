@@ -51,7 +51,7 @@ PlanLine stress_line(const scene::Scene& scene) {
                 "the scene's FEM has no water; a snapshot with water is carried all the same",
                 "/fem/water"};
     const auto stays_effective = [&](const scene::Material* material) {
-        return measure_for(material->law, scene) == exchange::StressMeasure::effective;
+        return liquefied::measure_for(material->law, scene) == exchange::StressMeasure::effective;
     };
     if (std::ranges::none_of(materials_of_points(scene), stays_effective))
         return {"pore pressure", Use::on, "all points get the total stress sigma' - u I",
@@ -72,7 +72,7 @@ PlanLine cells_line(const scene::Transfer& settings) {
 }
 
 PlanLine collapse_line(const scene::Scene& scene) {
-    if (!judged_by(scene).state)
+    if (!liquefied::judged_by(scene).state)
         return {"strengths of NorSand", Use::left_out, "no region of it is to liquefy",
                 "/transfer/liquefied/regions"};
     return {"strengths of NorSand", Use::on,
@@ -81,7 +81,7 @@ PlanLine collapse_line(const scene::Scene& scene) {
 }
 
 PlanLine liquefied_line(const scene::Scene& scene, const scene::Transfer& settings) {
-    if (!judged_by(scene).pressure)
+    if (!liquefied::judged_by(scene).pressure)
         return {"liquefied layers", Use::left_out, "the scene names none", "/transfer/liquefied"};
     if (settings.liquefied->by == scene::LiquefiedBy::point)
         return {"liquefied layers", Use::on,

@@ -60,7 +60,7 @@ void carry_ratio(const MeshSnapshot& mesh, std::size_t e, Points& points) {
     const Eigen::Vector4d sigma_v0 = corner_values(mesh.sigma_v0, mesh.quads[e]);
     for (std::size_t p = points.first[e]; p < points.first[e + 1]; ++p) {
         const Eigen::Vector4d N = shape_functions(points.xi[p]);
-        points.state.r_u[p] = pore_pressure_ratio(d_u.dot(N), sigma_v0.dot(N));
+        points.state.r_u[p] = liquefied::pore_pressure_ratio(d_u.dot(N), sigma_v0.dot(N));
     }
 }
 
@@ -96,10 +96,6 @@ void carry_nodal_fields(const MeshSnapshot& mesh, Points& points) {
         if (!mesh.pore_pressure.empty()) carry_water(mesh, e, points);
         if (!mesh.sigma_v0.empty()) carry_ratio(mesh, e, points);
     }
-}
-
-double pore_pressure_ratio(double d_u, double sigma_v0) {
-    return sigma_v0 > 0.0 ? d_u / sigma_v0 : 0.0;
 }
 
 }  // namespace breach::transfer

@@ -34,7 +34,4 @@ Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> sha
 /// alternating parts.
 void carry_nodal_fields(const exchange::MeshSnapshot& mesh, Points& points);
 
-/// (u - u_0) / sigma'_v0 [-]; 0 if sigma_v0 is not positive.
-double pore_pressure_ratio(double d_u, double sigma_v0);
-
 }  // namespace breach::transfer

@@ -83,7 +83,7 @@ nlohmann::json rebuilt_as_json(const std::vector<RebuiltElement>& rebuilt) {
 }
 
 std::string collapse_criterion(const CollapseReport& collapse) {
-    return "eta / eta_L >= " + words::text_of(instability) + " and epsilon_q > " +
+    return "eta / eta_L >= " + words::text_of(liquefied::instability) + " and epsilon_q > " +
            words::text_of(collapse.epsilon_q);
 }
 

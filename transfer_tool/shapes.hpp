@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/exchange/mesh_snapshot.hpp"
-#include "core/geometry/quad.hpp"
+#include "core/liquefied/elements.hpp"
 #include "core/scene/scene.hpp"
 
 namespace breach::transfer {
@@ -19,19 +19,12 @@ using geometry::integral;
 using geometry::jacobian;
 using geometry::shape_functions;
 using geometry::shape_gradients;
+using liquefied::corner_values;
+using liquefied::undeformed_corners;
 using mechanics::Matrix2;
 using mechanics::Vec2;
 
-/// A nodal field at an element's corners, in columns.
-Corners corner_values(const std::vector<Vec2>& field, const std::array<std::int32_t, 4>& quad);
-Eigen::Vector4d corner_values(const std::vector<double>& field,
-                              const std::array<std::int32_t, 4>& quad);
-
-Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 Corners deformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
-
-/// Horizontal displacement of the mesh's lowest node, the leftmost of several [m].
-double displacement_of_base(const exchange::MeshSnapshot& mesh);
 
 /// Nodal pressure [Pa] at the corners of an element of shape x, as it acts in the FEM's forces:
 /// without the part that alternates between corners. The mean and a pressure linear in x are

@@ -45,7 +45,7 @@ std::optional<LiquefactionReport> liquefaction_of(const SoilMap& map,
     LiquefactionReport report{liquefied_shares(map, mesh, points), std::nullopt};
     if (report.share.empty()) return std::nullopt;
     if (map.columns()) {
-        const LiquefiedZone& zone = *map.columns();
+        const liquefied::LiquefiedZone& zone = *map.columns();
         const scene::LiquefiedWhen when =
             mesh.excess_pressure_max.empty() ? scene::LiquefiedWhen::at_transfer : asked;
         report.columns = {when, zone.liquefied_nodes(), zone.deepest_level(), zone.closed_width(),
@@ -90,14 +90,14 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.softening = softening_of(laws, points.state);
     if (settings.liquefied)
         t.liquefaction = liquefaction_of(map, mesh, points, settings.liquefied->when);
-    t.collapse = map.collapse_report(points);
+    t.collapse = collapse_report(map, points);
     t.state = std::move(points.state);
     // For /mpm/shaking: the runout's ground moves on with it.
     t.state.base_motion = mesh.base_motion;
     t.state.steady_pressure = map.steady_pressure();
     if (settings.base_displacement == scene::BaseDisplacement::subtracted) {
         // After the ledger, which compares with the mesh where it is.
-        t.base_displacement = displacement_of_base(mesh);
+        t.base_displacement = liquefied::displacement_of_base(mesh);
         for (mechanics::Vec2& place : t.state.position) place.x() -= t.base_displacement;
     }
     return t;

@@ -90,6 +90,25 @@ void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std:
              residual_entry(scene, ground, r, region, range) + "} in its order from the top down");
 }
 
+/// One flag for a LEM without layers, however many regions liquefy.
+void warn_about_sound_lem(const scene::Scene& scene, const scene::Ground& ground,
+                          const std::vector<std::size_t>& liquefied,
+                          const std::vector<RegionStrengths>& strengths, Problems& problems) {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    std::string names, layers;
+    for (const std::size_t r : liquefied) {
+        names += (names.empty() ? "" : ", ") + quoted(strengths[r].name());
+        layers += (layers.empty() ? "" : ", ") + std::string("{\"region\": ") +
+                  quoted(strengths[r].name()) + ", " +
+                  residual_entry(scene, ground, r, strengths[r], {-any, any}) + "}";
+    }
+    warn(problems, "layers_differ", "/lem/liquefaction",
+         "has no layer, and soil of " + names +
+             " liquefies in the runout: the LEM's factor of safety is that of the sound dam; " +
+             (scene.fem ? "give the study \"post_seismic\": true, or " : "") +
+             "add, in their order from the top down, [" + layers + "]");
+}
+
 void warn_about_runout(const scene::Scene& scene, const RegionStrengths& region,
                        Problems& problems) {
     warn(problems, "layers_differ", scene.fem ? "/transfer/liquefied" : "/transfer/mapping",
@@ -255,14 +274,18 @@ void check_agreement(const scene::Scene& scene, Problems& problems) {
         strengths.emplace_back(scene, ground, r);
     check_dry_lem(scene, strengths, problems);
     if (!scene.mpm) return;
+    std::vector<std::size_t> sound;
     for (std::size_t r = 0; r < strengths.size(); ++r) {
         const RegionStrengths& region = strengths[r];
         const auto liquefies = region.liquefied_in_runout();
-        if (liquefies && !region.is_undrained_in_lem())
+        if (liquefies && !region.is_undrained_in_lem() && scene.lem->liquefaction.empty())
+            sound.push_back(r);
+        else if (liquefies && !region.is_undrained_in_lem())
             warn_about_lem(scene, ground, r, region, *liquefies, problems);
         else if (region.is_liquefied_in_lem() && !region.is_weak_in_runout())
             warn_about_runout(scene, region, problems);
     }
+    if (!sound.empty()) warn_about_sound_lem(scene, ground, sound, strengths, problems);
 }
 
 }  // namespace breach::check

@@ -48,6 +48,18 @@ Eigen::Vector4d corner_jacobians(const Corners& x) {
 
 // In one direction the two linear functions (1 -+ xi)/2 give 2/3 (same) or 1/3 (different) for a
 // product of two, and 1/2 (all the same) or 1/6 for a product of three.
+std::optional<Vec2> natural_coordinates(const Corners& x, const Vec2& place) {
+    constexpr double rounding = 1e-6;
+    Vec2 xi = Vec2::Zero();
+    for (int i = 0; i < 12; ++i) {  // Newton; one step for a parallelogram
+        const Matrix2 J = jacobian(x, xi);
+        if (!(std::abs(J.determinant()) > 0.0)) return std::nullopt;
+        xi -= J.inverse() * (x * shape_functions(xi) - place);
+    }
+    if (!(xi.cwiseAbs().maxCoeff() <= 1.0 + rounding)) return std::nullopt;
+    return xi;
+}
+
 double integral(int i, int k) {
     const auto along = [](int a, int b) { return a == b ? 2.0 / 3.0 : 1.0 / 3.0; };
     return along(side_xi[i], side_xi[k]) * along(side_eta[i], side_eta[k]);

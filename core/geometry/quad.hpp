@@ -2,6 +2,7 @@
 // products of shape functions. Corners counter-clockwise, natural coordinates (xi, eta) in [-1, 1].
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/mechanics/tensor.hpp"
@@ -21,6 +22,9 @@ Matrix2 jacobian(const Corners& x, const Vec2& xi);
 /// J at the four corners [m2]. J is linear in xi and eta, so these are its extremes and J = sum N_k
 /// J_k exactly.
 Eigen::Vector4d corner_jacobians(const Corners& x);
+
+/// Where in the quad a place lies; none: outside it, by more than round-off.
+std::optional<Vec2> natural_coordinates(const Corners& x, const Vec2& place);
 
 /// Integral over [-1, 1]^2 of N_i N_k, and of N_i N_j N_k; exact.
 double integral(int i, int k);

@@ -23,10 +23,10 @@ struct Instability {
 /// Undrained shear strength [Pa]: c of an equivalent Mohr-Coulomb soil with phi = 0.
 struct UndrainedStrength {
     double peak;      ///< largest on the path, its start included
-    double critical;  ///< at the critical state of the void ratio; at most the peak
+    double residual;  ///< at the path's minimum or at the critical state; at most the peak
 };
 
-/// Which strength of an undrained path: its largest shear stress, or that of the critical state.
+/// Which strength of an undrained path.
 enum class OnPath { peak, residual };
 /// Undrained strength [Pa] at a place of level ground with the pore pressure u [Pa].
 using UndrainedByPlace = std::function<double(const Place&, double u)>;
@@ -41,7 +41,7 @@ template <class Law>
 concept AnswersForStateParameter = Remembers<Law> &&
     requires(const Law& law, Law& own, const typename Law::Memory& memory,
              std::span<const typename Law::Memory> memories, std::span<const double> bounds,
-             const Voigt& sigma, double number, const Place& place, OnPath part) {
+             std::span<const Voigt> sigmas, double number, const Place& place, OnPath part) {
     /// psi of level ground consolidated under sigma'_v0 [-].
     { psi_at(law, place) } -> std::same_as<double>;
     { instability(law, memory) } -> std::same_as<Instability>;
@@ -49,8 +49,10 @@ concept AnswersForStateParameter = Remembers<Law> &&
     { least_mean_stress(law) } -> std::same_as<double>;
     /// In plane strain, from each memory; at most the critical strength at the bound of p' [Pa].
     { undrained_strengths(law, memories, bounds) } -> std::same_as<std::vector<UndrainedStrength>>;
-    /// In plane strain, for a point with stress sigma, state parameter psi and pore pressure u.
-    { undrained_strength(law, sigma, number, number) } -> std::same_as<UndrainedStrength>;
+    /// In plane strain, for points with stresses, state parameters and pore pressures.
+    {
+        undrained_strengths(law, sigmas, bounds, bounds)
+        } -> std::same_as<std::vector<UndrainedStrength>>;
     /// In simple shear, for level ground.
     { undrained_by_place(law, part) } -> std::same_as<UndrainedByPlace>;
     /// Sets S, the additional softening of undrained soil [-].

@@ -1,4 +1,4 @@
-// The four phases: program, part of the scene, names for display. Services, dashboard and report
+// The phases: program, part of the scene, names for display. Services, dashboard and report
 // use this table.
 #pragma once
 
@@ -9,13 +9,14 @@
 namespace breach::phases {
 
 struct Phase {
-    const char* program;   ///< the executable; also its name in records, results and the API
-    const char* part;      ///< its part of the scene, and the prefix of its tasks' labels
+    const char* program;   ///< its name in records, results and the API
+    const char* part;      ///< its own part of the scene, if any, and the prefix of its labels
     const char* one;       ///< "the FEM"
     const char* analyses;  ///< plural of the analysis
     const char* results;   ///< plural of the result
     const char* frames;    ///< what its snapshots show: "mesh", "particles"
-    bool has_default_part = false;  ///< a scene without this part gets it by default
+    bool has_default_part = false;     ///< a scene without this part gets it by default
+    const char* executable = program;  ///< one program may be two phases
 };
 
 inline constexpr Phase lem{
@@ -25,9 +26,17 @@ inline constexpr Phase fem{"fem_solver", "fem", "the FEM", "FEM analyses", "FEM 
 inline constexpr Phase transfer{
     "transfer_tool", "transfer", "the transfer", "transfers", "transfers", "particles", true};
 inline constexpr Phase mpm{"mpm_solver", "mpm", "the runout", "runouts", "runouts", "particles"};
+/// lem_tool on the snapshots of a FEM: stability with the strengths that the shaking has left.
+inline constexpr Phase post_seismic{.program = "post_seismic",
+                                    .part = "postseismic",
+                                    .one = "the post-seismic stability",
+                                    .analyses = "post-seismic stability analyses",
+                                    .results = "post-seismic factors of safety",
+                                    .frames = "particles",
+                                    .executable = "lem_tool"};
 
 /// In the order of their dependence.
-inline constexpr std::array all{lem, fem, transfer, mpm};
+inline constexpr std::array all{lem, fem, post_seismic, transfer, mpm};
 
 constexpr const Phase* named(std::string_view program) {
     const auto found = std::ranges::find(all, program, &Phase::program);

@@ -26,6 +26,12 @@ struct Reading {
 const std::map<std::string_view, Reading> readings{
     {lem.program, {{"/gravity", "/lem"}, Materials::of_regions, Regions::whole}},
     {fem.program, {{"/gravity", "/thickness", "/fem"}, Materials::of_regions, Regions::whole}},
+    // All of the FEM: its series of snapshots does not tell one FEM from another.
+    {post_seismic.program,
+     {{"/gravity", "/thickness", "/lem", "/fem", "/transfer/mapping", "/transfer/phreatic_line",
+       "/transfer/liquefied", "/mpm/water"},
+      Materials::all,
+      Regions::whole}},
     {transfer.program,
      {{"/gravity", "/transfer", "/mpm/cell_size", "/mpm/domain_x", "/mpm/domain_y", "/mpm/left",
        "/mpm/right", "/mpm/floor", "/mpm/water", "/mpm/terrain", "/mpm/gimp_half_size"},
@@ -86,7 +92,7 @@ void copy(const std::vector<std::string>& parts, const json& scene, json& known)
 
 /// The phases that provide its input.
 std::vector<Phase> before(const Phase& phase, const json& scene) {
-    if (is(phase, transfer)) return {fem};
+    if (is(phase, transfer) || is(phase, post_seismic)) return {fem};
     if (is(phase, mpm) && scene.contains("fem")) return {fem, transfer};
     return {};
 }
@@ -108,7 +114,8 @@ json scene_known_to(const Phase& phase, const json& scene) {
     for (const Phase& each : before(phase, scene))
         copy(reading_of(each, scene).parts, scene, known);
     copy(reading_of(phase, scene).parts, scene, known);
-    if (scene.contains("mpm") && is(phase, transfer)) known["mpm"] = scene.at("mpm");
+    if (scene.contains("mpm") && (is(phase, transfer) || is(phase, post_seismic)))
+        known["mpm"] = scene.at("mpm");
     return known;
 }
 

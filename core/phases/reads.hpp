@@ -6,6 +6,8 @@
 //                    FEM's steps end on them)
 //     transfer_tool  /gravity /materials /transfer, the grid of /mpm, names and materials of
 //                    /section/regions
+//     post_seismic   /gravity /thickness /materials /section /lem /fem, the soils of /transfer,
+//                    /mpm/water
 //     mpm_solver     /gravity /thickness /materials /mpm, names and materials of /section/regions
 //                    (the shapes come with the particles); without a FEM /transfer and all of
 //                    /section
@@ -23,7 +25,7 @@ namespace breach::phases {
 nlohmann::json part_read_by(const Phase& phase, const nlohmann::json& scene);
 
 /// The scene reduced to what this phase and those before it read: all that its result depends on.
-/// For the transfer it includes all of /mpm, because a part of its grid alone would be invalid.
+/// After a FEM it includes all of /mpm, because a part of its grid alone would be invalid.
 nlohmann::json scene_known_to(const Phase& phase, const nlohmann::json& scene);
 
 }  // namespace breach::phases

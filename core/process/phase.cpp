@@ -105,6 +105,7 @@ ParsedArguments parse(int argc, char** argv, const Phase& phase) {
     if (progress == "json") a.settings.progress = ProgressStyle::json;
     if (progress == "bar" || (progress == "auto" && terminal))
         a.settings.progress = ProgressStyle::bar;
+    if (phase.with_input && !a.settings.inputs.empty()) a.settings.phase = phase.with_input;
     if (a.measure && a.question != Question::plan)
         return usage_fault("--measure belongs to --plan");
     // A plan needs neither inputs nor a folder: the service asks for it before they exist.
@@ -268,7 +269,7 @@ Cost measured(const Phase& phase, const Arguments& arguments, const scene::Scene
     return phase.measure(session);
 }
 
-/// The part of /mpm that the transfer reads.
+/// The part of /mpm that the phases after a FEM read.
 scene::Mpm grid_alone(const scene::Mpm& mpm) {
     scene::Mpm grid{};
     grid.cell_size = mpm.cell_size;
@@ -285,16 +286,17 @@ scene::Mpm grid_alone(const scene::Mpm& mpm) {
 
 /// The scene reduced to what a phase reads, so that no result can depend on the rest. Provenance
 /// has the whole text.
-scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
+scene::Scene what_it_reads(const std::string& phase, const scene::Scene& scene,
                            const std::filesystem::path& file) {
-    const phases::Phase* named = phases::named(phase.name);
+    const phases::Phase* named = phases::named(phase);
     if (named == nullptr) return scene;
     scene::Reading known =
         scene::read_document(phases::scene_known_to(*named, json::parse(scene.completed)),
                              file.string(), file.parent_path(), {});
     if (!known.faults.empty()) throw fault::BadInput(file.string(), std::move(known.faults));
     known.scene.completed = scene.completed;
-    if (phase.name == phases::transfer.program) {  // its scene's motion file may be absent
+    // After a FEM, when the scene's motion file may be absent.
+    if (phase == phases::transfer.program || phase == phases::post_seismic.program) {
         if (known.scene.mpm) known.scene.mpm = grid_alone(*known.scene.mpm);
         return std::move(known.scene);
     }
@@ -305,7 +307,7 @@ scene::Scene what_it_reads(const Phase& phase, const scene::Scene& scene,
 
 ExitCode answer(const Phase& phase, Arguments& arguments, json& known) {
     const scene::Scene whole = phase.read(arguments.scene, arguments.settings.overrides);
-    scene::Scene scene = what_it_reads(phase, whole, arguments.scene);
+    scene::Scene scene = what_it_reads(arguments.settings.phase, whole, arguments.scene);
     if (arguments.question == Question::none)
         return simulate(phase, arguments, std::move(scene), known);
     const Plan plan = phase.plan(scene);

@@ -49,6 +49,8 @@ struct Phase {
     int numerics = 0;
     /// Takes a few steps in the session's folder, which is removed afterwards. Empty: no --measure.
     std::function<Cost(Session&)> measure = {};
+    /// Its name in phases::all when it has an --input, if that makes it another phase.
+    const char* with_input = nullptr;
 };
 
 /// Parses the arguments, reads the scene, runs the phase, maps exceptions to exit codes

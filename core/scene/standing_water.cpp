@@ -3,31 +3,12 @@
 // pressure: a line drawn through a core presses too hard there.
 #include "core/scene/standing_water.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "core/geometry/polyline.hpp"
 #include "core/geometry/quad.hpp"
 
 namespace breach::scene {
-
-namespace {
-
-/// The value of a quad's field at a place inside it (within round-off); none outside.
-std::optional<double> value_at(const geometry::Corners& x, const Eigen::Vector4d& value,
-                               const Vec2& place) {
-    constexpr double rounding = 1e-6;
-    Vec2 xi = Vec2::Zero();
-    for (int i = 0; i < 12; ++i) {  // Newton; one step for a parallelogram
-        const mechanics::Matrix2 J = geometry::jacobian(x, xi);
-        if (!(std::abs(J.determinant()) > 0.0)) return std::nullopt;
-        xi -= J.inverse() * (x * geometry::shape_functions(xi) - place);
-    }
-    if (!(xi.cwiseAbs().maxCoeff() <= 1.0 + rounding)) return std::nullopt;
-    return value.dot(geometry::shape_functions(xi));
-}
-
-}  // namespace
 
 double highest_level(const Pool& pool, double from, double to) {
     double highest =
@@ -77,7 +58,8 @@ StandingWater::StandingWater(const Scene& scene, const mechanics::NodalField& st
         const auto [low, high] = range(1, rows_);
         for (std::int64_t i = left; i <= right; ++i)
             for (std::int64_t j = low; j <= high; ++j)
-                if (const auto u = value_at(x, value, place(i, j))) node(i, j) = *u;
+                if (const auto xi = geometry::natural_coordinates(x, place(i, j)))
+                    node(i, j) = value.dot(geometry::shape_functions(*xi));
     }
 }
 

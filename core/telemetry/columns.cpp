@@ -77,6 +77,10 @@ constexpr std::array run_table{
            "depth of the slip surface with the least factor of safety as layers liquefy, no deeper "
            "than they; 0 when it is below 1 before any does (lem_tool)",
            Needs::nothing, 0.0},
+    Column{
+        "post_seismic_factor", "1",
+        "factor of safety with the strengths of the latest snapshot, residual where the soil has "
+        "liquefied (lem_tool, with \"post_seismic\" in the study)"},
 };
 
 }  // namespace

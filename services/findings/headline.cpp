@@ -81,6 +81,9 @@ Headline headline_of(const HeadlineFacts& facts) {
     if (facts.factor_of_safety_liquefied)
         headline.text +=
             ", " + words::text_of(*facts.factor_of_safety_liquefied, digits) + " liquefied";
+    if (facts.factor_of_safety_post_seismic)
+        headline.text += ", " + words::text_of(*facts.factor_of_safety_post_seismic, digits) +
+                         " after the shaking";
     return headline;
 }
 

@@ -27,8 +27,9 @@ std::optional<Soil> soil_of(const nlohmann::json& result);
 
 struct HeadlineFacts {
     std::optional<Soil> soil = {};
-    std::optional<double> factor_of_safety = {};            ///< least, as built
-    std::optional<double> factor_of_safety_liquefied = {};  ///< of the same analysis
+    std::optional<double> factor_of_safety = {};               ///< least, as built
+    std::optional<double> factor_of_safety_liquefied = {};     ///< of the same analysis
+    std::optional<double> factor_of_safety_post_seismic = {};  ///< after the shaking
     bool stood_in_fem = false;  ///< every FEM ended without a failure and without a transfer
     bool lem_alone = false;     ///< the run has stability analyses only
 };

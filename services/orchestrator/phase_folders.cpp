@@ -33,7 +33,7 @@ json read_if_there(const fs::path& file) {
 
 namespace {
 
-/// The order of the table of phases is that of the chain: lem, fem, transfer, mpm.
+/// The order of the table of phases is that of the chain: lem, fem, post_seismic, transfer, mpm.
 std::size_t rank_of(const std::string& phase) {
     const auto found = std::ranges::find(phases::all, phase, &phases::Phase::program);
     return static_cast<std::size_t>(found - phases::all.begin());
@@ -60,7 +60,7 @@ void read_label(TaskPlan& plan) {
         plan.variant = rest.substr(next + 1);
     }
     // These have no transfer time; a number in their name is the variant's.
-    if (plan.phase == phases::fem.program || plan.phase == phases::lem.program)
+    if (plan.phase != phases::transfer.program && plan.phase != phases::mpm.program)
         plan.transfer_time.reset();
 }
 

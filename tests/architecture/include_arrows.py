@@ -26,6 +26,7 @@ core = {
     "core/materials": {"core/mechanics"},
     "core/grid": {"core/materials"},
     "core/scene": {"core/fault", "core/geometry", "core/grid", "core/materials", "core/mechanics", "core/words"},
+    "core/liquefied": {"core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/scene", "core/words"},
     "core/exchange": {"core/fault", "core/mechanics", "core/words"},
     "core/motion": {"core/fault", "core/words"},
     "core/check": {"core/criteria", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/scene", "core/telemetry", "core/words"},

@@ -86,7 +86,11 @@ class Stand : public httplib::Server {
                    earlier_costs_,
                    keys_,
                    folder_.path(),
-                   {{"lem_tool", 1}, {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}},
+                   {{"lem_tool", 1},
+                    {"fem_solver", 1},
+                    {"post_seismic", 1},
+                    {"transfer_tool", 1},
+                    {"mpm_solver", 1}},
                    BREACH_ROOT "/services/web/static",
                    BREACH_ROOT "/workflows"} {
         spdlog::set_level(spdlog::level::off);

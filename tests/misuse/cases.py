@@ -187,7 +187,7 @@ cases = [
          {f"/materials/liquefied_{i}/law/softening/c_residual_kPa": c / 20 for i, c in enumerate([3, 5.6, 7.4, 9.1, 10.6], 1)}),
     Case("a liquefied layer missing in the LEM", M, "warned", r"leaves out a part of \"tailings\".*\"levels\": \[11\.76, 17\.64\], \"residual_strength_kPa\": 7\.\d",
          drops=["/lem/liquefaction/2"]),
-    Case("no liquefied layers in the LEM", M, "warned", r"has no layer of \"tailings\"", drops=["/lem/liquefaction"]),
+    Case("no liquefied layers in the LEM", M, "warned", r"has no layer, and soil of \"tailings\"", drops=["/lem/liquefaction"]),
     Case("a liquefied layer missing in the runout", M, "warned", r"/transfer/liquefied: does not liquefy \"tailings\"", drops=["/transfer/liquefied"]),
     Case("a runout of 0.5 s", M, "warned", r"mpm/duration: is 0\.5 s.*--set /mpm/duration=until_rest", {"/mpm/duration": 0.5}),
     Case("a time limit of 1 s", M, "warned", r"mpm/longest_duration: is 1 s", {"/mpm/longest_duration": 1}),

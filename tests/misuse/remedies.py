@@ -151,5 +151,5 @@ without = {
     "kinked_without_friction": "the factor to use is in the same result",
     "starts_outside": "of an element test, which has no --set", "drained_softening": "S stays where the stage is undrained",
     "strength_of_floor": "of an element test, which has no --set", "clipped_overconsolidation": "of an element test, which has no --set",
-    "liquefied_gap": "after a FEM of minutes: followed in tests/unit/transfer/liquefied_zone_test.cpp",
+    "liquefied_gap": "after a FEM of minutes: followed in tests/unit/liquefied/liquefied_zone_test.cpp",
 }

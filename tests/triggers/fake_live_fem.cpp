@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
         if (due) publish(options.output / ("snapshot_" + spelt(t) + ".vtkhdf"), spelt(t));
         pause();
     }
+    publish(options.output / "frames.vtkhdf.series", "{}");
     publish(options.output / "result.json", R"({"phase":"fem_solver"})");
     return 0;
 }

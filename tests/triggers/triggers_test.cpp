@@ -556,6 +556,44 @@ TEST(Trigger, TakesTheCriticalDepthOfItsOwnVariant) {
         << "equal FEMs are computed once";
 }
 
+TEST(Trigger, TakesTheFactorOfItsSnapshotsWhenTheFemHasEnded) {
+    const Live live;
+    const auto program = live.sandbox.bin() / "lem_tool";
+    std::filesystem::remove(program);
+    std::ofstream(program) << R"sh(#!/bin/sh
+while [ $# -gt 0 ]; do
+    case "$1" in
+        --version) printf 'lem_tool 0\nnumerics 1\n'; exit 0 ;;
+        --output) out=$2 ;;
+        --input) [ -e "$2" ] || exit 74 ;;
+    esac
+    shift
+done
+mkdir -p "$out"
+rows='{"time":0.5,"factor_of_safety":1.4},{"time":1.0,"factor_of_safety":1.1},{"time":1.5,"factor_of_safety":0.9}'
+printf '{"phase":"post_seismic","factor_of_safety":0.9,"after_shaking":[%s]}' "$rows" > "$out/result.json"
+)sh";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    Service service(live.sandbox);
+    json wanted = of_two_depths({{{"kind", "criterion"},
+                                  {"when", "post_seismic_factor < 1"},
+                                  {"snapshot_interval_s", 0.5}}});
+    wanted["stability"] = false;
+    wanted.erase("variants");
+    const json refused = service.post("/v1/runs", wanted.dump()).body;
+    EXPECT_EQ(refused.at("faults").at(0).at("pointer"), "/triggers/0/when") << refused;
+    wanted["post_seismic"] = true;
+    const std::string run = service.submit(wanted);
+    const json trigger = settled(service, run).at(0);
+    ASSERT_EQ(trigger.at("state"), "fired") << trigger;
+    EXPECT_NEAR(trigger.at("firings")[0].at("transfer_time"), 1.5, 1e-6);
+    EXPECT_EQ(trigger.at("firings")[0].at("crossed").at("post_seismic_factor"), 0.9);
+    const json rows = service.table(run);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].at("factor_of_safety_post_seismic"), 0.9) << rows;
+    EXPECT_EQ(count_tasks(service, run, "post_seismic"), 1);
+}
+
 TEST(Trigger, AStabilityAnalysisThatFailedIsNoDamThatStandsAndTheRetryDecides) {
     const Live live;
     make_depths(live);
@@ -572,7 +610,7 @@ TEST(Trigger, AStabilityAnalysisThatFailedIsNoDamThatStandsAndTheRetryDecides) {
     const json expired = triggers_of(service, run).at(0);
     EXPECT_EQ(expired.at("state"), "expired") << expired;
     EXPECT_TRUE(expired.at("reason").get<std::string>().starts_with(
-        "its stability analysis gave no critical depth ("))
+        "its stability analysis gave no critical_depth ("))
         << expired;
     EXPECT_TRUE(expired.at("result").is_null()) << expired;
     const json missing = service.get("/v1/runs/" + run + "/results").body.at("without_transfer");

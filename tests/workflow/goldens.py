@@ -8,6 +8,7 @@ Before a change of structure: record twice and compare. After it: record and com
 import csv
 import difflib
 import hashlib
+import html
 import json
 import pathlib
 import re
@@ -25,7 +26,7 @@ reports = ["slope_sweep", "slopes", "column_draws", "column_aspects", "static_li
 fleeting = {"id", "run", "task", "tasks", "created", "started", "finished", "seq", "sha256", "version"}
 fleeting_parts = re.compile("cpu|wall|seconds|task|memory|_ms$|cost|MB")
 # Words of a page or a table: their numbers are in the CSVs, which are compared by value.
-number_or_id = re.compile(r"\b01[0-9a-z]{24}(-\d+)?|[0-9a-f]{12,}|-?\d[\d.:TZe+-]*(\+[0-9a-f]{8})?|127\.0\.0\.1:\d+")
+number_or_id = re.compile(r"\b\d+\.\d+\.\d+\+[0-9a-f]{8}|\b01[0-9a-z]{24}(-\d+)?|[0-9a-f]{12,}|-?\d[\d.:TZe+-]*|127\.0\.0\.1:\d+")
 
 
 def lasting(value):
@@ -35,8 +36,8 @@ def lasting(value):
 
 
 def words_of(text):
-    """Lines of words, with # for what a number or an id is."""
-    lines = (re.sub(r"[ #]+", " ", number_or_id.sub("#", line)).strip() for line in text.splitlines())
+    """Lines of words, with a space for what a number or an id is; the same however a page escapes its signs and keeps words together."""
+    lines = (re.sub(r"[\s#]+", " ", number_or_id.sub("#", line)).strip() for line in html.unescape(text).splitlines())
     return "\n".join(line for line in lines if line)
 
 
@@ -93,7 +94,8 @@ class Recorder:
             subprocess.run([programs / "report", exported, "--output", page], check=True, capture_output=True)
             for each in sorted((pathlib.Path(scratch) / "report_files").glob("*.csv")):
                 self.keep(f"{at}/report/{each.name}", each.read_text())
-            words = re.sub(r"(?s)<(svg|style|script).*?</\1>|<[^>]+>", "\n", page.read_text())
+            together = re.sub(r'<span class="short">(.*?)</span>', r"\1", page.read_text())
+            words = re.sub(r"(?s)<(svg|style|script).*?</\1>|<[^>]+>", "\n", together)
             self.keep(f"{at}/report.txt", words_of(words))
 
 

@@ -75,7 +75,7 @@ double StrengthByState::ratio_from(double psi, double sigma_v0) const {
     const auto begun = beginning(law, {-sigma_h0, -sigma_v0, -sigma_h0, 0.0});
     const auto found =
         norsand::simple_shear_strength(law.ready, begun.state, far * level_ground_p(law, sigma_v0));
-    return (part_ == OnPath::peak ? found.peak : found.critical) / sigma_v0;
+    return (part_ == OnPath::peak ? found.peak : found.residual) / sigma_v0;
 }
 
 double StrengthByState::operator()(const Place& place, double u) const {

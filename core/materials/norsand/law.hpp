@@ -161,12 +161,19 @@ inline std::vector<UndrainedStrength> undrained_strengths(const NorSand& law,
                                                           std::span<const double> bounds) {
     return norsand::undrained_strengths(law.ready, memories, bounds);
 }
-inline UndrainedStrength undrained_strength(const NorSand& law, const Voigt& sigma, double psi,
-                                            double u) {
-    const double p = mean_stress(law, sigma);
-    const double e = psi + norsand::critical_void_ratio(law.ready, p);
-    const auto begun = norsand::initialise(law.ready, sigma, e, 1.0);
-    return norsand::undrained_strength(law.ready, begun.state, p + std::max(u, 0.0));
+inline std::vector<UndrainedStrength> undrained_strengths(const NorSand& law,
+                                                          std::span<const Voigt> sigma,
+                                                          std::span<const double> psi,
+                                                          std::span<const double> u) {
+    std::vector<norsand::State> states;
+    std::vector<double> bounds;
+    for (std::size_t i = 0; i < sigma.size(); ++i) {
+        const double p = mean_stress(law, sigma[i]);
+        const double e = psi[i] + norsand::critical_void_ratio(law.ready, p);
+        states.push_back(norsand::initialise(law.ready, sigma[i], e, 1.0).state);
+        bounds.push_back(p + std::max(u[i], 0.0));
+    }
+    return norsand::undrained_strengths(law.ready, states, bounds);
 }
 /// Interpolates a table that is computed once.
 UndrainedByPlace undrained_by_place(const NorSand& law, OnPath part);

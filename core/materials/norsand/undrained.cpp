@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace breach::materials::norsand {
@@ -13,14 +14,29 @@ namespace {
 
 constexpr double first_step = 1e-4, growth = 1.05, largest_step = 5e-3;  // strain
 constexpr double farthest = 0.3, past = 0.9;                             // strain; of the peak
+constexpr double error = 0.01;  // more than the integration's; of the peak, of critical strength
+constexpr double still = 1e-3;  // of the shear stress, in a step
 
 /// A state on its path.
 struct Sheared {
     Voigt along;  ///< unit strain
-    double peak, most;
+    double now;   ///< shear stress
+    double most, peak = now;
+    double least = std::numeric_limits<double>::infinity();  ///< after a fall
     double step = first_step, gone = 0.0;
+    bool falls = false;   ///< past its peak: what it regains counts no more
+    bool stands = false;  ///< its last step was no fall
 
-    bool goes_on() const { return gone < farthest && peak < most; }
+    bool goes_on() const { return gone < farthest && (falls ? !stands : peak < most); }
+    void goes_to(double shear) {
+        falls = falls || shear < past * peak;
+        stands = shear > (1.0 - still) * now;
+        now = shear;
+        if (!falls) peak = std::max(peak, now);
+        if (now < (1.0 - error) * peak) least = std::min(least, now);
+        step = std::min(growth * step, largest_step);
+        gone += step;
+    }
 };
 
 /// Unit strain of a kind of shear, and its shear stress.
@@ -73,21 +89,21 @@ std::vector<UndrainedStrength> strengths(const Ready& law, const Way& way,
             const std::size_t i = going[k];
             Sheared& sheared = ways[i];
             at[i] = updates[k].state;
-            const double shear = way.shear(at[i]);
-            if (shear < past * sheared.peak) continue;
-            sheared.peak = std::max(sheared.peak, shear);
-            sheared.step = std::min(growth * sheared.step, largest_step);
-            sheared.gone += sheared.step;
+            sheared.goes_to(way.shear(at[i]));
             if (sheared.goes_on()) going[left++] = i;
         }
         going.resize(left);
     }
     std::vector<UndrainedStrength> found;
     for (std::size_t i = 0; i < states.size(); ++i) {
-        const auto& [along, peak, most, step, gone] = ways[i];
+        const Sheared& path = ways[i];
         const double p_c = std::max(critical_pressure(law, states[i].e), law.parameters.p_min);
-        const double held = std::max(std::min(peak, most), way.shear(states[i]));
-        found.push_back({held, std::min({ratio * p_c, most, held})});
+        const double held = std::max(std::min(path.peak, path.most), way.shear(states[i]));
+        const double critical = std::min({ratio * p_c, path.most, held});
+        // Soil that turns below its critical state dilates afterwards, where it is not relied on.
+        // A path at the law's least p' turns nowhere.
+        const bool turned = path.least < (1.0 - error) * critical && !at[i].on_floor;
+        found.push_back({held, turned ? path.least : critical});
     }
     return found;
 }

@@ -1,5 +1,5 @@
-// Undrained strength of a NorSand state in plane strain, and its strength at the critical state of
-// its void ratio.
+// Undrained strength of a NorSand state on its path: peak and residual
+// (docs/reference/methods/norsand.md, section 15).
 #pragma once
 
 #include "core/materials/norsand/norsand.hpp"
@@ -11,8 +11,7 @@ namespace breach::materials::norsand {
 double plane_shear(const State& state);
 
 /// Integrates the law from `state` at constant volume along its in-plane deviator, with the law's
-/// S. Critical: tau = M cos(theta) / sqrt(3) p_c(e) (docs/reference/methods/norsand.md, section
-/// 15). `bound` [Pa]: upper limit of p', at which dilating soil has lowered the pore pressure to 0;
+/// S. `bound` [Pa]: upper limit of p', at which dilating soil has lowered the pore pressure to 0;
 /// strengths are at most the critical strength there.
 UndrainedStrength undrained_strength(const Ready& law, const State& state, double bound);
 /// The same for many states, side by side, with the same bits.

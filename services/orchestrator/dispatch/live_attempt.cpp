@@ -77,7 +77,7 @@ Order order_for(const LiveAttempt& live, const Store& store, const DataFolder& d
                      {"--progress", "json", "--threads", std::to_string(task.resources.cores)});
     if (live.resumes) arguments.emplace_back("--resume");
     return {.attempt = attempt_id(task.id, live.number),
-            .program = settings.bin / task.phase,
+            .program = settings.bin / phases::named(task.phase)->executable,
             .arguments = std::move(arguments),
             .grace_seconds = settings.grace_seconds,
             .cores = task.resources.cores,

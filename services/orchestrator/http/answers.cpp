@@ -49,7 +49,8 @@ json as_json(const LeastFactor& least) {
     return {{"task", least.task},
             {"variant", least.variant},
             {"factor_of_safety", least.factor_of_safety},
-            {"factor_of_safety_liquefied", or_null(least.liquefied)}};
+            {"factor_of_safety_liquefied", or_null(least.liquefied)},
+            {"factor_of_safety_post_seismic", or_null(least.after_shaking)}};
 }
 
 /// Only where no FEM of the run made a runout may "stood" be said of the dam.
@@ -63,6 +64,7 @@ findings::Headline headline_of(const Run& run) {
     if (run.stability) {
         facts.factor_of_safety = run.stability->factor_of_safety;
         facts.factor_of_safety_liquefied = run.stability->liquefied;
+        facts.factor_of_safety_post_seismic = run.stability->after_shaking;
     }
     return findings::headline_of(facts);
 }

@@ -93,18 +93,19 @@ TriggerPlan checked(const Service& service, const std::string& run, const std::s
     return plan;
 }
 
-/// A shared FEM has several critical depths, and a trigger needs one.
+/// A shared FEM has several stability analyses, and a trigger needs one.
 void check_fems(const Service& service, const std::string& run, const TriggerPlan& plan) {
     const RunSoFar so_far{.study = unless_removed(service.store.study_of(run)),
                           .scene = unless_removed(service.store.scene_of(run)),
                           .tasks = service.store.tasks_of(run)};
     if (!shares_fems_too_widely(so_far, service.data, service.numerics, plan)) return;
     throw fault::BadInput(
-        "trigger", {{"",
-                     "asks for critical_depth, and variants with different stability analyses "
-                     "share a FEM of this run: each has a critical depth of its own",
-                     "submit the study with this trigger: such variants then have FEMs of their "
-                     "own"}});
+        "trigger",
+        {{"",
+          "asks for a stability analysis, and variants with different stability analyses share a "
+          "FEM of this run",
+          "submit the study with this trigger: such variants then have FEMs of their "
+          "own"}});
 }
 
 void add(Service& service, Call& call) {

@@ -40,7 +40,7 @@ std::int64_t numerics_of(const std::filesystem::path& program) {
 Numerics numerics_of_phases(const std::filesystem::path& bin) {
     Numerics found;
     for (const phases::Phase& each : phases::all)
-        found[each.program] = numerics_of(bin / each.program);
+        found[each.program] = numerics_of(bin / each.executable);
     return found;
 }
 

@@ -122,7 +122,8 @@ struct LeastFactor {
     std::string task;
     std::string variant;
     double factor_of_safety = 0.0;
-    std::optional<double> liquefied = {};  ///< with every layer liquefied that can liquefy
+    std::optional<double> liquefied = {};      ///< with every layer liquefied that can liquefy
+    std::optional<double> after_shaking = {};  ///< least of the run's post-seismic analyses
 };
 
 struct Run {

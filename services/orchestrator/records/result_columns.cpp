@@ -83,6 +83,9 @@ constexpr std::array columns{
     ResultColumn{"factor_of_safety_liquefied", "", number, "1", "FS liq.",
                  "the same with every layer of /lem/liquefaction at its residual strength; null: "
                  "the scene has none"},
+    ResultColumn{"factor_of_safety_post_seismic", "", number, "1", "FS post",
+                 "with the strengths of the FEM's snapshot at the transfer, residual where the "
+                 "soil has liquefied; null: the study has no post_seismic, or not yet"},
 };
 
 }  // namespace

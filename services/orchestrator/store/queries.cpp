@@ -216,11 +216,12 @@ std::vector<Task> Store::tasks_of(const std::string& run, const std::string& aft
 }
 
 /// The variant's own, else the one for all (variant ''), else any: for triggers and their FEM.
-std::optional<Task> Store::stability_of(const std::string& run, const std::string& variant) const {
+std::optional<Task> Store::stability_of(const std::string& run, const std::string& variant,
+                                        const std::string& phase) const {
     return reader()->first(
         selected_tasks +
             "WHERE run=? AND phase=? ORDER BY variant=? DESC, variant='' DESC, id LIMIT 1",
-        {run, phases::lem.program, variant}, task_from);
+        {run, phase, variant}, task_from);
 }
 
 /// An even choice of at most ?2 tasks of each phase, over its transfer times and variants: place

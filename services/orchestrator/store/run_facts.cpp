@@ -140,13 +140,15 @@ void add_without_transfer(Connection& database, std::vector<Run>& runs) {
 std::optional<LeastFactor> least_factor(Connection& database, const std::string& run) {
     return database.first(
         "SELECT id, variant, json_extract(result, '$.factor_of_safety') AS factor, " +
-            factor_liquefied("result") + R"( AS liquefied
-FROM tasks WHERE run=? AND phase='lem_tool' AND result IS NOT NULL
+            factor_liquefied("result") + R"( AS liquefied,
+    (SELECT min(json_extract(result, '$.factor_of_safety')) FROM tasks
+     WHERE run=?1 AND phase='post_seismic') AS after_shaking
+FROM tasks WHERE run=?1 AND phase='lem_tool' AND result IS NOT NULL
     AND json_extract(result, '$.factor_of_safety') IS NOT NULL
 ORDER BY json_extract(result, '$.factor_of_safety') LIMIT 1)",
         {run}, [](const Row& row) {
             return LeastFactor{row.text("id"), row.text("variant"), row.real("factor"),
-                               row.optional_real("liquefied")};
+                               row.optional_real("liquefied"), row.optional_real("after_shaking")};
         });
 }
 

@@ -104,7 +104,8 @@ class Store {
     std::vector<Task> tasks_of(const std::string& run) const;
     /// The stability analysis of this variant, or of all variants; for a FEM shared by variants
     /// with several analyses, the first one.
-    std::optional<Task> stability_of(const std::string& run, const std::string& variant) const;
+    std::optional<Task> stability_of(const std::string& run, const std::string& variant,
+                                     const std::string& phase) const;
     /// The tasks after the id `after`, in the order of their ids.
     std::vector<Task> tasks_of(const std::string& run, const std::string& after,
                                std::size_t most) const;

@@ -58,6 +58,9 @@ bool depends_on(Connection& database, const Trigger& trigger, const std::set<std
 ORDER BY variant=(SELECT variant FROM tasks WHERE id=?3) DESC, variant='' DESC, id LIMIT 1)",
         {trigger.run, phases::lem.program, trigger.fem_task});
     if (lem && has(*lem)) return true;
+    const auto after = database.text("SELECT id FROM tasks WHERE parent=? AND phase=?",
+                                     {trigger.fem_task, phases::post_seismic.program});
+    if (after && has(*after)) return true;
     return trigger.kind == "bisect" &&
            std::ranges::any_of(
                database.texts(R"(SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm

@@ -68,10 +68,10 @@ const std::string tasks_of_row = "(mpm.id, transfer.id, transfer.parent)";
 const std::string is_questionable = "EXISTS (SELECT 1 FROM flags WHERE flags.task IN " +
                                     tasks_of_row + " AND flags.severity = 'questionable')";
 /// From the variant's own stability analysis, or the shared one.
-std::string of_stability(const std::string& what) {
+std::string of_stability(const std::string& what, const std::string& phase = phases::lem.program) {
     return "(SELECT " + what + R"( FROM tasks AS lem
         WHERE lem.run = mpm.run AND lem.phase = ')" +
-           phases::lem.program + R"('
+           phase + R"('
         AND lem.variant IN (mpm.variant, '') ORDER BY lem.variant DESC LIMIT 1))";
 }
 
@@ -95,6 +95,12 @@ const std::vector<Expression> own_columns{
         WHERE triggers.fem_task = transfer.parent AND firings.snapshot = transfer.input), 'at_time') END)"},
     {"factor_of_safety", of_stability("json_extract(lem.result, '$.factor_of_safety')")},
     {"factor_of_safety_liquefied", of_stability(factor_liquefied("lem.result"))},
+    // A snapshot was written for this very transfer: times in text are equal to a microsecond.
+    {"factor_of_safety_post_seismic",
+     of_stability(R"((SELECT json_extract(row.value, '$.factor_of_safety')
+        FROM json_each(lem.result, '$.after_shaking') AS row
+        WHERE abs(json_extract(row.value, '$.time') - mpm.transfer_time) < 1e-6))",
+                  phases::post_seismic.program)},
     {"questionable", "CASE WHEN mpm.result IS NOT NULL THEN " + is_questionable + " END"},
     {"flags",
      R"(CASE WHEN mpm.result IS NOT NULL THEN coalesce((SELECT group_concat(code, ';') FROM

@@ -68,7 +68,10 @@ class TaskList {
             const bool may_grow = study_.uncertainty.has_value();
             if (for_all && !may_grow) tasks_[i].variant.clear();
             tasks_[i].label = label_of(tasks_[i]);
-            if (for_all && tasks_[i].phase == phases::lem.program) tasks_[i].variant.clear();
+            const bool is_stability = std::ranges::any_of(
+                stability_fields,
+                [&](const StabilityField& each) { return tasks_[i].phase == each.phase; });
+            if (for_all && is_stability) tasks_[i].variant.clear();
             // Without a recipe the cache neither answers a task nor keeps its result.
             if (!study_.reuse) tasks_[i].recipe.clear();
         }
@@ -87,15 +90,7 @@ class TaskList {
 class Planner {
   public:
     Planner(const Study& study, const Numerics& numerics)
-        : study_(study),
-          numerics_(numerics),
-          triggers_ask_for_stability_(
-              study.stability &&
-              std::ranges::any_of(
-                  study.triggers,
-                  [](const TriggerPlan& each) { return asks_for_critical_depth(work_of(each)); })),
-          tasks_(study),
-          open_(study) {}
+        : study_(study), numerics_(numerics), tasks_(study), open_(study) {}
 
     void plan(const Variant& variant) {
         if (study_.reach == Reach::chain) return plan_chain(variant);
@@ -126,10 +121,11 @@ class Planner {
         variant_ = &variant;
         // Recipes from the scene with its snapshots: other times are another FEM for the cache.
         for (const phases::Phase& each : phases::all)
-            if (each.program != std::string_view(phases::lem.program) || study_.stability)
-                recipes_of_variant_[each.program] = recipe(each.program, scene);
+            if (runs(each)) recipes_of_variant_[each.program] = recipe(each.program, scene);
         const std::size_t fem = add_fem(tasks_, std::move(changes));
-        if (study_.stability) add_first(tasks_, phases::lem.program, {}, sharing_of_stability());
+        if (study_.stability)
+            add_first(tasks_, phases::lem.program, {}, sharing_of(phases::lem.program));
+        if (study_.post_seismic) add_post_seismic(fem);
         for (const double time : study_.transfer_times) plan_transfer(tasks_, fem, time);
         plan_transfer(open_, add_fem(open_, {}), std::nullopt);
     }
@@ -142,11 +138,31 @@ class Planner {
         // Requested snapshots do not follow from the scene: never reuse such a FEM.
         if (!study_.triggers.empty() && study_.snapshot_interval <= 0.0)
             for (TaskPlan& each : graph.tasks)
-                if (each.phase == phases::fem.program) each.recipe.clear();
+                if (each.phase == phases::fem.program || each.phase == phases::post_seismic.program)
+                    each.recipe.clear();
         return graph;
     }
 
   private:
+    bool runs(const phases::Phase& phase) const {
+        if (phase.program == std::string_view(phases::lem.program)) return study_.stability;
+        if (phase.program == std::string_view(phases::post_seismic.program))
+            return study_.post_seismic;
+        return true;
+    }
+
+    void add_post_seismic(std::size_t fem) {
+        tasks_.add({.phase = phases::post_seismic.program,
+                    .label = {},
+                    .transfer_time = {},
+                    .parent = fem,
+                    .release = Release::parent_succeeded,
+                    .input = phases::files::series,
+                    .overrides = {},
+                    .recipe = recipes_of_variant_.at(phases::post_seismic.program)},
+                   *variant_, sharing_of(phases::post_seismic.program));
+    }
+
     /// A task that waits for nothing.
     std::size_t add_first(TaskList& list, const std::string& phase,
                           std::vector<std::string> changes, Sharing sharing = Sharing::wanted,
@@ -162,11 +178,17 @@ class Planner {
                         *variant_, sharing, beside);
     }
 
-    /// Where a trigger uses the critical depth, only variants with the same depth share the FEM.
+    /// Where a trigger uses a stability analysis, only variants with the same one share the FEM.
     std::size_t add_fem(TaskList& list, std::vector<std::string> changes) {
-        return add_first(list, phases::fem.program, std::move(changes), Sharing::wanted,
-                         triggers_ask_for_stability_ ? recipes_of_variant_.at(phases::lem.program)
-                                                     : std::string());
+        std::string beside;
+        for (const StabilityField& field : stability_fields) {
+            const bool asked = std::ranges::any_of(study_.triggers, [&](const TriggerPlan& each) {
+                return asks_for(work_of(each), field);
+            });
+            const auto recipe = recipes_of_variant_.find(field.phase);
+            if (asked && recipe != recipes_of_variant_.end()) beside += recipe->second;
+        }
+        return add_first(list, phases::fem.program, std::move(changes), Sharing::wanted, beside);
     }
 
     void plan_transfer(TaskList& list, std::size_t fem, std::optional<double> time) {
@@ -195,16 +217,15 @@ class Planner {
 
     /// One analysis for all variants, or one per variant: with one for some, the other variants
     /// would have none in their rows. The cache avoids computing equal ones twice.
-    Sharing sharing_of_stability() {
-        if (!stability_serves_all_) {
-            const auto of = [&](const Variant& each) {
-                return recipe(phases::lem.program, each.scene);
-            };
+    Sharing sharing_of(const char* stability) {
+        const auto [known, is_new] = serves_all_.try_emplace(stability, true);
+        if (is_new) {
+            const auto of = [&](const Variant& each) { return recipe(stability, each.scene); };
             const std::string first = of(study_.variants.front());
-            stability_serves_all_ = std::ranges::all_of(
+            known->second = std::ranges::all_of(
                 study_.variants, [&](const Variant& each) { return of(each) == first; });
         }
-        return *stability_serves_all_ ? Sharing::wanted : Sharing::never;
+        return known->second ? Sharing::wanted : Sharing::never;
     }
 
     std::string recipe(const std::string& phase, const json& scene) {
@@ -216,9 +237,8 @@ class Planner {
 
     const Study& study_;
     const Numerics& numerics_;
-    bool triggers_ask_for_stability_;
     const Variant* variant_ = nullptr;
-    std::optional<bool> stability_serves_all_;
+    std::map<std::string, bool> serves_all_;  ///< by the stability analysis' phase
     std::map<std::string, std::string> recipes_of_variant_;
     std::map<std::string, Recipe> recipes_;
     TaskList tasks_;
@@ -227,17 +247,13 @@ class Planner {
 
 }  // namespace
 
-bool asks_for_critical_depth(const criteria::Expression& condition) {
-    const auto& fields = condition.fields;
-    return std::ranges::find(fields, critical_depth_field) != fields.end();
-}
-
-bool asks_for_critical_depth(const Work& work) {
-    if (const auto* when = std::get_if<When>(&work))
-        return asks_for_critical_depth(when->criterion.expression());
+bool asks_for(const Work& work, const StabilityField& field) {
+    const auto asks = [&](const criteria::Expression& condition) {
+        return std::ranges::find(condition.fields, field.name) != condition.fields.end();
+    };
+    if (const auto* when = std::get_if<When>(&work)) return asks(when->criterion.expression());
     const auto* between = std::get_if<Between>(&work);
-    return between && (asks_for_critical_depth(between->window.lower().expression()) ||
-                       asks_for_critical_depth(between->window.upper()));
+    return between && (asks(between->window.lower().expression()) || asks(between->window.upper()));
 }
 
 TaskGraph plan_tasks(const Study& study, const Numerics& numerics) {

@@ -2,6 +2,7 @@
 //
 //     fem_solver -- snapshot_<t>.vtkhdf --> transfer_tool -- particles.vtkhdf --> mpm_solver
 //                                                  (for each variant and each t_T)
+//     fem_solver -- all snapshots --> post_seismic (with "post_seismic": once for each variant)
 //     lem_tool                                     (for each variant, on its own)
 //
 // A scene without a FEM is static: its material points fill the section, and mpm_solver and
@@ -18,6 +19,7 @@
 
 #include "services/orchestrator/records/trigger.hpp"
 #include "services/orchestrator/study/study.hpp"
+#include "services/orchestrator/study/transfers.hpp"
 
 namespace breach::orchestrator {
 
@@ -27,11 +29,8 @@ struct TaskGraph {
     std::vector<TaskPlan> one_more_transfer;  ///< for every variant (records/firing_plan.hpp)
 };
 
-/// The name of the stability analysis' result in triggers.
-inline constexpr std::string_view critical_depth_field = "critical_depth";
-bool asks_for_critical_depth(const criteria::Expression& condition);
-/// Such a trigger waits for lem_tool, whose result gives the number.
-bool asks_for_critical_depth(const Work& work);
+/// Such a trigger waits for the phase that gives the number.
+bool asks_for(const Work& work, const StabilityField& field);
 
 TaskGraph plan_tasks(const Study& study, const Numerics& numerics);
 

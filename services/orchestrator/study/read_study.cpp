@@ -116,6 +116,7 @@ void check_parameters_are_read(const Study& study, const Base& base, std::vector
     std::vector<phases::Phase> phases = phases_of(study.reach);
     // A parameter may matter to the stability analysis only.
     if (study.stability && study.reach != Reach::lem) phases.push_back(phases::lem);
+    if (study.post_seismic) phases.push_back(phases::post_seismic);
     std::string readers;
     for (const phases::Phase& each : phases)
         readers += (readers.empty() ? "" : ", ") + std::string(each.program);
@@ -212,6 +213,7 @@ class StudyReader {
         read_transfers();
         refuse_what_conflicts();
         if (scene_ && sound("stability")) study_.stability = wants_stability();
+        if (scene_ && sound("post_seismic")) study_.post_seismic = wants_post_seismic();
         switch (kind_) {
             case Kind::sweep:
                 read_sweep();
@@ -281,7 +283,8 @@ class StudyReader {
         if (kind_ == Kind::uncertainty && sound("uncertainty")) place_transfer(document_, faults_);
         orchestrator::read_transfers(document_, fem(), study_, faults_);
         if (fem() && sound("stability"))
-            check_fields(document_["triggers"], *scene_, document_["stability"], faults_);
+            check_fields(document_["triggers"], *scene_, document_["stability"],
+                         sound("post_seismic") && document_["post_seismic"].get<bool>(), faults_);
     }
 
     void refuse_what_conflicts() {
@@ -298,6 +301,17 @@ class StudyReader {
         if (study_.reach == Reach::lem) return true;
         return kind_ != Kind::accuracy && document_["stability"].get<bool>() &&
                scene_->lem.has_value();
+    }
+
+    bool wants_post_seismic() {
+        if (!document_["post_seismic"].get<bool>()) return false;
+        if (study_.reach == Reach::chain && scene_->lem) return true;
+        faults_.push_back({"/post_seismic",
+                           study_.reach == Reach::chain
+                               ? "needs the slip surfaces of /scene/lem"
+                               : "needs snapshots of a FEM that is transferred",
+                           "give both in the scene, or leave \"post_seismic\" out"});
+        return false;
     }
 
     void read_sweep() { take_variants(); }

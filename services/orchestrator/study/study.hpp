@@ -31,6 +31,7 @@ struct Study {
     nlohmann::json document;                     ///< completed, without the scene
     nlohmann::json scene;                        ///< completed, overrides applied
     bool stability = false;                      ///< run lem_tool
+    bool post_seismic = false;                   ///< and on the FEM's snapshots
     std::vector<double> transfer_times;          ///< ascending, distinct, in whole microseconds [s]
     std::vector<Variant> variants;               ///< at least one
     std::map<std::string, Resources> resources;  ///< by phase

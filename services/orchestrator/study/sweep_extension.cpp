@@ -163,7 +163,10 @@ Extension plan_more_variants(const RunSoFar& run, const DataFolder& data, const 
 /// run has, the run cannot take the trigger.
 bool shares_fems_too_widely(const RunSoFar& run, const DataFolder& data, const Numerics& numerics,
                             const TriggerPlan& trigger) {
-    if (!asks_for_critical_depth(work_of(trigger))) return false;
+    const Work work = work_of(trigger);
+    if (std::ranges::none_of(stability_fields,
+                             [&](const StabilityField& each) { return asks_for(work, each); }))
+        return false;
     Study study = read_again(run.study, run, data);
     study.triggers.push_back(trigger);
     const std::vector<TaskPlan> wanted = plan_tasks(study, numerics).tasks;

@@ -127,7 +127,7 @@ void check_times(const std::vector<double>& times, const scene::Fem& fem,
 }
 
 void check_fields(const json& triggers, const scene::Scene& scene, bool stability,
-                  std::vector<Fault>& faults) {
+                  bool post_seismic, std::vector<Fault>& faults) {
     const bool staged = stability && scene.lem && !scene.lem->liquefaction.empty();
     for (std::size_t i = 0; i < triggers.size(); ++i) {
         for (const char* key : {"when", "lower", "upper"}) {
@@ -135,7 +135,17 @@ void check_fields(const json& triggers, const scene::Scene& scene, bool stabilit
             const std::string at = "/triggers/" + std::to_string(i) + "/" + key;
             const auto fields = fields_of(triggers[i][key].get<std::string>());
             std::ranges::move(check::unmeasured(fields, scene, at), std::back_inserter(faults));
-            if (!staged && std::ranges::find(fields, "critical_depth") != fields.end())
+            const auto asks = [&](std::string_view name) {
+                return std::ranges::find(fields, name) != fields.end();
+            };
+            const bool regular = triggers[i].value("snapshot_interval_s", 0.0) > 0.0 ||
+                                 scene.fem->snapshot_interval > 0.0 ||
+                                 triggers[i].at("kind") == "window";
+            if (asks(post_seismic_field) && !(post_seismic && regular))
+                faults.push_back(
+                    {at, "asks for post_seismic_factor, which is computed from regular snapshots",
+                     "give \"post_seismic\": true in the study and \"snapshot_interval_s\" here"});
+            if (!staged && asks(critical_depth_field))
                 faults.push_back(
                     {at, "asks for critical_depth, which only a stability analysis in stages gives",
                      "give /scene/lem/liquefaction and leave \"stability\" on"});

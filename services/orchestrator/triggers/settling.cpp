@@ -166,11 +166,13 @@ json result_of(const Bisect& bisect, const std::vector<Frame>& candidates,
 
 void Settling::settle(WatchedFem& fem, ArmedTrigger& armed) {
     if (is_final(armed.trigger.state)) return;
-    if (armed.lacks_depth(fem)) {
+    if (const StabilityField* field = armed.lacks(fem)) {
         // Waits for the FEM's end: until then a retry of the stability analysis can succeed.
-        if (!fem.ended || fem.why_no_depth.empty()) return;
+        const auto known = fem.stability.find(field->name);
+        if (!fem.ended || known == fem.stability.end() || known->second.why_none.empty()) return;
         expire(armed,
-               until_a_retry("its stability analysis gave no critical depth", fem.why_no_depth),
+               until_a_retry("its stability analysis gave no " + std::string(field->name),
+                             known->second.why_none),
                WasMet::not_told);
     } else if (armed.lines_taken < fem.lines.size()) {
         return;

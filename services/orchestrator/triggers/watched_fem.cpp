@@ -30,6 +30,19 @@ bool has_regular_snapshots(const Task& fem, const json& scene) {
     return scene.at("fem").value("snapshot_interval", 0.0) > 0.0;
 }
 
+/// None before the first snapshot: a condition with an unknown value is not true.
+std::optional<double> value_at(std::string_view field, const json& result, double time) {
+    // Not a number: the analysis found none, and no comparison with it is true.
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    if (!result.is_object()) return none;
+    if (field == critical_depth_field) return result.value("critical_depth", none);
+    std::optional<double> latest;
+    for (const json& row : result.at("after_shaking"))
+        if (row.at("time").get<double>() <= time + snapshot_slack)
+            latest = row.at("factor_of_safety").get<double>();
+    return latest;
+}
+
 }  // namespace
 
 std::string how_it_ended(const Task& task) {
@@ -69,31 +82,32 @@ void WatchedFem::read_on(const Store& store, FolderWatch& watches) {
     ended = is_final(task.state) || task.state == TaskState::finalizing;
     if (!ended) watch = watches.add(tail.file(), Notice::every_change);
     for (telemetry::Line& line : tail.fresh()) lines.push_back(std::move(line));
-    if (!critical_depth) look_for_stability(store);
+    for (const StabilityField& each : stability_fields) look_for_stability(store, each);
     snapshots = frames_in(output, task.phase);
 }
 
-/// Only when a trigger uses the depth: a run may be large. A failed analysis does not count: it is
-/// looked up again, because it may be retried while the FEM runs.
-void WatchedFem::look_for_stability(const Store& store) {
-    const auto asks = [](const ArmedTrigger& each) { return asks_for_critical_depth(each.work); };
-    if (!std::ranges::any_of(armed, asks)) return;
-    const std::optional<Task> lem = store.stability_of(task.run, task.variant);
-    why_no_depth.clear();
+/// Only when a trigger uses it: a run may be large. A failed analysis does not count: it is looked
+/// up again, because it may be retried while the FEM runs.
+void WatchedFem::look_for_stability(const Store& store, const StabilityField& field) {
+    const auto asks = [&](const ArmedTrigger& each) { return asks_for(each.work, field); };
+    Stability& known = stability[field.name];
+    if (known.result || !std::ranges::any_of(armed, asks)) return;
+    const std::optional<Task> lem = store.stability_of(task.run, task.variant, field.phase);
+    known.why_none.clear();
     if (lem && !has_output(lem->state)) {
-        if (is_final(lem->state)) why_no_depth = how_it_ended(*lem);
+        if (is_final(lem->state)) known.why_none = how_it_ended(*lem);
         return;
     }
-    // Not a number: the analysis found none, and no comparison with it is true.
-    critical_depth = std::numeric_limits<double>::quiet_NaN();
-    if (lem && lem->result && lem->result->contains("critical_depth"))
-        critical_depth = lem->result->at("critical_depth").get<double>();
+    known.result = lem && lem->result ? *lem->result : json();
 }
 
 criteria::Line WatchedFem::line_for(const criteria::Expression& condition,
                                     const telemetry::Line& line) const {
     std::map<std::string, double> beside;
-    if (critical_depth) beside.emplace(critical_depth_field, *critical_depth);
+    for (const auto& [field, known] : stability)
+        if (known.result)
+            if (const auto value = value_at(field, *known.result, line.time))
+                beside.emplace(field, *value);
     return criteria::line_for(condition, line, beside);
 }
 
@@ -121,14 +135,19 @@ ArmedTrigger::ArmedTrigger(const Trigger& stored)
     if (stored.kind == "manual") noticed_at = epoch_ms();
 }
 
-bool ArmedTrigger::lacks_depth(const WatchedFem& fem) const {
-    return asks_for_critical_depth(work) && !fem.critical_depth;
+const StabilityField* ArmedTrigger::lacks(const WatchedFem& fem) const {
+    const auto found = std::ranges::find_if(stability_fields, [&](const StabilityField& each) {
+        const auto known = fem.stability.find(each.name);
+        const bool is_known = known != fem.stability.end() && known->second.result;
+        return asks_for(work, each) && !is_known;
+    });
+    return found == stability_fields.end() ? nullptr : &*found;
 }
 
-/// A trigger with the critical depth reads no line before the depth is known, so that its decision
+/// A trigger with a stability analysis reads no line before that has ended, so that its decision
 /// does not depend on which phase was faster.
 void ArmedTrigger::feed(const WatchedFem& fem) {
-    if (lacks_depth(fem)) return;
+    if (lacks(fem)) return;
     for (; lines_taken < fem.lines.size(); ++lines_taken) take(fem, fem.lines[lines_taken]);
 }
 

@@ -1,14 +1,16 @@
-// A FEM with open triggers and its data so far: telemetry, snapshots, and the critical depth of its
-// stability analysis.
+// A FEM with open triggers and its data so far: telemetry, snapshots, and the stability analyses
+// that they use.
 #pragma once
 
 #include <chrono>
+#include <map>
 
 #include "core/telemetry/lines.hpp"
 #include "services/orchestrator/files/data_folder.hpp"
 #include "services/orchestrator/files/folder_watch.hpp"
 #include "services/orchestrator/files/frames.hpp"
 #include "services/orchestrator/store/store.hpp"
+#include "services/orchestrator/study/transfers.hpp"
 
 namespace breach::orchestrator {
 
@@ -19,8 +21,8 @@ struct WatchedFem;
 /// A trigger being evaluated.
 struct ArmedTrigger {
     explicit ArmedTrigger(const Trigger& stored);
-    /// Whether it needs the critical depth, which is not known (yet).
-    bool lacks_depth(const WatchedFem& fem) const;
+    /// The number of a stability analysis that it needs and that is not known (yet); null: none.
+    const StabilityField* lacks(const WatchedFem& fem) const;
     /// Evaluates the lines since the last call.
     void feed(const WatchedFem& fem);
 
@@ -60,13 +62,16 @@ struct WatchedFem {
     bool planned;  ///< the run stores the tasks of a firing of it
     std::vector<Frame> snapshots = {};
     std::chrono::steady_clock::time_point asked{};
-    /// Of the run's stability analysis, once it has ended; NaN: no critical depth [m].
-    std::optional<double> critical_depth{};
-    std::string why_no_depth = {};  ///< how the stability analysis failed; empty: it has not
-    std::string trouble = {};       ///< why the last look was incomplete
+    /// A stability analysis that a trigger needs.
+    struct Stability {
+        std::optional<nlohmann::json> result{};  ///< once it has ended; null: there is none
+        std::string why_none = {};               ///< how it failed; empty: it has not
+    };
+    std::map<std::string_view, Stability> stability = {};  ///< by field
+    std::string trouble = {};                              ///< why the last look was incomplete
 
   private:
-    void look_for_stability(const Store& store);
+    void look_for_stability(const Store& store, const StabilityField& field);
 };
 
 std::string how_it_ended(const Task& task);

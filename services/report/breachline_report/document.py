@@ -94,15 +94,28 @@ class Document:
             self.drawn[figure.name] = figure.svg()
         return self.drawn[figure.name]
 
+    @property
+    def figures(self) -> list[Figure]:
+        return self.front.pictures + [each for chapter in self.chapters for each in chapter.figures]
+
+    @property
+    def tables(self) -> list[Table]:
+        return self.front.tables + [each for chapter in self.chapters for each in chapter.tables]
+
     def leave_out(self, what: str, why: str) -> None:
         self.left_out.append((what, why))
 
     def add(self, chapter: Chapter) -> None:
-        """Without its empty tables and figures, and only if something is left. Names of variants may be no names of files."""
-        named: list[Figure | Table] = [*chapter.figures, *chapter.tables]
-        for each in named:
+        """Without its empty tables and figures, and only if something is left. Names of variants may be no names of files. Raises ValueError
+        for a name given before: one file would replace another."""
+        new: list[Figure | Table] = [*chapter.figures, *chapter.tables]
+        for each in new:
             each.name = as_file_name(each.name)
         chapter.tables = [each for each in chapter.tables if each.rows]
         chapter.figures = [each for each in chapter.figures if each.chart.series or each.chart.field]
+        names = [each.name for each in self.figures + chapter.figures] + [each.name for each in self.tables + chapter.tables]
+        if twice := [name for name in names if names.count(name) > 1]:
+            raise ValueError(f'"{twice[0]}" names two figures or tables of the report; give gauges, variants or companion runs names that differ '
+                             "in more than signs which file names cannot have")
         if chapter.tables or chapter.figures or chapter.drawing:
             self.chapters.append(chapter)

@@ -293,7 +293,7 @@ def _overview_of(run: Run) -> Figure:
     marks = [Mark("x", toe[0], "toe"), Mark("x", toe[0] + farthest.runout, f"runout {bounded(farthest, rounded(farthest.runout, 3))} m")] \
         if farthest and toe else []
     return Figure("overview", Chart("The section before and after" if marks else "The section", Axis("x [m]"), Axis("y [m]"),
-                                    [each for each in series if len(each.x)], marks, equal=True))
+                                    [each for each in series if len(each.x)], marks, equal=True, least_height=75))
 
 
 def front_of(run: Run, paper: Paper | None) -> Front:

@@ -11,13 +11,27 @@ from .words import at_least
 
 _many = 9  # columns of a table that is set small
 _wordy = 24  # characters: columns with longer texts of such a table go to a line below each row
+_short = 12  # characters: a text that stays on one line
+_longest_word = 18  # characters: a narrow column breaks longer ones
 
 
-def _class_of(cell: str) -> str:
-    """Right-aligns numbers, also with a mark, marks lower bounds, and lets long texts break."""
-    if is_number(cell.removesuffix(" *")):
-        return "n"
-    return "n b" if cell.startswith(at_least) else "long" if len(cell) > 12 else ""
+def _classes_of(table: Table) -> list[str]:
+    """n: numbers, bounds and blanks alone, right-aligned with their head. With a text among them all are left-aligned, below one another."""
+    return ["n" if any(map(is_number, column)) and all(is_number(cell.removeprefix(at_least)) or cell in ("-", "") for cell in column) else ""
+            for column in zip(*table.rows)]
+
+
+def _class_of(cell: str, of_column: str) -> str:
+    """Marks lower bounds, keeps short texts on one line, and lets long words break."""
+    longest = max(map(len, cell.split()), default=0)  # a pointer is one word: browsers do not break it at its slashes
+    size = "short" if len(cell) <= _short else "long" if longest > _longest_word else ""
+    return " ".join(filter(None, (of_column, "b" if cell.startswith(at_least) else "", size)))
+
+
+def _unbroken(text: str) -> Markup:
+    """With units, the first word of a JSON pointer, corners (x, y) and "phi' = 30" each on one line."""
+    spaced = re.sub(r"(?<=\S) = (?=\S)", "\u00a0=\u00a0", re.sub(r"([(\[]-?[\d.]+), (?=-?[\d.]+[)\]])", "\\1,\u00a0", text))
+    return Markup(re.sub(r"\[\S+/\S+\]|(?<!\S)/\w+", r'<span class="short">\g<0></span>', str(escape(spaced))))
 
 
 def _inline(svg: str, title: str) -> Markup:
@@ -40,4 +54,4 @@ def as_html(document: Document, folder: str) -> str:
                                      undefined=jinja2.StrictUndefined)
     return environment.get_template("page.html.j2").render(
         document=document, front=document.front, left_out=[f"{what}: {why}" for what, why in document.left_out], folder=folder,
-        class_of=_class_of, inline=_inline, wordy_columns=_wordy_columns, many=_many)
+        class_of=_class_of, classes_of=_classes_of, inline=_inline, unbroken=_unbroken, wordy_columns=_wordy_columns, many=_many)

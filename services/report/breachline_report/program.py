@@ -30,7 +30,7 @@ def _add_companion(folder: Path, paper: Paper | None, document: Document) -> Non
     """Adds another run's runouts, grounds and variants under its name."""
     run = read_run(folder)
     of, other = Material(run, paper, Measures(run, paper), Choice()), Document(run.title)
-    for figure in [each for chapter in document.chapters for each in chapter.figures if each.name == runout.runout_figure]:
+    for figure in [each for each in document.figures if each.name == runout.runout_figure]:
         for series in runout.runout_curves(run):
             series.name = f"{run.name}, {series.name}"
             figure.chart.series.append(series)
@@ -83,7 +83,7 @@ def _publish(file: Path, content: str | bytes) -> None:
 def _publish_figures(document: Document, folder: Path) -> None:
     """Each as SVG, PNG and CSV."""
     folder.mkdir(parents=True, exist_ok=True)
-    for each in document.front.pictures + [each for chapter in document.chapters for each in chapter.figures]:
+    for each in document.figures:
         _publish(folder / f"{each.name}.svg", document.svg(each))
         _publish(folder / f"{each.name}.png", each.png())
         _publish(folder / f"{each.name}.csv", each.csv())
@@ -96,7 +96,7 @@ def write_report(document: Document, page: Path, alone: bool) -> None:
     folder = page.parent / f"{page.stem}_files"
     if not alone:
         _publish_figures(document, folder)
-        for table in document.front.tables + [each for chapter in document.chapters for each in chapter.tables]:
+        for table in document.tables:
             _publish(folder / f"{table.name}.csv", table.csv())
     _publish(page, as_html(document, "" if alone else folder.name))
 

@@ -15,9 +15,9 @@ from breachline.faults import BreachlineError
 from .document import Json
 from .words import entry, number
 
-lem, fem, transfer, mpm = "lem_tool", "fem_solver", "transfer_tool", "mpm_solver"
-order = [lem, fem, transfer, mpm]
-same_time = 5e-7  #: [s]; names of files spell times to the microsecond
+lem, fem, post_seismic, transfer, mpm = "lem_tool", "fem_solver", "post_seismic", "transfer_tool", "mpm_solver"
+order = [lem, fem, post_seismic, transfer, mpm]
+same_time = 5e-7  #: [s]; names of files spell times to the microsecond, of figures with ten digits
 _timed = re.compile(r"[a-z]+_([0-9.]+)\.vtkhdf")
 
 
@@ -88,7 +88,7 @@ class Phase:
     def file_word(self) -> str:
         """Its part of file names: "13s", "filled_soft"."""
         if self.time is not None:
-            return f"{self.time:.6g}s"
+            return f"{self.time:.10g}s"
         return f"filled_{self.variant}" if self.variant else "filled"
 
     @property
@@ -297,6 +297,6 @@ def read_run(folder: Path) -> Run:
 
 def _phase_of(files: Path, task: Json, scene: Json) -> Phase:
     result = read_json(files / "result.json")
-    return Phase(task["phase"], task["label"], task.get("variant") or "", task.get("transfer_time") if task["phase"] not in (lem, fem) else None,
+    return Phase(task["phase"], task["label"], task.get("variant") or "", task.get("transfer_time") if task["phase"] in (transfer, mpm) else None,
                  files, result, "" if result else _fault_of(files, task), task["id"],
                  [each["sha256"] for each in task.get("artifacts", [])], scene)

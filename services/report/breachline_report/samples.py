@@ -2,11 +2,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from .document import Json
 from .run import Phase, Run, mpm
-from .words import at_least, number, or_dash, rounded
+from .words import at_least, entry, number, or_dash, rounded
 
 _words = {"runout": "Runout: 99 % of the mobile soil, from the toe", "runout_beyond_toe": "Of what passed the toe, 99 %",
           "runout_largest": "Farthest point", "area_beyond_toe": "Deposit beyond the toe, per metre of width",
@@ -65,16 +64,19 @@ def sampled_runouts(run: Run) -> list[Phase]:
     return [by_variant[row["sample"]] for row in run.uncertainty["rows"] if row["sample"] in by_variant]
 
 
-def percentiles_of(runouts: Sequence[Phase], pointer: str, absent: float) -> list[str]:
+def percentiles_of(run: Run, pointer: str, absent: float) -> list[str]:
     """p50, p10 and p90 of an entry of the samples' results, and how many have it. A missing entry counts as `absent`: infinity for a
-    time, 0 for a depth, which grows while soil moves."""
+    time, 0 for a depth, which grows while soil moves. So every sample with a runout counts, and the service has said of the runout which
+    percentiles that number of samples allows."""
+    runouts = sampled_runouts(run)
+    of_runout = entry(run.uncertainty, "/quantities/runout", {"percentiles": {"refused": "no sample has a runout"}})
     found = [number(each.result, pointer) for each in runouts]
     values = sorted(absent if each is None else each for each in found)
     moving = [absent if value is None else value for value, each in zip(found, runouts) if each.still_moves and math.isfinite(absent)]
     texts = []
     for p in (50.0, 10.0, 90.0):
-        if len(values) < math.log(0.05) / math.log(max(p, 100.0 - p) / 100.0):  # core/statistics/percentiles.cpp: samples_needed
-            texts.append("not enough samples")
+        if not percentile_in(of_runout, p):
+            texts.append(why_no_percentile(of_runout, p))
             continue
         place = (len(values) - 1) * p / 100.0
         low, high = values[math.floor(place)], values[math.ceil(place)]

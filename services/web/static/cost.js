@@ -5,7 +5,7 @@ import { number, point_name, seconds } from "./format.js";
 import { Plot } from "./plot.js";
 import { key_of, series_by_variant } from "./results.js";
 
-const phases = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
+const phases = ["lem_tool", "fem_solver", "post_seismic", "transfer_tool", "mpm_solver"];
 const axis = { x: "CPU time of the MPM run [s]", x_name: "CPU", x_unit: "s",
                hint: "One marker per transfer time and variant; click or Enter shows where it comes from." };
 

@@ -10,9 +10,11 @@ const column_names = {
     runout: ["runout", "m"], runout_beyond_toe: ["runout of what passed the toe", "m"], runout_largest: ["farthest point", "m"],
     volume_ratio: ["volume ratio", "–"], numerical_share: ["numerical share of the released energy", "–"],
     overlap: ["overlap", "–"], factor_of_safety: ["factor of safety", ""],
-    factor_of_safety_liquefied: ["factor of safety, liquefied", ""], cpu_seconds: ["CPU time of the MPM run", "s"],
+    factor_of_safety_liquefied: ["factor of safety, liquefied", ""],
+    factor_of_safety_post_seismic: ["factor of safety after shaking", ""], cpu_seconds: ["CPU time of the MPM run", "s"],
 };
-const result_paths = { numerical_share: "energy.numerical.share", factor_of_safety_liquefied: "stages[-1].factor_of_safety" }; // other columns have the same name in result.json
+const result_paths = { numerical_share: "energy.numerical.share", factor_of_safety_liquefied: "stages[-1].factor_of_safety",
+                       factor_of_safety_post_seismic: "after_shaking[].factor_of_safety" }; // other columns have the same name in result.json
 
 export class Provenance {
     /// look_at(row): called to show this point's particles.
@@ -30,7 +32,7 @@ export class Provenance {
         const [name, unit] = column_names[column] ?? [column, ""];
         set_text(by_id("provenance-title"), `${name}: ${number(row[column], 6)} ${unit}`);
         const value = Number.isFinite(row[column]) ? `Exactly ${row[column]}: ` : "";
-        const stability = column.startsWith("factor_of_safety") ? stability_of(run, row) : null;
+        const stability = column.startsWith("factor_of_safety") ? stability_of(run, row, column) : null;
         set_text(by_id("provenance-where"), `${value}${point_name(row) || run.name}. “${result_paths[column] ?? column}” in result.json of ` +
                                             `task ${stability?.id ?? row.mpm_task}${row.reason ? `. ${row.state}: ${row.reason}` : ""}`);
         by_id("provenance-look").hidden = !Number.isFinite(row.runout);
@@ -48,7 +50,8 @@ export class Provenance {
 }
 
 /// The stability analysis of a row's variant, or the shared one.
-export const stability_of = (run, { variant }) => run.tasks.find((task) => task.phase === "lem_tool" && [variant, ""].includes(task.variant));
+export const stability_of = (run, { variant }, column = "") => run.tasks.find((task) =>
+    task.phase === (column.endsWith("post_seismic") ? "post_seismic" : "lem_tool") && [variant, ""].includes(task.variant));
 
 let known = { run: null, count: 0, fems: new Map() }; // of the last run
 

@@ -14,6 +14,7 @@ export const measures = {
     runout_largest: "farthest point",
     factor_of_safety: "factor of safety",
     factor_of_safety_liquefied: "factor of safety, liquefied",
+    factor_of_safety_post_seismic: "factor of safety after shaking",
 };
 const of_runout = ["runout", "runout_beyond_toe", "runout_largest", "volume_ratio", "numerical_share", "overlap"];
 const is_safety = (column) => column.startsWith("factor_of_safety");
@@ -114,8 +115,9 @@ export class Results {
     /// Offers only measures that the run has: no runout for a stability analysis alone, no factor of safety without one.
     offer_what_there_is() {
         const has = (phase) => this.run.tasks.some((task) => task.phase === phase);
-        const liquefies = this.rows.some((row) => Number.isFinite(row.factor_of_safety_liquefied));
-        const offered = (measure) => (is_safety(measure) ? has("lem_tool") && (liquefies || measure === "factor_of_safety") : has("mpm_solver") || !has("lem_tool"));
+        const has_some = (column) => this.rows.some((row) => Number.isFinite(row[column]));
+        const offered = (measure) => (measure === "factor_of_safety" ? has("lem_tool")
+            : is_safety(measure) ? has_some(measure) : has("mpm_solver") || !has("lem_tool"));
         const select = by_id("runout-measure");
         for (const option of select.options) option.hidden = option.disabled = !offered(option.value);
         if (!offered(select.value)) select.value = Object.keys(measures).find(offered);

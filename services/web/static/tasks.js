@@ -7,7 +7,7 @@ import { LogView } from "./log.js";
 
 const most_in_flow = 40; // variants; more would be too many rows
 
-const order = ["lem_tool", "fem_solver", "transfer_tool", "mpm_solver"];
+const order = ["lem_tool", "fem_solver", "post_seismic", "transfer_tool", "mpm_solver"];
 
 function in_order(tasks, variants) {
     const points = by_point(variants);

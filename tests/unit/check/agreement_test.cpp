@@ -62,6 +62,17 @@ TEST(Agreement, SoilThatFlowsUndrainedIsWetInTheLemAlthoughNoPhaseHasALine) {
     EXPECT_EQ(message(wet, "implausible"), "");
 }
 
+TEST(Agreement, ALemWithoutAnyLayerGetsOneFlagWithAllOfThem) {
+    json scene = shipped("mochikoshi");
+    scene["lem"]["liquefaction"] = json::array();
+    const Checked bare = checked(scene);
+    EXPECT_EQ(std::ranges::count(bare.scene.warnings, "layers_differ", &fault::Flag::code), 1);
+    scene["lem"]["liquefaction"] = pasted(message(bare, "layers_differ"), "top down, ");
+    const Checked whole = checked(scene);
+    EXPECT_TRUE(whole.faults.empty()) << told(whole.faults);
+    EXPECT_EQ(message(whole, "layers_differ"), "");
+}
+
 TEST(Agreement, ALayerThatTheLemLacksIsGivenByTheRemedy) {
     json scene = shipped("mochikoshi");
     scene["lem"]["liquefaction"].erase(4);

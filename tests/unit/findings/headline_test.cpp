@@ -18,6 +18,8 @@ TEST(Headline, SaysHowFarSoilFlowsWithItsError) {
     EXPECT_EQ(headline_of(facts).outcome, Outcome::flows);
     EXPECT_EQ(text_of(facts),
               "flows 10.4 \u00b1 1.2 m beyond the toe; FS 1.41 as built, 0.62 liquefied");
+    EXPECT_EQ(text_of({.factor_of_safety = 1.5, .factor_of_safety_post_seismic = 0.651}),
+              "FS 1.5 as built, 0.651 after the shaking");
     EXPECT_EQ(text_of({.soil = Soil{.farthest = 10.42, .stood = false, .lower_bound = true}}),
               "flows \u2265 10.4 m beyond the toe (error not known)");
     EXPECT_EQ(text_of({.soil = Soil{.farthest = 30.0, .stood = false, .worst_of = 32}}),

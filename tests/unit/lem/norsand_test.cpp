@@ -38,7 +38,7 @@ double ratio_by_path(const NorSand& law, double sigma_v0, OnPath part) {
     const auto begun = beginning(law, {-K_0 * sigma_v0, -sigma_v0, -K_0 * sigma_v0, 0.0});
     const auto found =
         materials::norsand::simple_shear_strength(law.ready, begun.state, 20.0 * sigma_v0);
-    return (part == OnPath::peak ? found.peak : found.critical) / sigma_v0;
+    return (part == OnPath::peak ? found.peak : found.residual) / sigma_v0;
 }
 
 TEST(NorSandByState, PeakInSimpleShearIsTheReferencesTables) {

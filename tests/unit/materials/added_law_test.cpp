@@ -86,13 +86,19 @@ inline std::vector<UndrainedStrength> undrained_strengths(const Peat& law,
     for (const double bound : bounds) found.push_back(strength_of(law, bound));
     return found;
 }
-inline UndrainedStrength undrained_strength(const Peat& law, const Voigt& sigma, double, double u) {
-    return strength_of(law, u - sigma.head<3>().sum() / 3.0);
+inline std::vector<UndrainedStrength> undrained_strengths(const Peat& law,
+                                                          std::span<const Voigt> sigma,
+                                                          std::span<const double>,
+                                                          std::span<const double> u) {
+    std::vector<UndrainedStrength> found;
+    for (std::size_t i = 0; i < sigma.size(); ++i)
+        found.push_back(strength_of(law, u[i] - sigma[i].head<3>().sum() / 3.0));
+    return found;
 }
 inline UndrainedByPlace undrained_by_place(const Peat& law, OnPath part) {
     return [law, part](const Place& place, double u) {
         const UndrainedStrength found = strength_of(law, place.sigma_v0 + u);
-        return part == OnPath::peak ? found.peak : found.critical;
+        return part == OnPath::peak ? found.peak : found.residual;
     };
 }
 inline void set_s(Peat& law, double S) { law.S = S; }
@@ -144,7 +150,8 @@ TEST(AddedLaw, WithAStateParameterGivesItsStrengthAtAStressAndAtAPlace) {
     EXPECT_TRUE(has_state_parameter(peat));
     if_state_parameter(peat, [](const auto& law) {
         EXPECT_DOUBLE_EQ(psi_at(law, place), 0.1);
-        EXPECT_DOUBLE_EQ(undrained_strength(law, sigma, 0.0, 20e3).peak, 240e3);
+        const double psi = 0.0, u = 20e3;
+        EXPECT_DOUBLE_EQ(undrained_strengths(law, {&sigma, 1}, {&psi, 1}, {&u, 1})[0].peak, 240e3);
         EXPECT_DOUBLE_EQ(undrained_by_place(law, OnPath::residual)(place, 20e3), 60e3);
     });
 }

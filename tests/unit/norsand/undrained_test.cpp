@@ -33,9 +33,9 @@ State at_rest(const Ready& law, double psi_0) {
 TEST(NorSandUndrained, TheResidualIsThatOfTheCriticalState) {
     const Ready law = cj1();
     const materials::UndrainedStrength loose = undrained_strength(law, at_rest(law, 0.05), far);
-    EXPECT_NEAR(loose.critical / sigma_v0, 0.039360, 5e-6);
-    const double looser = undrained_strength(law, at_rest(law, 0.07), far).critical;
-    EXPECT_NEAR(looser / loose.critical, std::exp(-1.0), 1e-9) << "e^(-d psi / lambda)";
+    EXPECT_NEAR(loose.residual / sigma_v0, 0.039360, 5e-6);
+    const double looser = undrained_strength(law, at_rest(law, 0.07), far).residual;
+    EXPECT_NEAR(looser / loose.residual, std::exp(-1.0), 1e-9) << "e^(-d psi / lambda)";
 }
 
 TEST(NorSandUndrained, ThePeakIsThatOfThePathAndThePresentPastIt) {
@@ -54,6 +54,47 @@ TEST(NorSandUndrained, ThePeakIsThatOfThePathAndThePresentPastIt) {
     EXPECT_NEAR(undrained_strength(law, state, far).peak / now, 1.0, 1e-12);
 }
 
+/// H_0 50 and psi_0 -0.02: shear stress falls after its peak, then rises to the critical state.
+struct Dip {
+    Ready law = [] {
+        Parameters parameters = soil("CJ1");
+        parameters.semi_log->lambda = 0.1 / std::numbers::ln10;
+        parameters.H_0 = 50.0, parameters.m = 0.5, parameters.S = 1.0;
+        return ready(parameters);
+    }();
+    State start;
+    double peak = 0.0, least;  ///< of its path in simple shear
+
+    explicit Dip(double sigma_v) {
+        const Voigt sigma = sigma_v * Voigt(-K_0, -1.0, -K_0, 0.0);
+        const double p = (1.0 + 2.0 * K_0) / 3.0 * sigma_v;
+        start = initialise(law, sigma, critical_void_ratio(law, p) - 0.02).state;
+        State state = start;
+        for (double shear = 0.0, before = -1.0; shear > before; shear = simple_shear(state)) {
+            peak = before = shear;
+            state = integrate(law, state, Voigt(0.0, 0.0, 0.0, 1e-5), {}).state;
+        }
+        least = peak;
+        for (int step = 0; step < 3000; ++step) {
+            state = integrate(law, state, Voigt(0.0, 0.0, 0.0, 1e-5), {}).state;
+            least = std::min(least, simple_shear(state));
+        }
+    }
+};
+
+// Also at 100 kPa, where the fall is less than 10 % and the peak comes after it.
+TEST(NorSandUndrained, TheResidualIsThePathsMinimumWhereShearStressRisesAgain) {
+    for (const double sigma_v : {20e3, 100e3}) {
+        const Dip dip(sigma_v);
+        ASSERT_LT(dip.least, 0.97 * dip.peak) << sigma_v;
+        const auto level = simple_shear_strength(dip.law, dip.start, far);
+        EXPECT_NEAR(level.residual / dip.least, 1.0, 1e-3) << sigma_v;
+        EXPECT_GT(level.peak, 0.99 * dip.peak) << sigma_v;
+        const auto plane = undrained_strength(dip.law, dip.start, far);
+        EXPECT_NEAR(plane.residual / dip.least, 1.0, 1e-3) << sigma_v;
+    }
+}
+
 TEST(NorSandUndrained, ManySideBySideAreWhatEachAloneIs) {
     const Ready law = cj1();
     std::vector<State> states;
@@ -67,7 +108,7 @@ TEST(NorSandUndrained, ManySideBySideAreWhatEachAloneIs) {
     for (std::size_t i = 0; i < states.size(); ++i) {
         const materials::UndrainedStrength alone = undrained_strength(law, states[i], bounds[i]);
         EXPECT_EQ(together[i].peak, alone.peak) << i;
-        EXPECT_EQ(together[i].critical, alone.critical) << i;
+        EXPECT_EQ(together[i].residual, alone.residual) << i;
     }
 }
 
@@ -78,7 +119,7 @@ TEST(NorSandUndrained, DenseSoilHasStrengthUpToTheBoundOnly) {
     const double theta = plane_critical_angle(law);
     const double tau = critical_ratio(law, theta) * std::cos(theta) / std::numbers::sqrt3;
     EXPECT_NEAR(bounded.peak, tau * 2.0 * p_0, 1e-6);
-    EXPECT_EQ(bounded.critical, bounded.peak);
+    EXPECT_EQ(bounded.residual, bounded.peak);
     EXPECT_GT(undrained_strength(law, dense, far).peak, 2.0 * bounded.peak);
 }
 

@@ -11,8 +11,11 @@
 
 namespace breach::orchestrator {
 
-inline const Numerics numerics{
-    {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}, {"lem_tool", 1}};
+inline const Numerics numerics{{"fem_solver", 1},
+                               {"transfer_tool", 1},
+                               {"mpm_solver", 1},
+                               {"lem_tool", 1},
+                               {"post_seismic", 1}};
 
 inline nlohmann::json column_scene() {
     return nlohmann::json::parse(R"({

@@ -434,10 +434,13 @@ TEST_F(StoreTest, RowsOfAStaticSceneHaveTheirOwnFactorOfSafety) {
                       {"stages", {{{"layers_liquefied", 0}, {"factor_of_safety", 1.5}}}}});
     const auto rows = store.results(run.id);
     ASSERT_EQ(rows.size(), 2u) << "a stability analysis beside runouts has no row of its own";
-    EXPECT_EQ(store.stability_of(run.id, "weak")->id, task_id(run.id, 1));
-    EXPECT_EQ(store.stability_of(run.id, "strong")->id, task_id(run.id, 3));
-    EXPECT_EQ(store.stability_of(run.id, "")->id, task_id(run.id, 1)) << "the first";
-    EXPECT_FALSE(store.stability_of("no run", ""));
+    const auto stability = [&](const std::string& of, const std::string& variant) {
+        return store.stability_of(of, variant, "lem_tool");
+    };
+    EXPECT_EQ(stability(run.id, "weak")->id, task_id(run.id, 1));
+    EXPECT_EQ(stability(run.id, "strong")->id, task_id(run.id, 3));
+    EXPECT_EQ(stability(run.id, "")->id, task_id(run.id, 1)) << "the first";
+    EXPECT_FALSE(stability("no run", ""));
     for (const ResultRow& row : rows) {
         const bool weak = value_of(row, "variant") == "weak";
         EXPECT_EQ(value_of(row, "factor_of_safety"), weak ? 0.5 : 1.5);

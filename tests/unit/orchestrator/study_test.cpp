@@ -23,8 +23,11 @@ namespace {
 
 using nlohmann::json;
 
-const Numerics numerics{
-    {"lem_tool", 1}, {"fem_solver", 1}, {"transfer_tool", 1}, {"mpm_solver", 1}};
+const Numerics numerics{{"lem_tool", 1},
+                        {"fem_solver", 1},
+                        {"post_seismic", 1},
+                        {"transfer_tool", 1},
+                        {"mpm_solver", 1}};
 
 json slope_study() {
     std::ifstream stream(BREACH_ROOT "/workflows/scenes/slope.json");
@@ -547,6 +550,34 @@ TEST(Triggers, MayAskForEveryColumnOfTheTelemetry) {
             EXPECT_NE(std::string(each.meaning), "") << each.name;
         }
     }
+}
+
+TEST(Study, PostSeismicStabilityWaitsForItsFemAndReadsAllSnapshots) {
+    json study = slope_study();
+    study["transfer_times"] = {1, 2};
+    study["variants"] = {{{"name", "one"}, {"overrides", json::array()}},
+                         {{"name", "two"}, {"overrides", {"/mpm/cfl=0.3"}}}};
+    const auto planned = [&] { return plan_tasks(read_study(study.dump()), numerics).tasks; };
+    const auto of = [](const std::vector<TaskPlan>& tasks, const std::string& phase) {
+        std::vector<TaskPlan> found;
+        std::ranges::copy_if(tasks, std::back_inserter(found),
+                             [&](const TaskPlan& each) { return each.phase == phase; });
+        return found;
+    };
+    EXPECT_TRUE(of(planned(), "post_seismic").empty()) << "nobody has asked for it";
+    study["post_seismic"] = true;
+    auto tasks = planned();
+    ASSERT_EQ(of(tasks, "post_seismic").size(), 1u) << "both variants have the same";
+    const TaskPlan post = of(tasks, "post_seismic").front();
+    EXPECT_EQ(tasks[*post.parent].phase, "fem_solver");
+    EXPECT_EQ(post.input, "frames.vtkhdf.series");
+    EXPECT_EQ(post.label, "postseismic");
+    study["variants"][1]["overrides"] = {"/lem/search/minimum_depth=2"};
+    tasks = planned();
+    EXPECT_EQ(of(tasks, "post_seismic").size(), 2u) << "other surfaces";
+    EXPECT_EQ(of(tasks, "fem_solver").size(), 1u);
+    study["scene"].erase("lem");
+    EXPECT_THROW(read_study(study.dump()), fault::BadInput);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@ import json
 import unittest
 
 from wet_run import MOVING, RUN, Exported, figures, marks, root, row, tables
-from breachline_report.samples import percentiles_of
-from breachline_report.run import read_run
 
 SCENE = {"name": "slope", "section": {"regions": [{"name": "a", "polygon": [[0, 0], [1, 0], [1, 1]]}]}, "materials": {},
          "mpm": {"gauges": [{"name": "road", "x": 50.0}], "sections": [{"name": "toe", "x": 0.0}], "runout": {"toe": [0, 0]}}}
@@ -99,10 +97,14 @@ class Sampled(Exported):
         document = self.document()
         self.assertEqual(row(document, "assessment", BEYOND)[1], "3 samples are not enough for the 50th percentile: 5 are needed")
         self.assertIn(("tornado: one parameter at a time", "Q2 is 0.4; 0.7 is needed"), document.left_out)
-        self.write("uncertainty.json", self.answer)
-        runouts = [each for each in read_run(self.folder).of("mpm_solver") if each.result]
-        self.assertEqual(percentiles_of(runouts[:28], "/cpu_seconds", 0.0)[:2], ["\u2265 2.5", "not enough samples"])
-        self.assertEqual(percentiles_of(runouts[:29], "/cpu_seconds", 0.0), ["\u2265 2.5"] * 3 + ["29"])
+
+    def test_a_gauge_has_the_percentiles_that_the_runout_has(self):
+        few, depth = self.answer["quantities"]["runout"], "Gauge road (x = 50 m): largest depth"
+        few |= {"count": 28, "percentiles": [each for each in few["percentiles"] if each["p"] == 50], "percentiles_lacking": [{"p": 90, "needs": 29}]}
+        self.sample(next(each for each in self.answer["rows"] if each["sample"] == "s0001"), moving=True)
+        self.assertEqual(row(self.document(), "assessment", depth)[1:4:2], ["\u2265 0", "28 samples are not enough, 29 are needed"])
+        del self.answer["quantities"]["runout"]
+        self.assertEqual(row(self.document(), "assessment", depth)[1], "no sample has a runout")
 
     def test_without_its_answer_it_is_left_out_and_that_is_said(self):
         document = Exported.document(self)

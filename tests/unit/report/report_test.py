@@ -5,12 +5,14 @@ import subprocess
 import unittest
 
 from wet_run import IMPLAUSIBLE, LATE, MOVING, SCENE, SOFT, STRONG, STUDY, WetRun, cell, figures, marks, row, shaking, tables
+from breachline.plot import Axis, Chart, Figure
 from breachline_report.chapters.variants import changes_of
-from breachline_report.document import Table, as_file_name
+from breachline_report.document import Chapter, Document, Table, as_file_name
 from breachline_report.ended import how_it_ended
 from breachline_report.page import as_html
 from breachline_report.program import guarded, write_report
 from breachline_report.run import read_run
+from breachline_report.words import at_least
 
 report = os.path.join(os.environ["BREACH_BIN"], "report")
 
@@ -238,6 +240,16 @@ class Pages(WetRun):
         self.assertIn("&lt;b&gt;A &amp; B&lt;/b&gt;", html)
         self.assertIn('<tr class="below">', html[html.index('id="numbers_mpm_solver"'):])
 
+    def test_columns_of_numbers_are_right_aligned_and_words_stay_whole(self):
+        document = self.document()
+        document.front.tables = [Table("t", "", ["speed [m/s]", "what", "name"], [["1.5", "30", "undrained_peak"], [f"{at_least}2", "-", "v" * 30],
+                                                                               ["-", "set /mpm/cell_size", "(1, -2.5) c' = 3"]])]
+        html = as_html(document, "")
+        self.assertIn('<th class="n">speed <span class="short">[m/s]</span></th><th>what</th>', html)
+        self.assertIn('<td class="n short">1.5</td><td class="short">30</td><td>undrained_peak</td>', html)
+        self.assertIn(f'<td class="n b short">\u2265 2</td><td class="short">-</td><td class="long">{"v" * 30}</td>', html)
+        self.assertIn('set <span class="short">/mpm</span>/cell_size</td><td>(1,\u00a0-2.5) c&#39;\u00a0=\u00a03</td>', html)
+
     def test_two_hundred_variants_are_one_table(self):
         self.write("study.json", {"variants": [{"name": f"v{k:03}", "overrides": [f"/mpm/cell_size={k + 1}"]} for k in range(200)]})
         for k in range(200):
@@ -253,6 +265,15 @@ class Pages(WetRun):
         self.assertNotEqual(*names)
         self.assertLess(max(len(each.encode()) for each in names), 200)
         self.assertEqual(as_file_name("a/b"), "a_b")
+
+    def test_a_name_is_given_once(self):
+        document = Document("")
+        document.front.pictures = [Figure("overview", Chart("", Axis(""), Axis("")))]
+        document.add(Chapter("", tables=[Table("empty", "", ["a"]), Table("a/b", "", ["a"], [["1"]])]))
+        document.add(Chapter("", tables=[Table("empty", "", ["a"], [["1"]])]))
+        for name in ("overview", "a_b"):
+            with self.assertRaisesRegex(ValueError, f'"{name}" names two'):
+                document.add(Chapter("", tables=[Table(name, "", ["a"], [["1"]])]))
 
     def test_tables_quote_text_and_keep_numbers(self):
         self.assertEqual(Table("t", "", ["a", "b [m]"], [['x "y"', "1e-5"], ["12 m", "\u2265 3"]]).csv(),

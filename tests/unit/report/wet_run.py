@@ -129,11 +129,11 @@ class WetRun(Exported):
 
 
 def tables(document):
-    return {each.name: each for each in document.front.tables + [each for chapter in document.chapters for each in chapter.tables]}
+    return {each.name: each for each in document.tables}
 
 
 def figures(document):
-    return {each.name: each for each in document.front.pictures + [each for chapter in document.chapters for each in chapter.figures]}
+    return {each.name: each for each in document.figures}
 
 
 def row(document, table, begin):

@@ -60,9 +60,10 @@ inline exchange::MeshSnapshot nodes_and_elements(const scene::Scene& scene,
     s.gauss_per_element = 1;
     s.gauss_positions = {Vec2::Zero()};
     for (const Vec2& x : s.position_0) {
-        const double water = level_at(scene.transfer->phreatic_line, x.x());
+        const double water = geometry::level_at(scene.transfer->phreatic_line, x.x());
         const double u_0 = std::max(0.0, 9810.0 * (water - x.y()));
-        const double sigma_v0 = std::max(0.0, 18.3e3 * (level_at(ground, x.x()) - x.y()) - u_0);
+        const double sigma_v0 =
+            std::max(0.0, 18.3e3 * (geometry::level_at(ground, x.x()) - x.y()) - u_0);
         const double depth = 29.4 - x.y();
         const double liquefied = depth < 18.5 && x.x() > 40.0 ? 0.9 : 0.3;
         const Vec2 arm = x - Vec2(135.0, 62.0);

@@ -65,6 +65,7 @@ class Chart:
     series: list[Series] = field(default_factory=list)
     marks: list[Mark] = field(default_factory=list)
     equal: bool = False  #: a unit of x is as long as one of y; heights of a flat one are exaggerated by a whole number, which y states
+    least_height: float = 150  #: of the axes of an equal one [px], which the exaggeration reaches
     field: Field | None = None  #: drawn beneath the series
 
 

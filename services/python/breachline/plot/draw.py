@@ -170,7 +170,7 @@ def _size(chart: Chart, x: tuple[float, float], y: tuple[float, float]) -> tuple
         return 560, 60 + 34 * len(chart.y.names) if chart.y.names else 360, 1
     scale = min(860 / (x[1] - x[0]), 640 / (y[1] - y[0]))
     width, height = scale * (x[1] - x[0]), scale * (y[1] - y[0])
-    times = max(1, int(np.ceil(150 / height))) if width > 300 else 1
+    times = max(1, int(np.ceil(chart.least_height / height))) if width > 300 else 1
     return width, height * times, times
 
 

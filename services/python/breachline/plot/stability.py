@@ -1,4 +1,4 @@
-"""Figures of lem_tool: factor of safety against liquefied depth, section and critical surfaces."""
+"""Figures of lem_tool: factor of safety against liquefied depth and time, section and critical surfaces."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -18,7 +18,8 @@ def stability_figures(folder: Path) -> list[Figure]:
     """folder: contains result.json and scene.completed.json. Raises OSError or BreachlineError."""
     result, scene = read_json(folder / RESULT), read_json(folder / SCENE)
     with contents_of(folder, "give a folder of lem_tool"):
-        return [_section_with_surfaces(scene, result)] + ([_safety_against_depth(result)] if "stages" in result else [])
+        return [_section_with_surfaces(scene, result)] + ([_safety_against_depth(result)] if "stages" in result else []) + \
+            ([_safety_against_time(result)] if len(result.get("after_shaking", [])) > 1 else [])
 
 
 def line_of(points: Sequence[Sequence[float]], name: str) -> Series:
@@ -40,6 +41,13 @@ def _safety_against_depth(result: Document) -> Figure:
     curve = Series("least", [each["liquefied_depth"] for each in stages], [each["factor_of_safety"] for each in stages], "line_and_points")
     return Figure("safety_against_depth", Chart("Factor of safety against liquefied depth", Axis("liquefied depth [m]"), Axis("factor of safety [-]"),
                                                 [curve], [Mark("y", 1.0, "FS = 1"), Mark("x", critical, f"critical {critical:.3g} m")]))
+
+
+def _safety_against_time(result: Document) -> Figure:
+    rows = result["after_shaking"]
+    curve = Series("least", [each["time"] for each in rows], [each["factor_of_safety"] for each in rows], "line_and_points")
+    return Figure("safety_against_time", Chart("Factor of safety with the strengths of the snapshots", Axis("time since the shaking began [s]"),
+                                               Axis("factor of safety [-]"), [curve], [Mark("y", 1.0, "FS = 1")]))
 
 
 def _above(floor: Any, arc: Array) -> Array:

@@ -66,10 +66,10 @@ def _answers(run: Run) -> Table:
     for name in quantities_of(run.uncertainty):
         quantity = run.uncertainty["quantities"][name]
         table.rows.append([label_of(quantity, name), *(percentile_text(quantity, p) for p in (50, 10, 90)), known_of(quantity)])
-    runouts, planned = sampled_runouts(run), run.uncertainty["samples"]["planned"]
+    planned = run.uncertainty["samples"]["planned"]
 
     def add(what: str, pointer: str, absent: float = 0.0, came: str = "") -> None:
-        *percentiles, count = percentiles_of(runouts, pointer, absent)
+        *percentiles, count = percentiles_of(run, pointer, absent)
         table.rows.append([what, *percentiles, f"{count} of {planned} samples{came}"])
 
     for gauge in entry(run.scene, "/mpm/gauges", []):

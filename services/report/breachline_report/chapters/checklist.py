@@ -118,6 +118,6 @@ def add(of: Material, document: Document) -> None:
         ("What is left out?", "a plane section: no third dimension, no channel; no mixing with water on the way; no consolidation while it flows; no "
                               "water that flows along")]
     document.add(Chapter("What a reviewer asks", tables=[Table(
-        "checklist", "What a reviewer asks", ["question", "answer of this run"],
+        "checklist", "Questions and answers", ["question", "answer of this run"],
         [[question, answer or "not modelled"] for question, answer in answers],
         "After the subjects of Boulanger & Beaty (2016) and USSD (2022). Of several analyses, the one that is shown; of runouts, the farthest.")]))

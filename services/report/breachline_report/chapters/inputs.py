@@ -12,7 +12,7 @@ from . import Material
 
 _about_marks = "* default value, left out of the scene or equal to it."
 _abreast = 5  # materials side by side on a portrait page
-_many_digits = 10  # an entry with more is derived from others
+_many_digits = 10  # a number with more is derived from others
 #: An entry goes to the first group that it is below; the last groups take the rest of a phase.
 _groups = [
     ("water", "Water", ("/lem/water", "/lem/piezometric_lines", "/lem/pore_pressure_ratios", "/lem/undrained", "/lem/liquefaction", "/fem/water",
@@ -31,6 +31,10 @@ def _is_below(pointer: str, top: str) -> bool:
     return pointer == top or pointer.startswith(top + "/")
 
 
+def _plain(value: Json) -> str:
+    return rounded(value, 7) if isinstance(value, float) and len(str(value)) > _many_digits else json.dumps(value, ensure_ascii=False)
+
+
 @dataclass
 class Entry:
     pointer: str  #: "/mpm/floor/level"
@@ -40,10 +44,7 @@ class Entry:
 
     @property
     def text(self) -> str:
-        value = self.value
-        text = value if isinstance(value, str) else rounded(value, 7) if isinstance(value, float) and len(str(value)) > _many_digits \
-            else json.dumps(value, ensure_ascii=False)
-        return text + (" *" if self.default else "")
+        return (self.value if isinstance(self.value, str) else _plain(self.value)) + (" *" if self.default else "")
 
 
 class Inputs:
@@ -63,8 +64,8 @@ class Inputs:
 
     @cached_property
     def entries(self) -> list[Entry]:
-        """Without the transfer's where nothing is transferred: every completed scene has them."""
-        found = [Entry(**each) for each in self._said["entries"]]
+        """Without notes, which have a table, and without the transfer's where nothing is transferred: every completed scene has them."""
+        found = [Entry(**each) for each in self._said["entries"] if not each["pointer"].endswith("/notes")]
         return [each for each in found if not (self.run.is_static and _is_below(each.pointer, "/transfer"))]
 
     def below(self, top: str) -> list[tuple[str, Entry]]:
@@ -143,7 +144,7 @@ def _regions(inputs: Inputs) -> Table:
     for k, region in enumerate(inputs.scene["section"]["regions"]):
         mesh = [f"{key} {each.text}" for key, each in inputs.below(f"/section/regions/{k}/") if key not in ("name", "material", "polygon")]
         table.rows.append([region.get("name", "-"), region.get("material", "-"), rounded(_area(region["polygon"]), 6),
-                           " ".join(f"({x}, {y})" for x, y in region["polygon"]), "; ".join(mesh) or "-"])
+                           " ".join(f"({_plain(x)}, {_plain(y)})" for x, y in region["polygon"]), "; ".join(mesh) or "-"])
     return table
 
 

@@ -91,7 +91,7 @@ def _static_table(run: Run) -> Table:
         if judged:
             row.append(fact(stability.result if stability else None, "/factor_of_safety"))
         if flows and runout:
-            comparable = first and first is not runout and first.runout > 0.0 and not first.still_moves and not runout.still_moves
+            comparable = first and first is not runout and min(first.runout, runout.runout) > 0.0 and not first.still_moves and not runout.still_moves
             row += [bounded(runout, fact(runout.result, "/runout")),
                     rounded(100.0 * (runout.runout / first.runout - 1.0), 3) if first and comparable else "-",
                     bounded(runout, fact(runout.result, "/area_beyond_toe")), fact(runout.result, "/at_rest"), fact(runout.result, "/end_time")]

@@ -11,7 +11,7 @@
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/scene/scene.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 
 using mechanics::Vec2;
 
@@ -29,16 +29,6 @@ struct JudgedBy {
     bool pressure = false;  ///< others: r_u
 };
 JudgedBy judged_by(const scene::Scene& scene);
-
-/// Counts of points, for result.json and messages.
-struct CollapseReport {
-    double epsilon_q;           ///< strain above which soil counts as strained
-    std::size_t points = 0;     ///< of these regions
-    std::size_t saturated = 0;  ///< of these, with strengths by state
-    std::size_t past_line = 0;  ///< of these, past the instability line
-    std::size_t collapsed = 0;  ///< of these, strained too: residual strength from the start
-    double mass = 0.0;          ///< collapsed [kg]
-};
 
 /// Strengths of these Gauss points by stress and state parameter.
 class Collapse {
@@ -65,4 +55,4 @@ class Collapse {
     std::vector<std::optional<Soil>> soils_;  ///< [Gauss points]; empty: no such soil
 };
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied

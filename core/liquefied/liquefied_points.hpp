@@ -8,7 +8,7 @@
 #include "core/exchange/mesh_snapshot.hpp"
 #include "core/mechanics/tensor.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 
 /// A place is liquefied if the nearest Gauss point of its element ever had at least this r_u or this
 /// shear strain since the shaking began, and if it lies below the water table. On the undeformed
@@ -33,4 +33,4 @@ class LiquefiedPoints {
     std::vector<mechanics::Vec2> water_table_;
 };
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied

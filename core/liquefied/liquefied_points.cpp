@@ -1,10 +1,10 @@
-#include "transfer_tool/liquefied_points.hpp"
+#include "core/liquefied/liquefied_points.hpp"
 
 #include <algorithm>
 
 #include "core/geometry/polyline.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 
 using mechanics::Vec2;
 
@@ -20,4 +20,4 @@ bool LiquefiedPoints::holds(std::size_t element, const Vec2& xi, const Vec2& pla
            (shear_strain_ && mesh_->shear_strain_max[p] >= *shear_strain_);
 }
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied

@@ -13,7 +13,7 @@
 #include "core/mechanics/tensor.hpp"
 #include "core/scene/scene.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 
 using mechanics::Vec2;
 
@@ -78,4 +78,4 @@ class LiquefiedZone {
     double deepest_;
 };
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied

@@ -1,4 +1,4 @@
-#include "transfer_tool/liquefied_zone.hpp"
+#include "core/liquefied/liquefied_zone.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,9 @@
 #include "core/exchange/excess_pressure.hpp"
 #include "tests/verification/transfer/meshes.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
+
+namespace meshes = transfer::meshes;
 namespace {
 
 using scene::LiquefiedWhen;
@@ -169,4 +171,4 @@ TEST(LiquefiedZone, NodesWithoutStressDoNotCount) {
 }
 
 }  // namespace
-}  // namespace breach::transfer
+}  // namespace breach::liquefied

@@ -1,10 +1,10 @@
-#include "transfer_tool/collapse.hpp"
+#include "core/liquefied/collapse.hpp"
 
 #include <algorithm>
 
-#include "transfer_tool/shapes.hpp"
+#include "core/liquefied/elements.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 namespace {
 
 using exchange::MeshSnapshot;
@@ -39,23 +39,36 @@ Collapse::Collapse(const MeshSnapshot& mesh, const scene::Scene& scene,
     if (std::ranges::none_of(regions, any)) return;
     strain_ = scene::fem_of(scene).failure_strain;
     soils_.resize(mesh.stress.size());
-    for (std::size_t i = 0; i < soils_.size(); ++i) {
-        const std::size_t gauss = mesh.gauss_positions.size(), e = i / gauss;
-        const std::size_t region = regions[mesh.region_of_element[e]];
+    const std::size_t gauss = mesh.gauss_positions.size();
+    for (const std::size_t region : scene.transfer->liquefied->regions) {
         if (!collapses(scene, region)) continue;
-        const mechanics::Voigt& sigma = mesh.stress[i];
-        const double u = pressure_at(mesh.pore_pressure, mesh, e, mesh.gauss_positions[i % gauss]);
-        materials::UndrainedStrength strength{};
+        std::vector<std::size_t> own;
+        std::vector<mechanics::Voigt> sigma;
+        std::vector<double> psi, u;
+        for (std::size_t i = 0; i < soils_.size(); ++i) {
+            const std::size_t e = i / gauss;
+            if (regions[mesh.region_of_element[e]] != region) continue;
+            own.push_back(i);
+            sigma.push_back(mesh.stress[i]);
+            psi.push_back(mesh.psi[i]);
+            u.push_back(pressure_at(mesh.pore_pressure, mesh, e, mesh.gauss_positions[i % gauss]));
+        }
+        std::vector<materials::UndrainedStrength> strengths;
         materials::if_state_parameter(scene.material_of(region).law, [&](const auto& law) {
-            strength = undrained_strength(law, sigma, mesh.psi[i], u);
+            strengths = undrained_strengths(law, sigma, psi, u);
         });
-        // The stress may have been reduced for the undrained path; the real one is a lower bound of
-        // the peak.
-        strength.peak = std::max(strength.peak, std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[3]));
-        // Stress alone is no collapse: 9 % of the saturated points were past the line when the
-        // crest had moved 4 cm (docs/verification/static_liquefaction.md, `static_lift` at 3 s).
-        const bool past_line = mesh.instability_ratio[i] >= instability;
-        soils_[i] = {strength, past_line, past_line && mesh.epsilon_q[i] > strain_};
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            const std::size_t i = own[k];
+            // The stress may have been reduced for the undrained path; the real one is a lower
+            // bound of the peak.
+            const double shear = std::hypot(0.5 * (sigma[k][0] - sigma[k][1]), sigma[k][3]);
+            strengths[k].peak = std::max(strengths[k].peak, shear);
+            // Stress alone is no collapse: 9 % of the saturated points were past the line when the
+            // crest had moved 4 cm (docs/verification/static_liquefaction.md, `static_lift` at
+            // 3 s).
+            const bool past_line = mesh.instability_ratio[i] >= instability;
+            soils_[i] = {strengths[k], past_line, past_line && mesh.epsilon_q[i] > strain_};
+        }
     }
 }
 
@@ -71,4 +84,4 @@ std::optional<Collapse::Soil> Collapse::at(std::size_t element, const Vec2& xi) 
     return soils_[element * places.size() + static_cast<std::size_t>(nearest - places.begin())];
 }
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied

@@ -1,4 +1,4 @@
-#include "transfer_tool/liquefied_zone.hpp"
+#include "core/liquefied/liquefied_zone.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 
 #include "core/exchange/excess_pressure.hpp"
 #include "core/geometry/polyline.hpp"
+#include "core/liquefied/elements.hpp"
 #include "core/words/number.hpp"
 #include "core/words/remedy.hpp"
-#include "transfer_tool/points.hpp"
 
-namespace breach::transfer {
+namespace breach::liquefied {
 namespace {
 
 using exchange::MeshSnapshot;
@@ -166,4 +166,4 @@ std::optional<fault::Flag> flag_of(const std::vector<LiquefiedGap>& gaps, double
         pointer};
 }
 
-}  // namespace breach::transfer
+}  // namespace breach::liquefied
