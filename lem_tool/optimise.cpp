@@ -158,10 +158,10 @@ class Descent {
     /// F, with the price of what exceeds the limits; infinite without a valid answer.
     double value_of(const Points& points) {
         ++analysed_;
-        const auto found = analyse(model_, of(points), slices_, near_);
+        const auto found = analyse(model_, of(points), slices_, &similar_);
         // Not valid, as in the search for circles.
         if (!found || found->spencer.m_alpha < least_m_alpha) return no_answer;
-        near_ = found->spencer;
+        similar_.answer = found->spencer;
         excess_ = excess_of(points, *found);
         // Round-off must not cost anything.
         if (excess_ < 1e-9) excess_ = 0.0;
@@ -174,7 +174,7 @@ class Descent {
         refine(start, static_cast<std::size_t>(room_.vertices));
         price_ = lenient;
         value_ = no_answer;
-        near_.reset();
+        similar_ = {};
         if (!take(std::move(start))) return false;
         descend(first_step);
         if (excess() > far_beyond) return false;
@@ -407,7 +407,7 @@ class Descent {
     double value_ = no_answer;
     double price_ = lenient;
     double excess_ = 0.0;                ///< of the last surface with a value
-    std::optional<Spencer> near_;        ///< answer of the last valid surface
+    Similar similar_;                    ///< the last valid answer, and a failure since
     mutable std::vector<double> rises_;  ///< of the pieces, scratch memory
     std::int64_t analysed_ = 0;
 };
@@ -513,15 +513,19 @@ double kinked_without_friction(double share_of_base, double share_of_mass) {
 }
 
 std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices,
-                            const std::optional<Spencer>& near) {
+                            Similar* similar) {
     const scene::Circle pivot = pivot_of(polyline);
     if (cut(model.strata, model.soils, polyline, pivot, model.slices, slices) != Cut::done)
         return std::nullopt;
     const bool to_left = polyline.points.front().y() < polyline.points.back().y();
-    const auto found =
-        spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h, near);
+    const auto found = spencer(slices, pivot, to_left ? Slide::to_left : Slide::to_right, model.k_h,
+                               similar ? *similar : Similar{});
     const auto* balanced = std::get_if<Spencer>(&found);
-    if (balanced == nullptr) return std::nullopt;
+    if (similar) {
+        similar->failure.reset();
+        if (!balanced) similar->failure = std::get<Unbalanced>(found);
+    }
+    if (!balanced) return std::nullopt;
     Bent bent{polyline, *balanced, slices.depth, frictionless_share(slices), 0.0};
     // The mass is only asked for where the base is mostly without friction: it costs as much as a cut.
     if (kinked_without_friction(bent.frictionless, 1.0) >= 0.0)

@@ -28,9 +28,9 @@ struct Bent {
 double kinked_without_friction(double share_of_base, double share_of_mass);
 
 /// Spencer's method on a polyline that slides towards its lower end. Empty if the polyline leaves
-/// the soil or no equilibrium is found. near: as in spencer().
+/// the soil or no equilibrium is found. similar: for spencer(); null: nothing is known or kept.
 std::optional<Bent> analyse(const Model& model, const Polyline& polyline, Slices& slices,
-                            const std::optional<Spencer>& near = std::nullopt);
+                            Similar* similar = nullptr);
 
 /// Limits of a surface: ends, depth, number of vertices.
 struct Room {

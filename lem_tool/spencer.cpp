@@ -259,6 +259,19 @@ std::optional<Leftover> between_steps(const Mass& mass, Leftover& nearest) {
     return std::nullopt;
 }
 
+/// Whether the moment left over, between level forces and the inclination nearest to balance in a
+/// similar mass's failure, is at least half of what it was there.
+bool fails_alike(const Mass& mass, const Leftover& level, const Unbalanced& failure) {
+    const double left = failure.moment_left;
+    // Also false where no forces were in balance: such a failure is found at once.
+    const auto as_far = [&](double moment) {
+        return moment / mass.driving * left > 0.5 * left * left;
+    };
+    if (!as_far(level.moment)) return false;
+    const auto there = leftover(mass, failure.theta);
+    return there && as_far(there->moment);
+}
+
 }  // namespace
 
 std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circle, Slide slide,
@@ -283,15 +296,15 @@ std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circ
 }
 
 std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
-                                          Slide slide, double k_h,
-                                          const std::optional<Spencer>& near) {
+                                          Slide slide, double k_h, const Similar& similar) {
     const Mass mass = mass_of(slices, circle, slide, k_h);
-    if (near)
-        if (const auto found = beside(mass, *near)) return answer(mass, *found);
+    if (similar.answer)
+        if (const auto found = beside(mass, *similar.answer)) return answer(mass, *found);
     const bool frictionless =
         std::ranges::all_of(mass.blocks, [](const Block& b) { return b.tan_phi == 0.0; });
     const auto level = leftover(mass, 0.0);
     if (!level) return Unbalanced{0.0, 0.0, 0.0, frictionless};
+    if (similar.failure && fails_alike(mass, *level, *similar.failure)) return *similar.failure;
     Leftover nearest = *level;
     // The solution nearest to horizontal interslice forces is the physical one.
     for (const double sense : {1.0, -1.0})
