@@ -78,7 +78,7 @@ def cost(measurement, study, known, stale, cached):
 
 
 def in_minutes(seconds):
-    return ", ".join(f"{phase} {each / 60:.1f}" for phase, each in seconds.items()) or "none"
+    return ", ".join(f"{phase} {each / 60:.2f}" for phase, each in seconds.items()) or "none"
 
 
 def stability_study(study, scene):
