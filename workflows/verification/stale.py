@@ -63,7 +63,7 @@ def reads_stability(measurement, study):
 
 def only_stability(measurement, study, known, stale):
     """Whether new stability analyses may be all that the result needs."""
-    return "study" in measurement and stale == ["LEM"] and bool(known.get("same_transfers") or not reads_depth(study))
+    return "study" in measurement and stale == ["LEM"] and not study.get("post_seismic") and bool(known.get("same_transfers") or not reads_depth(study))
 
 
 def cost(measurement, study, known, stale, cached):
