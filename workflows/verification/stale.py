@@ -62,8 +62,10 @@ def reads_stability(measurement, study):
 
 
 def only_stability(measurement, study, known, stale):
-    """Whether new stability analyses may be all that the result needs."""
-    return "study" in measurement and stale == ["LEM"] and not study.get("post_seismic") and bool(known.get("same_transfers") or not reads_depth(study))
+    """Whether new stability analyses may be all that the result needs. Those after the shaking need the FEM."""
+    if "study" not in measurement or stale != ["LEM"] or "post_seismic" in f"{measurement} {known.get('uncertainty')}":
+        return False
+    return bool(known.get("same_transfers") or not reads_depth(study))
 
 
 def cost(measurement, study, known, stale, cached):
