@@ -58,9 +58,7 @@ const SnapshotStrength::Place* SnapshotStrength::at(const Vec2& place) const {
             continue;
         const auto xi = geometry::natural_coordinates(x, place);
         if (!xi) continue;
-        const auto nearest = std::ranges::min_element(
-            gauss_, {}, [&](const Vec2& each) { return (each - *xi).squaredNorm(); });
-        return &places_[e * gauss_.size() + static_cast<std::size_t>(nearest - gauss_.begin())];
+        return &places_[e * gauss_.size() + liquefied::nearest_gauss(gauss_, *xi)];
     }
     return nullptr;
 }

@@ -68,39 +68,43 @@ std::optional<std::array<double, 2>> left_out(const scene::Scene& scene, std::si
     return gap;
 }
 
+/// To be pasted into /lem/liquefaction.
+std::string layer_entry(const scene::Scene& scene, const scene::Ground& ground, std::size_t r,
+                        const RegionStrengths& region,
+                        const std::optional<std::array<double, 2>>& levels = {}) {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    const std::string range =
+        levels ? "\"levels\": [" + text((*levels)[0]) + ", " + text((*levels)[1]) + "], " : "";
+    return "{\"region\": " + quoted(region.name()) + ", " + range +
+           residual_entry(scene, ground, r, region,
+                          levels.value_or(std::array<double, 2>{-any, any})) +
+           "}";
+}
+
 void warn_about_lem(const scene::Scene& scene, const scene::Ground& ground, std::size_t r,
                     const RegionStrengths& region, const std::string& liquefies,
                     Problems& problems) {
-    std::string levels;
-    constexpr double any = std::numeric_limits<double>::infinity();
-    std::array<double, 2> range{-any, any};
+    std::optional<std::array<double, 2>> gap;
     if (region.is_liquefied_in_lem()) {
-        const auto gap = left_out(scene, r);
+        gap = left_out(scene, r);
         if (!gap) return;
-        range = *gap;
-        levels = "\"levels\": [" + text((*gap)[0]) + ", " + text((*gap)[1]) + "], ";
     }
     warn(problems, "layers_differ", "/lem/liquefaction",
-         (levels.empty() ? "has no layer of " + quoted(region.name())
-                         : "leaves out a part of " + quoted(region.name())) +
+         (gap ? "leaves out a part of " : "has no layer of ") + quoted(region.name()) +
              ", which liquefies in the runout (" + liquefies +
              "): the LEM keeps its drained strength there, and its factor of safety after "
-             "liquefaction is too high; add {\"region\": " +
-             quoted(region.name()) + ", " + levels +
-             residual_entry(scene, ground, r, region, range) + "} in its order from the top down");
+             "liquefaction is too high; add " +
+             layer_entry(scene, ground, r, region, gap) + " in its order from the top down");
 }
 
 /// One flag for a LEM without layers, however many regions liquefy.
 void warn_about_sound_lem(const scene::Scene& scene, const scene::Ground& ground,
                           const std::vector<std::size_t>& liquefied,
                           const std::vector<RegionStrengths>& strengths, Problems& problems) {
-    constexpr double any = std::numeric_limits<double>::infinity();
     std::string names, layers;
     for (const std::size_t r : liquefied) {
         names += (names.empty() ? "" : ", ") + quoted(strengths[r].name());
-        layers += (layers.empty() ? "" : ", ") + std::string("{\"region\": ") +
-                  quoted(strengths[r].name()) + ", " +
-                  residual_entry(scene, ground, r, strengths[r], {-any, any}) + "}";
+        layers += (layers.empty() ? "" : ", ") + layer_entry(scene, ground, r, strengths[r]);
     }
     warn(problems, "layers_differ", "/lem/liquefaction",
          "has no layer, and soil of " + names +
@@ -278,11 +282,12 @@ void check_agreement(const scene::Scene& scene, Problems& problems) {
     for (std::size_t r = 0; r < strengths.size(); ++r) {
         const RegionStrengths& region = strengths[r];
         const auto liquefies = region.liquefied_in_runout();
-        if (liquefies && !region.is_undrained_in_lem() && scene.lem->liquefaction.empty())
-            sound.push_back(r);
-        else if (liquefies && !region.is_undrained_in_lem())
-            warn_about_lem(scene, ground, r, region, *liquefies, problems);
-        else if (region.is_liquefied_in_lem() && !region.is_weak_in_runout())
+        if (liquefies && !region.is_undrained_in_lem()) {
+            if (scene.lem->liquefaction.empty())
+                sound.push_back(r);
+            else
+                warn_about_lem(scene, ground, r, region, *liquefies, problems);
+        } else if (region.is_liquefied_in_lem() && !region.is_weak_in_runout())
             warn_about_runout(scene, region, problems);
     }
     if (!sound.empty()) warn_about_sound_lem(scene, ground, sound, strengths, problems);

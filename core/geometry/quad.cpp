@@ -46,8 +46,6 @@ Eigen::Vector4d corner_jacobians(const Corners& x) {
     return J;
 }
 
-// In one direction the two linear functions (1 -+ xi)/2 give 2/3 (same) or 1/3 (different) for a
-// product of two, and 1/2 (all the same) or 1/6 for a product of three.
 std::optional<Vec2> natural_coordinates(const Corners& x, const Vec2& place) {
     constexpr double rounding = 1e-6;
     Vec2 xi = Vec2::Zero();
@@ -60,6 +58,8 @@ std::optional<Vec2> natural_coordinates(const Corners& x, const Vec2& place) {
     return xi;
 }
 
+// In one direction the two linear functions (1 -+ xi)/2 give 2/3 (same) or 1/3 (different) for a
+// product of two, and 1/2 (all the same) or 1/6 for a product of three.
 double integral(int i, int k) {
     const auto along = [](int a, int b) { return a == b ? 2.0 / 3.0 : 1.0 / 3.0; };
     return along(side_xi[i], side_xi[k]) * along(side_eta[i], side_eta[k]);

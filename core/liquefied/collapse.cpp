@@ -79,9 +79,7 @@ std::optional<Collapse::Soil> Collapse::at(std::size_t element, const Vec2& xi) 
                      pressure_at(mesh_->pore_pressure_0, *mesh_, element, xi) > 0.0;
     if (!wet) return std::nullopt;
     const auto& places = mesh_->gauss_positions;
-    const auto nearest = std::ranges::min_element(
-        places, {}, [&](const Vec2& place) { return (place - xi).squaredNorm(); });
-    return soils_[element * places.size() + static_cast<std::size_t>(nearest - places.begin())];
+    return soils_[element * places.size() + nearest_gauss(places, xi)];
 }
 
 }  // namespace breach::liquefied

@@ -1,6 +1,6 @@
 // Soil with a state parameter at the transfer: collapsed or not, and its undrained strength. The
 // criterion is not a pore pressure ratio.
-// Used by SoilMap (soils.hpp) for NorSand in /transfer/liquefied; the reasons for criterion and
+// Used by SoilMap (soil_map.hpp) for NorSand in /transfer/liquefied; the reasons for criterion and
 // strengths are in docs/verification/static_liquefaction.md, *To the runout*.
 #pragma once
 

@@ -18,6 +18,12 @@ Eigen::Vector4d corner_values(const std::vector<double>& field,
     return {field[quad[0]], field[quad[1]], field[quad[2]], field[quad[3]]};
 }
 
+std::size_t nearest_gauss(const std::vector<Vec2>& gauss_positions, const Vec2& xi) {
+    const auto nearest = std::ranges::min_element(
+        gauss_positions, {}, [&](const Vec2& each) { return (each - xi).squaredNorm(); });
+    return static_cast<std::size_t>(nearest - gauss_positions.begin());
+}
+
 Corners undeformed_corners(const MeshSnapshot& mesh, std::size_t element) {
     return corner_values(mesh.position_0, mesh.quads[element]);
 }

@@ -17,6 +17,9 @@ Corners corner_values(const std::vector<Vec2>& field, const std::array<std::int3
 Eigen::Vector4d corner_values(const std::vector<double>& field,
                               const std::array<std::int32_t, 4>& quad);
 
+/// Index of the Gauss point of an element nearest to xi: what has liquefied has no mean between two.
+std::size_t nearest_gauss(const std::vector<Vec2>& gauss_positions, const Vec2& xi);
+
 Corners undeformed_corners(const exchange::MeshSnapshot& mesh, std::size_t element);
 
 /// Horizontal displacement of the mesh's lowest node, the leftmost of several [m].

@@ -1,8 +1,7 @@
 #include "core/liquefied/liquefied_points.hpp"
 
-#include <algorithm>
-
 #include "core/geometry/polyline.hpp"
+#include "core/liquefied/elements.hpp"
 
 namespace breach::liquefied {
 
@@ -12,10 +11,7 @@ bool LiquefiedPoints::holds(std::size_t element, const Vec2& xi, const Vec2& pla
     if (!water_table_.empty() && place.y() >= geometry::level_at(water_table_, place.x()))
         return false;
     const auto& gauss = mesh_->gauss_positions;
-    const auto nearest = std::ranges::min_element(
-        gauss, {}, [&](const Vec2& each) { return (each - xi).squaredNorm(); });
-    const std::size_t p =
-        element * gauss.size() + static_cast<std::size_t>(nearest - gauss.begin());
+    const std::size_t p = element * gauss.size() + nearest_gauss(gauss, xi);
     return mesh_->r_u_max[p] >= r_u_ ||
            (shear_strain_ && mesh_->shear_strain_max[p] >= *shear_strain_);
 }

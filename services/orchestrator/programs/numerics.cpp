@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <map>
 #include <sstream>
 
 #include "core/command/command.hpp"
@@ -39,8 +40,12 @@ std::int64_t numerics_of(const std::filesystem::path& program) {
 
 Numerics numerics_of_phases(const std::filesystem::path& bin) {
     Numerics found;
-    for (const phases::Phase& each : phases::all)
-        found[each.program] = numerics_of(bin / each.executable);
+    std::map<std::string, std::int64_t> of_executables;  // one may be two phases
+    for (const phases::Phase& each : phases::all) {
+        const auto [known, is_new] = of_executables.try_emplace(each.executable);
+        if (is_new) known->second = numerics_of(bin / each.executable);
+        found[each.program] = known->second;
+    }
     return found;
 }
 

@@ -48,19 +48,18 @@ std::optional<std::string> lost_by(TaskState state, std::optional<std::int64_t> 
     return summary.value_or(std::string(name_of(state)));
 }
 
-/// Whether the trigger depends on these tasks: its FEM, the FEM's stability analysis (as in
+/// Whether the trigger depends on these tasks: its FEM, the FEM's stability analyses (as in
 /// Store::stability_of), and for a bisection the runouts.
 bool depends_on(Connection& database, const Trigger& trigger, const std::set<std::string>& tasks) {
     const auto has = [&](const std::string& task) { return tasks.contains(task); };
     if (has(trigger.fem_task)) return true;
-    const auto lem = database.text(
-        R"(SELECT id FROM tasks WHERE run=?1 AND phase=?2
+    for (const char* phase : {phases::lem.program, phases::post_seismic.program}) {
+        const auto stability = database.text(
+            R"(SELECT id FROM tasks WHERE run=?1 AND phase=?2
 ORDER BY variant=(SELECT variant FROM tasks WHERE id=?3) DESC, variant='' DESC, id LIMIT 1)",
-        {trigger.run, phases::lem.program, trigger.fem_task});
-    if (lem && has(*lem)) return true;
-    const auto after = database.text("SELECT id FROM tasks WHERE parent=? AND phase=?",
-                                     {trigger.fem_task, phases::post_seismic.program});
-    if (after && has(*after)) return true;
+            {trigger.run, phase, trigger.fem_task});
+        if (stability && has(*stability)) return true;
+    }
     return trigger.kind == "bisect" &&
            std::ranges::any_of(
                database.texts(R"(SELECT mpm.id FROM tasks AS transfer JOIN tasks AS mpm
