@@ -18,8 +18,11 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 constexpr std::size_t valleys_followed = 24;
+constexpr std::size_t valleys_of_sample = 8;
 constexpr double least_gain = 1e-5;  // relative: a tenth of the resolution with 50 slices
 constexpr double least_gain_polished = 1e-7;
+constexpr double most_gain_polished =
+    0.01;  // relative; descents farther from the best stay as they are
 /// Flatter arcs are practically infinite slopes; radii beyond 100 chords lose digits.
 constexpr double flattest = 1e-3;  // sagitta over chord
 
@@ -156,15 +159,16 @@ class Probe {
 
 class Search {
   public:
-    Search(const Model& model, const scene::SlipSearch& ranges, int threads)
+    Search(const Model& model, const scene::SlipSearch& ranges, int threads, Effort effort)
         : model_(model),
-          ranges_(ranges),
+          ranges_(effort == Effort::sample ? halved(ranges) : ranges),
           threads_(threads),
+          effort_(effort),
           boundaries_(boundaries_of(model.strata)) {}
 
-    SearchResult run(Effort effort) {
+    SearchResult run() {
         coarse();
-        if (effort == Effort::coarse) {
+        if (effort_ == Effort::coarse) {
             for (const PairBest& each : result_.pairs) keep(each.critical);
             return std::move(result_);
         }
@@ -175,15 +179,17 @@ class Search {
         numerics::run_blocks(starts.size(), threads_, [&](std::size_t i) {
             follow(starts[i], probes[i], grid_step(), least_gain);
         });
-        numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) { polish(probes[i]); });
+        double least = none;
+        for (const Probe& each : probes) least = std::min(least, value_of(each));
+        numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) {
+            if (value_of(probes[i]) <= least * (1.0 + most_gain_polished)) polish(probes[i]);
+        });
         double second = none;
         for (const Probe& each : probes) {
             result_.tally += each.tally();
             if (!each.best()) continue;
-            const double F = each.best()->bishop.factor_of_safety;
-            const double least =
-                result_.critical ? result_.critical->bishop.factor_of_safety : none;
-            second = std::min(second, std::max(F, least));
+            const double best = result_.critical ? result_.critical->bishop.factor_of_safety : none;
+            second = std::min(second, std::max(value_of(each), best));
             keep(*each.best());
         }
         if (second < none) result_.error = second / result_.critical->bishop.factor_of_safety - 1.0;
@@ -191,6 +197,13 @@ class Search {
     }
 
   private:
+    static scene::SlipSearch halved(scene::SlipSearch ranges) {
+        constexpr int fewest = 8;
+        for (int* each : {&ranges.entry_points, &ranges.exit_points, &ranges.depths})
+            *each = std::min(*each, std::max(fewest, *each / 2));
+        return ranges;
+    }
+
     struct Valued {
         Place place;
         double value;
@@ -202,6 +215,10 @@ class Search {
         std::optional<PairBest> best;
     };
 
+    static double value_of(const Probe& probe) {
+        return probe.best() ? probe.best()->bishop.factor_of_safety : none;
+    }
+
     void keep(const Critical& each) {
         if (!result_.critical ||
             each.bishop.factor_of_safety < result_.critical->bishop.factor_of_safety)
@@ -210,19 +227,39 @@ class Search {
 
     Probe probe(int slices) const { return {model_, ranges_, boundaries_, slices}; }
 
+    /// Ends as shares of a range: equally spaced, and where another region begins on the ground. A
+    /// surface tangent to a boundary may have to end within a narrow stretch above its outcrop.
+    std::vector<double> ends_in(const std::array<double, 2>& range, int count) const {
+        std::vector<double> shares(static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i)
+            shares[static_cast<std::size_t>(i)] = static_cast<double>(i) / (count - 1);
+        if (effort_ == Effort::coarse) return shares;
+        const Strata& strata = model_.strata;
+        const auto on_ground = [&](const Strip& strip) {
+            return strata.layers[strip.first].region;
+        };
+        for (std::size_t k = 0; k + 1 < strata.strips.size(); ++k) {
+            const double share = (strata.strips[k].to - range[0]) / (range[1] - range[0]);
+            if (on_ground(strata.strips[k]) != on_ground(strata.strips[k + 1]) && share > 0.0 &&
+                share < 1.0)
+                shares.push_back(share);
+        }
+        return shares;
+    }
+
     /// All pairs of ends with all depths and tangent circles; one block per entry.
     void coarse() {
-        const auto entries = static_cast<std::size_t>(ranges_.entry_points);
-        const auto exits = static_cast<std::size_t>(ranges_.exit_points);
+        const auto from = ends_in(ranges_.entry, ranges_.entry_points);
+        const auto to = ends_in(ranges_.exit, ranges_.exit_points);
+        const std::size_t entries = from.size();
+        const std::size_t exits = to.size();
         pairs_.resize(entries * exits);
         std::vector<Tally> tallies(entries);
         numerics::run_blocks(entries, threads_, [&](std::size_t i) {
             // Fewer slices: the grid only has to find the places from which the descents start.
             Probe here = probe(std::min(model_.slices, coarse_slices));
             for (std::size_t j = 0; j < exits; ++j) {
-                pairs_[i * exits + j] =
-                    pair_of(here, static_cast<double>(i) / static_cast<double>(entries - 1),
-                            static_cast<double>(j) / static_cast<double>(exits - 1));
+                pairs_[i * exits + j] = pair_of(here, from[i], to[j]);
             }
             tallies[i] = here.tally();
         });
@@ -266,9 +303,10 @@ class Search {
                                  [](const Valued& each) { return each.value < none; });
         // Stable: equal factors keep the order of the grid.
         std::ranges::stable_sort(all, {}, &Valued::value);
+        const std::size_t most = effort_ == Effort::sample ? valleys_of_sample : valleys_followed;
         std::vector<Place> starts;
         for (const Valued& each : all) {
-            if (starts.size() == valleys_followed) break;
+            if (starts.size() == most) break;
             const Place& place = each.place;
             const auto near = [&](const Place& other) {
                 return other.sag == place.sag && other.line == place.line &&
@@ -310,8 +348,9 @@ class Search {
     }
 
     const Model& model_;
-    const scene::SlipSearch& ranges_;
+    const scene::SlipSearch ranges_;
     int threads_;
+    Effort effort_;
     std::vector<Line> boundaries_;
     std::vector<Pair> pairs_;
     SearchResult result_;
@@ -352,7 +391,7 @@ Tally& Tally::operator+=(const Tally& other) {
 
 SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads,
                     Effort effort) {
-    return Search(model, ranges, threads).run(effort);
+    return Search(model, ranges, threads, effort).run();
 }
 
 }  // namespace breach::lem

@@ -65,8 +65,9 @@ struct SearchResult {
 
 /// Slices in the coarse grid, at most. The descents, and so the result, use the model's number.
 inline constexpr int coarse_slices = 25;
-/// coarse: only the grid, an upper bound of the whole search's result.
-enum class Effort { whole, coarse };
+/// sample: a coarser grid and fewer descents, for one of many similar slopes. coarse: only the grid,
+/// an upper bound of the whole search's result.
+enum class Effort { whole, sample, coarse };
 /// All straight boundaries below ground, each once.
 std::vector<Line> boundaries_of(const Strata& strata);
 
