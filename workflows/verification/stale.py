@@ -75,7 +75,8 @@ def cost(measurement, study, known, stale, cached):
         return {phase: there[phase] for phase in stale}
     if not cached:
         return there
-    first = min((CHAIN.index(each) for each in stale if each in CHAIN), default=0)
+    # A new critical depth may move the transfers of a study.
+    first = min((CHAIN.index(each) for each in stale if each in CHAIN), default=len(CHAIN) if "command" in measurement else 0)
     return {phase: seconds for phase, seconds in there.items() if phase in stale or phase in CHAIN[first:]}
 
 
