@@ -1,0 +1,43 @@
+// Nonlocal softening of the FEM: the growth of the softening strain in a step is averaged over the
+// Gauss points around, so that a length of the soil and not the element sets the width of a shear
+// band. The mesh keeps its drawn shape, so the weights are computed once (build_model).
+// Method: docs/reference/methods/softening.md.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fem_solver/model/model.hpp"
+
+namespace breach::fem {
+
+class NonlocalSoftening {
+  public:
+    explicit NonlocalSoftening(const Model& model);
+    bool is_on() const { return !groups_.empty(); }
+    /// Replaces the growth from `old` to `trial` of every softening point by that of its
+    /// neighbourhood, over the scale of its strains. For each converged step (step.cpp).
+    void share(const Model& model, const Motion& old, Motion& trial) const;
+
+  private:
+    /// The points of one zone: strains of another region do not soften this one.
+    struct Group {
+        std::size_t first, count;       ///< points
+        double spent;                   ///< epsilon_q from which points do not take part [-]
+        double scale;                   ///< of softening strains
+        std::vector<double> volume;     ///< [points] [m3]
+        std::vector<std::size_t> rows;  ///< [points + 1]
+        /// Of all rows. Floats: a fine mesh has thousands of neighbours per point.
+        std::vector<std::int32_t> neighbours;
+        std::vector<float> weights;
+    };
+    static Group group_of(const Model& model, const Zone& zone);
+
+    std::vector<Group> groups_;
+};
+
+/// None if no zone softens over a length.
+std::shared_ptr<const NonlocalSoftening> nonlocal_softening(const Model& model);
+
+}  // namespace breach::fem
