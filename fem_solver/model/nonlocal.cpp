@@ -9,50 +9,52 @@ namespace breach::fem {
 
 namespace {
 
-/// Drawn positions of a zone's integration points [m].
-std::vector<Vec2> positions_of(const Model& model, const Zone& zone) {
-    std::vector<Vec2> positions;
-    for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
-        const Corners corners = corners_of(model.mesh, e);
-        for (std::size_t g = 0; g < model.points_per_element; ++g) {
-            const Vec2 at = model.points_per_element == 1 ? Vec2::Zero() : gauss_positions()[g];
-            positions.emplace_back(corners * shape_functions(at));
-        }
+/// Means over the points of an element.
+struct ElementMeans {
+    double epsilon_q;  ///< before the step [-]
+    double growth;     ///< [-]
+};
+
+ElementMeans means_of(const Model& model, std::size_t element, const Motion& old,
+                      const Motion& trial) {
+    ElementMeans means{0.0, 0.0};
+    double volume = 0.0;
+    for (std::size_t g = 0; g < model.points_per_element; ++g) {
+        const std::size_t p = element * model.points_per_element + g;
+        const double V = model.reference[element].weight[g];
+        means.epsilon_q += V * old.points[p].epsilon_q;
+        means.growth += V * (trial.points[p].epsilon_q - old.points[p].epsilon_q);
+        volume += V;
     }
-    return positions;
+    return {means.epsilon_q / volume, means.growth / volume};
 }
 
 }  // namespace
 
 NonlocalSoftening::Group NonlocalSoftening::group_of(const Model& model, const Zone& zone) {
-    Group group{.first = zone.first * model.points_per_element,
-                .count = zone.count * model.points_per_element,
+    Group group{.first = zone.first,
                 .spent = materials::spent_strain(*materials::softening(zone.law)),
                 .scale = zone.softening_scale,
-                .volume = {},
                 .rows = {0},
                 .neighbours = {},
                 .weights = {}};
-    for (std::size_t e = zone.first; e < zone.first + zone.count; ++e) {
-        for (std::size_t g = 0; g < model.points_per_element; ++g)
-            group.volume.push_back(model.reference[e].weight[g]);
-    }
-    const std::vector<Vec2> at = positions_of(model, zone);
+    std::vector<Vec2> middles;
+    for (std::size_t e = zone.first; e < zone.first + zone.count; ++e)
+        middles.emplace_back(corners_of(model.mesh, e).rowwise().mean());
+    const auto x_of = [&](std::int32_t i) { return middles[static_cast<std::size_t>(i)].x(); };
     // In order of x, so that neighbours lie in one range.
-    std::vector<std::int32_t> sorted(at.size());
+    std::vector<std::int32_t> sorted(middles.size());
     std::iota(sorted.begin(), sorted.end(), 0);
-    const auto x_of = [&](std::int32_t i) { return at[static_cast<std::size_t>(i)].x(); };
     std::ranges::stable_sort(sorted, {}, x_of);
     const double reach = materials::nonlocal_reach * zone.nonlocal_length;
-    for (const Vec2& here : at) {
+    for (const Vec2& here : middles) {
         const auto begin = std::ranges::lower_bound(sorted, here.x() - reach, {}, x_of);
-        for (auto other = begin; other != sorted.end() && x_of(*other) <= here.x() + reach;
-             ++other) {
-            const double distance = (at[static_cast<std::size_t>(*other)] - here).norm();
+        const auto end = std::ranges::upper_bound(sorted, here.x() + reach, {}, x_of);
+        for (const std::int32_t other : std::ranges::subrange(begin, end)) {
+            const double distance = (middles[static_cast<std::size_t>(other)] - here).norm();
             if (distance == 0.0 || distance >= reach) continue;
-            group.neighbours.push_back(*other);
-            group.weights.push_back(
-                static_cast<float>(materials::nonlocal_weight(distance, zone.nonlocal_length)));
+            group.neighbours.push_back(other);
+            group.weights.push_back(materials::nonlocal_weight(distance, zone.nonlocal_length));
         }
         group.rows.push_back(group.neighbours.size());
     }
@@ -65,28 +67,37 @@ NonlocalSoftening::NonlocalSoftening(const Model& model) {
 }
 
 void NonlocalSoftening::share(const Model& model, const Motion& old, Motion& trial) const {
-    for (const Group& group : groups_) {
-        std::vector<double> growth(group.count), V(group.count), V_dk(group.count);
-        for (std::size_t i = 0; i < group.count; ++i) {
-            const std::size_t p = group.first + i;
-            growth[i] = trial.points[p].epsilon_q - old.points[p].epsilon_q;
-            const bool takes_part = old.points[p].epsilon_q < group.spent &&
-                                    !model.is_absent(p / model.points_per_element);
-            V[i] = takes_part ? group.volume[i] : 0.0;
-            V_dk[i] = V[i] * growth[i];
+    for (const Group& group : groups_) share(group, model, old, trial);
+}
+
+void NonlocalSoftening::share(const Group& group, const Model& model, const Motion& old,
+                              Motion& trial) const {
+    std::vector<double> V(group.count(), 0.0), V_dk(group.count(), 0.0);
+    bool grows = false;
+    for (std::size_t i = 0; i < group.count(); ++i) {
+        const std::size_t e = group.first + i;
+        if (model.is_absent(e)) continue;
+        const ElementMeans means = means_of(model, e, old, trial);
+        grows = grows || means.growth != 0.0;
+        if (means.epsilon_q >= group.spent) continue;
+        V[i] = model.volume[e];
+        V_dk[i] = V[i] * means.growth;
+    }
+    if (!grows) return;
+    for (std::size_t i = 0; i < group.count(); ++i) {
+        double around = 0.0, given = 0.0;
+        for (std::size_t k = group.rows[i]; V[i] > 0.0 && k < group.rows[i + 1]; ++k) {
+            const auto j = static_cast<std::size_t>(group.neighbours[k]);
+            around += group.weights[k] * V[j];
+            given += group.weights[k] * V_dk[j];
         }
-        if (std::ranges::all_of(growth, [](double each) { return each == 0.0; })) continue;
-        for (std::size_t i = 0; i < group.count; ++i) {
-            double around = 0.0, given = 0.0;
-            for (std::size_t k = group.rows[i]; V[i] > 0.0 && k < group.rows[i + 1]; ++k) {
-                const auto j = static_cast<std::size_t>(group.neighbours[k]);
-                around += group.weights[k] * V[j];
-                given += group.weights[k] * V_dk[j];
-            }
-            // A point without others around keeps its own growth.
-            const double mean = around > 0.0 ? given / around : growth[i];
-            const std::size_t p = group.first + i;
-            trial.points[p].epsilon_q = old.points[p].epsilon_q + mean / group.scale;
+        for (std::size_t g = 0; g < model.points_per_element; ++g) {
+            const std::size_t p = (group.first + i) * model.points_per_element + g;
+            const double before = old.points[p].epsilon_q;
+            // An element without others around keeps its own growth.
+            const double growth =
+                around > 0.0 ? given / around : trial.points[p].epsilon_q - before;
+            trial.points[p].epsilon_q = before + growth / group.scale;
         }
     }
 }
