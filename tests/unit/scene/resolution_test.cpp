@@ -130,6 +130,7 @@ TEST(NonlocalLength, IsAskedForWhereSoilBreaks) {
 TEST(NonlocalLength, HasToFitTheCellsAndTheRegion) {
     json document = dyke();  // 6 m wide
     document["mpm"]["cell_size"] = 0.4;
+    document["section"]["element_size"] = 0.3;
     json& clay = document["materials"]["clay"];
     clay["nonlocal_length"] = 0.7;
     EXPECT_EQ(refused(document),
