@@ -14,11 +14,11 @@ sys.path.insert(0, str(root / "tests/verification/fem"))
 from runs import datasets, judge
 
 STUDY = root / "workflows/accuracy/fem_softening.json"
-TRANSFER, END = 0.5, 0.7     # times of the transfer and of the comparison [s]
-BEGINS, ENDS = 0.01, 0.3     # epsilon_q of the study's softening
+TRANSFER, END = 0.4, 0.6     # times of the transfer and of the comparison [s]
+BEGINS, ENDS = 0.01, 0.12    # epsilon_q of the study's softening
 SLOPE = 1                    # number of its region
 settings = [*json.loads(STUDY.read_text())["accuracy"]["base"], f"/fem/snapshot_times=[{TRANSFER}]", f"/fem/stages/1/duration={END}",
-            f"/mpm/duration={END - TRANSFER}", "/mpm/cell_size=0.625"]
+            f"/mpm/duration={END - TRANSFER}"]
 
 
 def run(phase, folder, *arguments):
@@ -59,8 +59,8 @@ def main(folder):
     print(f"    softened area: FEM {before:.3f} m2, points {after:.3f} m2; {END - TRANSFER:.1f} s later FEM {on:.2f} m2, MPM {end:.2f} m2")
     passed = judge("softened area of the points against the mesh", abs(after / before - 1), 0.005)
     passed &= judge("its growth has begun: area before over that after", before / on, 0.6)
-    # The MPM's cells and its stiffness are others.
-    return 0 if passed & judge("softened area at the end, MPM against FEM", abs(end / on - 1), 0.1) else 1
+    # Its bands are 2.5 lengths wide and not 2.7, and its cells and stiffness are others.
+    return 0 if passed & judge("softened area at the end, MPM against FEM", abs(end / on - 1), 0.15) else 1
 
 
 if __name__ == "__main__":
