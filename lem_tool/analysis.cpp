@@ -118,6 +118,9 @@ void say(const json& result) {
     spdlog::info("least factor of safety {:.3f} ({}, {}): {}", F,
                  result.at("method") == "spencer" ? "Spencer" : "simplified Bishop",
                  in_words(surface), F < 1.0 ? "the slope fails" : "the slope is stable");
+    constexpr double telling_error = 1e-3;
+    if (const double error = result.value("search_error", 0.0); error > telling_error)
+        spdlog::info("the search knows it to {:.1g} %", 100.0 * error);
     const json& bishop = result.at("bishop");
     spdlog::info("critical circle: simplified Bishop {:.3f}{}",
                  bishop.at("factor_of_safety").get<double>(), other_methods(bishop));

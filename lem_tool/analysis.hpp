@@ -9,7 +9,7 @@
 namespace breach::lem {
 
 /// Raise it when results change for the same input: the cache then reuses no older result.
-inline constexpr int numerics = 8;
+inline constexpr int numerics = 9;
 
 process::Plan plan(const scene::Scene& scene);
 

@@ -140,6 +140,7 @@ json facts_of(const Searched& searched) {
                   slices.stands_on.begin() + static_cast<std::ptrdiff_t>(slices.count),
                   Base::straight) !=
         slices.stands_on.begin() + static_cast<std::ptrdiff_t>(slices.count);
+    if (std::isfinite(searched.found.error)) facts["search_error"] = searched.found.error;
     const Crack& crack = searched.model.strata.crack;
     if (crack.reach == Crack::Reach::none) return facts;
     const double whole = searched.factor_with_whole_crack;
@@ -192,13 +193,19 @@ Families given_family(const scene::Scene& scene, const Model& model) {
     return families;
 }
 
-/// Starts from the least circle, with the requested or default number of vertices.
+/// Starts from wedges, the critical circle and every weak layer's surface; with the requested or
+/// default number of vertices.
 static json polyline_of(const scene::Scene& scene, const Families& families) {
-    const Searched& start = families.least();
     scene::Scene bent = scene;
     if (!asks_for_polyline(*scene.lem))
         bent.lem->non_circular = scene::NonCircular{{}, usual_vertices};
-    return optimised_polyline(bent, start.model, start.found.critical->surface);
+    // Under a weak layer's own floor a polyline could not leave the layer downwards.
+    Model model = families.circles.model;
+    model.strata.crack.share = families.least().model.strata.crack.share;
+    std::vector<Start> starts{{model.strata, families.circles.found.critical->surface}};
+    for (const Searched& each : families.composites)
+        starts.push_back({each.model.strata, each.found.critical->surface});
+    return optimised_polyline(bent, model, starts);
 }
 
 json answer(const scene::Scene& scene, const Families& families, const json& given) {

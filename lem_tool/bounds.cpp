@@ -232,6 +232,31 @@ std::vector<fault::Flag> flags_of_crack(const scene::Lem& lem, const State& stat
          "/lem/tension_crack"}};
 }
 
+/// Without a crack, cohesion holds a crest that is in tension.
+std::vector<fault::Flag> flags_of_tension(const scene::Scene& scene, const State& state,
+                                          int threads) {
+    const Searched& least = state.families.least();
+    const double zone = tension_zone(least.model, least.found.critical->surface);
+    if (scene.lem->tension_crack || !(zone > 0.0) || !std::isfinite(zone)) return {};
+    constexpr double telling_fall = 0.03;  // less is usual in cohesive soil
+    const double telling_factor = least.factor() * (1.0 - telling_fall);
+    const double depth = words::rounded_down(zone);
+    scene::Scene cracked = scene;
+    cracked.lem->tension_crack.emplace().depth = depth;
+    if (coarse_factor(cracked, state, threads) >= telling_factor) return {};
+    const double with =
+        search_families(cracked, model_of(cracked, state), *cracked.lem->search, threads)
+            .least()
+            .factor();
+    if (with >= telling_factor) return {};
+    return {{"no_tension_crack", fault::Severity::warning,
+             formatted("Bishop's factor of safety%s is %.3f with tension at the crest; with a "
+                       "crack to %.3g m, 2 c / gamma tan(45 + phi / 2), it is %.3f. %s",
+                       state.name.c_str(), least.factor(), depth, with,
+                       words::set("/lem/tension_crack/depth", depth).c_str()),
+             "/lem/tension_crack"}};
+}
+
 }  // namespace
 
 void add_flags_of_state(const scene::Scene& scene, const State& state, int threads,
@@ -245,6 +270,7 @@ void add_flags_of_state(const scene::Scene& scene, const State& state, int threa
         if (state.name.empty()) add(flags_of_weak_layer(scene, state.families, state.answer));
         add(flags_of_edges(state.model.strata, *scene.lem, state));
         add(flags_of_bounds(scene, state, threads, flags));
+        if (state.name.empty()) add(flags_of_tension(scene, state, threads));
     }
     add(flags_of_upstream_end(state.model.strata, state));
 }

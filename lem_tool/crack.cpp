@@ -76,8 +76,11 @@ double tension_zone(const Model& model, const Surface& surface) {
     cut(model.strata, model.soils, surface, model.slices, slices);
     const std::size_t i = slide_of(slices) == Slide::to_right ? 0 : slices.count - 1;
     const double x = slices.left[i] + 0.5 * slices.width[i];
-    const double height = ground_level(model.strata, x, From::left) - slices.base[i];
-    const double gamma = slices.soil_weight[i] / (slices.width[i] * height);
+    const Strip& strip = model.strata.strips[strip_at(model.strata, x)];
+    std::size_t layer = strip.first;
+    while (layer + 1 < strip.last && model.strata.layers[layer + 1].top.at(x) > slices.base[i])
+        ++layer;
+    const double gamma = model.strata.layers[layer].gamma;
     // Of the slice at the upper end, with its undrained or liquefied strength.
     const double phi = std::atan(slices.tan_phi[i]);
     return 2.0 * slices.c[i] / gamma * std::tan(0.25 * M_PI + 0.5 * phi);

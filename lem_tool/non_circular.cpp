@@ -18,36 +18,7 @@ constexpr double loose_end = 2e-3;
 
 json point_of(const scene::Vec2& p) { return json::array({p.x(), p.y()}); }
 
-/// Share of the mass's area without friction.
-double frictionless_mass(const Model& model, const Slices& slices) {
-    double all = 0.0;
-    double without = 0.0;
-    for (std::size_t i = 0; i < slices.count; ++i) {
-        const double x = slices.left[i] + 0.5 * slices.width[i];
-        const Strip& strip = model.strata.strips[strip_at(model.strata, x)];
-        for (std::size_t k = strip.first; k < strip.last; ++k) {
-            const Layer& layer = model.strata.layers[k];
-            const double top = layer.top.at(x);
-            // Layers are ordered from the ground down: the rest is below the surface.
-            if (top <= slices.base[i]) break;
-            const double bottom =
-                k + 1 < strip.last ? std::max(slices.base[i], model.strata.layers[k + 1].top.at(x))
-                                   : slices.base[i];
-            const Soil& soil = model.soils[layer.region];
-            all += slices.width[i] * (top - bottom);
-            if (soil.tan_phi > 0.0) continue;
-            const double wet =
-                soil.above_water && soil.line
-                    ? std::min(top, model.strata.pressures[strip.pressures + *soil.line].top.at(x))
-                    : top;
-            without += slices.width[i] * std::max(0.0, wet - bottom);
-        }
-    }
-    return without / all;
-}
-
-/// Expects the surface's slices in `slices`.
-json facts_of(const Model& model, const Bent& bent, const Slices& slices) {
+json facts_of(const Bent& bent, const Slices& slices) {
     const std::vector<scene::Vec2>& points = bent.surface.points;
     const bool falls_right = points.front().y() > points.back().y();
     const auto lowest = std::ranges::min_element(points, {}, [](const auto& p) { return p.y(); });
@@ -61,7 +32,7 @@ json facts_of(const Model& model, const Bent& bent, const Slices& slices) {
                {"lowest_point", point_of(*lowest)},
                {"slices", slices.count},
                {"frictionless_share", bent.frictionless},
-               {"frictionless_mass", frictionless_mass(model, slices)},
+               {"frictionless_mass", bent.frictionless_mass},
                {"points", json::array()}};
     for (const scene::Vec2& p : points) facts["points"].push_back(point_of(p));
     return facts;
@@ -123,25 +94,25 @@ json given_polyline(const scene::Scene& scene, const Model& model) {
                "that cannot fail, or no inclination of the interslice forces balances it",
                "give a surface within soil that can fail, without pieces steeper than the slide "
                "can follow");
-    return facts_of(model, *found, slices);
+    return facts_of(*found, slices);
 }
 
-json optimised_polyline(const scene::Scene& scene, const Model& model, const Surface& circle) {
-    const auto found = optimise(model, room_of(*scene.lem, model.strata), circle);
+json optimised_polyline(const scene::Scene& scene, const Model& model,
+                        const std::vector<Start>& starts) {
+    const auto found = optimise(model, room_of(*scene.lem, model.strata), starts);
     if (!found) return nullptr;
     Slices slices = make_slices(model.strata, model.slices);
-    json facts = facts_of(model, *analyse(model, found->best.surface, slices), slices);
+    json facts = facts_of(*analyse(model, found->best.surface, slices), slices);
     // For comparison: what the descent gained over the circle by the same method.
-    facts["start_factor_of_safety"] = found->start;
+    if (std::isfinite(found->start)) facts["start_factor_of_safety"] = found->start;
     facts["surfaces_analysed"] = found->analysed;
+    if (std::isfinite(found->error)) facts["search_error"] = found->error;
     return facts;
 }
 
 bool kinks_without_friction(const json& polyline) {
-    constexpr double most_of_base = 0.5;
-    constexpr double thin_layer = 0.1;  // over the mass: the soil above the layer deforms at kinks
-    return polyline.at("frictionless_share") >= most_of_base &&
-           polyline.at("frictionless_mass") >= thin_layer;
+    return kinked_without_friction(polyline.at("frictionless_share"),
+                                   polyline.at("frictionless_mass")) >= 0.0;
 }
 
 }  // namespace breach::lem

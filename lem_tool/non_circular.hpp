@@ -5,7 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/scene/scene.hpp"
-#include "lem_tool/search.hpp"
+#include "lem_tool/optimise.hpp"
 
 namespace breach::lem {
 
@@ -14,7 +14,7 @@ nlohmann::json given_polyline(const scene::Scene& scene, const Model& model);
 
 /// "non_circular": the optimised polyline; null if Spencer's method fails for the initial circle.
 nlohmann::json optimised_polyline(const scene::Scene& scene, const Model& model,
-                                  const Surface& circle);
+                                  const std::vector<Start>& starts);
 
 /// Whether most of a polyline's base is without friction, other than in a thin layer under soil
 /// with friction. Its factor neglects internal shearing of the mass at the kinks.

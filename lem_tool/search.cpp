@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
-#include <numeric>
 
 #include "core/numerics/blocks.hpp"
 #include "lem_tool/simplex.hpp"
@@ -17,9 +17,12 @@ namespace breach::lem {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
-constexpr std::size_t valleys_followed = 12;
+constexpr std::size_t valleys_followed = 24;
+constexpr std::size_t valleys_of_sample = 8;
 constexpr double least_gain = 1e-5;  // relative: a tenth of the resolution with 50 slices
 constexpr double least_gain_polished = 1e-7;
+constexpr double most_gain_polished =
+    0.01;  // relative; descents farther from the best stay as they are
 /// Flatter arcs are practically infinite slopes; radii beyond 100 chords lose digits.
 constexpr double flattest = 1e-3;  // sagitta over chord
 
@@ -36,30 +39,6 @@ struct Place {
     int line = 0;   ///< touching: index of a boundary line
     int which = 0;  ///< touching: which of the two circles
 };
-
-/// All straight boundaries below ground, each once.
-std::vector<Line> boundaries_of(const Strata& strata) {
-    std::vector<Line> lines;
-    const double middle = 0.5 * (strata.left() + strata.right());
-    const double width = strata.right() - strata.left();
-    const auto add = [&](const Line& line) {
-        // The same boundary in many strips is tried once.
-        const auto same = [&](const Line& other) {
-            return std::abs(other.at(middle) - line.at(middle)) < 1e-9 * width &&
-                   std::abs(other.slope - line.slope) < 1e-9;
-        };
-        if (std::none_of(lines.begin(), lines.end(), same)) lines.push_back(line);
-    };
-    for (const Strip& strip : strata.strips) {
-        const double x = 0.5 * (strip.from + strip.to);
-        const double limit = std::max(strip.bottom.at(x), strip.floor.at(x));
-        for (std::size_t k = strip.first + 1; k < strip.last; ++k) {
-            if (strata.layers[k].top.at(x) > limit) add(strata.layers[k].top);
-        }
-        add(strip.floor.at(x) >= strip.bottom.at(x) ? strip.floor : strip.bottom);
-    }
-    return lines;
-}
 
 /// Analyses places one by one; keeps the best and counts.
 class Probe {
@@ -180,15 +159,16 @@ class Probe {
 
 class Search {
   public:
-    Search(const Model& model, const scene::SlipSearch& ranges, int threads)
+    Search(const Model& model, const scene::SlipSearch& ranges, int threads, Effort effort)
         : model_(model),
-          ranges_(ranges),
+          ranges_(effort == Effort::sample ? halved(ranges) : ranges),
           threads_(threads),
+          effort_(effort),
           boundaries_(boundaries_of(model.strata)) {}
 
-    SearchResult run(Effort effort) {
+    SearchResult run() {
         coarse();
-        if (effort == Effort::coarse) {
+        if (effort_ == Effort::coarse) {
             for (const PairBest& each : result_.pairs) keep(each.critical);
             return std::move(result_);
         }
@@ -199,21 +179,45 @@ class Search {
         numerics::run_blocks(starts.size(), threads_, [&](std::size_t i) {
             follow(starts[i], probes[i], grid_step(), least_gain);
         });
-        numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) { polish(probes[i]); });
+        double least = none;
+        for (const Probe& each : probes) least = std::min(least, value_of(each));
+        numerics::run_blocks(probes.size(), threads_, [&](std::size_t i) {
+            if (value_of(probes[i]) <= least * (1.0 + most_gain_polished)) polish(probes[i]);
+        });
+        double second = none;
         for (const Probe& each : probes) {
             result_.tally += each.tally();
-            if (each.best()) keep(*each.best());
+            if (!each.best()) continue;
+            const double best = result_.critical ? result_.critical->bishop.factor_of_safety : none;
+            second = std::min(second, std::max(value_of(each), best));
+            keep(*each.best());
         }
+        if (second < none) result_.error = second / result_.critical->bishop.factor_of_safety - 1.0;
         return std::move(result_);
     }
 
   private:
-    /// The best surface of a pair of ends.
-    struct Pair {
+    static scene::SlipSearch halved(scene::SlipSearch ranges) {
+        constexpr int fewest = 8;
+        for (int* each : {&ranges.entry_points, &ranges.exit_points, &ranges.depths})
+            *each = std::min(*each, std::max(fewest, *each / 2));
+        return ranges;
+    }
+
+    struct Valued {
         Place place;
-        double value = none;
+        double value;
+    };
+
+    /// The surfaces of a pair of ends: the best of the depths, and those that follow something.
+    struct Pair {
+        std::vector<Valued> places;
         std::optional<PairBest> best;
     };
+
+    static double value_of(const Probe& probe) {
+        return probe.best() ? probe.best()->bishop.factor_of_safety : none;
+    }
 
     void keep(const Critical& each) {
         if (!result_.critical ||
@@ -223,19 +227,39 @@ class Search {
 
     Probe probe(int slices) const { return {model_, ranges_, boundaries_, slices}; }
 
+    /// Ends as shares of a range: equally spaced, and where another region begins on the ground. A
+    /// surface tangent to a boundary may have to end within a narrow stretch above its outcrop.
+    std::vector<double> ends_in(const std::array<double, 2>& range, int count) const {
+        std::vector<double> shares(static_cast<std::size_t>(count));
+        for (int i = 0; i < count; ++i)
+            shares[static_cast<std::size_t>(i)] = static_cast<double>(i) / (count - 1);
+        if (effort_ == Effort::coarse) return shares;
+        const Strata& strata = model_.strata;
+        const auto on_ground = [&](const Strip& strip) {
+            return strata.layers[strip.first].region;
+        };
+        for (std::size_t k = 0; k + 1 < strata.strips.size(); ++k) {
+            const double share = (strata.strips[k].to - range[0]) / (range[1] - range[0]);
+            if (on_ground(strata.strips[k]) != on_ground(strata.strips[k + 1]) && share > 0.0 &&
+                share < 1.0)
+                shares.push_back(share);
+        }
+        return shares;
+    }
+
     /// All pairs of ends with all depths and tangent circles; one block per entry.
     void coarse() {
-        const auto entries = static_cast<std::size_t>(ranges_.entry_points);
-        const auto exits = static_cast<std::size_t>(ranges_.exit_points);
+        const auto from = ends_in(ranges_.entry, ranges_.entry_points);
+        const auto to = ends_in(ranges_.exit, ranges_.exit_points);
+        const std::size_t entries = from.size();
+        const std::size_t exits = to.size();
         pairs_.resize(entries * exits);
         std::vector<Tally> tallies(entries);
         numerics::run_blocks(entries, threads_, [&](std::size_t i) {
             // Fewer slices: the grid only has to find the places from which the descents start.
             Probe here = probe(std::min(model_.slices, coarse_slices));
             for (std::size_t j = 0; j < exits; ++j) {
-                pairs_[i * exits + j] =
-                    best_of_pair(here, static_cast<double>(i) / static_cast<double>(entries - 1),
-                                 static_cast<double>(j) / static_cast<double>(exits - 1));
+                pairs_[i * exits + j] = pair_of(here, from[i], to[j]);
             }
             tallies[i] = here.tally();
         });
@@ -245,42 +269,52 @@ class Search {
         }
     }
 
-    Pair best_of_pair(Probe& here, double entry, double exit) const {
-        Pair pair{{entry, exit, 0.5}, none, std::nullopt};
-        const auto consider = [&](const Place& place) {
+    Pair pair_of(Probe& here, double entry, double exit) const {
+        Pair pair{{{{entry, exit, 0.5}, none}}, std::nullopt};
+        const auto value_of = [&](const Place& place) {
             const double F = here.try_at(place);
             // Depths first, then tangents: of equal factors the first one stays.
-            if (F >= pair.value) return;
-            pair = {place, F, PairBest{here.entry_of(place), here.exit_of(place), here.last()}};
+            if (F < none && (!pair.best || F < pair.best->critical.bishop.factor_of_safety))
+                pair.best = PairBest{here.entry_of(place), here.exit_of(place), here.last()};
+            return F;
         };
         for (int k = 1; k <= ranges_.depths; ++k) {
-            consider({entry, exit, static_cast<double>(k) / ranges_.depths});
+            const Place place{entry, exit, static_cast<double>(k) / ranges_.depths};
+            const double F = value_of(place);
+            if (F < pair.places[0].value) pair.places[0] = {place, F};
         }
+        const auto add = [&](const Place& place) {
+            if (const double F = value_of(place); F < none) pair.places.push_back({place, F});
+        };
         for (int line = 0; line < static_cast<int>(boundaries_.size()); ++line) {
             for (int which = 0; which < 2; ++which)
-                consider({entry, exit, 0.5, Sag::touching, line, which});
+                add({entry, exit, 0.5, Sag::touching, line, which});
         }
-        if (ranges_.minimum_depth > 0.0) consider({entry, exit, 0.5, Sag::shallowest});
+        if (ranges_.minimum_depth > 0.0) add({entry, exit, 0.5, Sag::shallowest});
         return pair;
     }
 
-    /// The best pairs, at least a twelfth of the ranges apart.
+    /// The best places; those that follow the same at least a twelfth of the ranges apart: each
+    /// boundary has valleys of its own, which other circles through the same ends may hide.
     std::vector<Place> valleys() const {
-        std::vector<std::size_t> order(pairs_.size());
-        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::vector<Valued> all;
+        for (const Pair& pair : pairs_)
+            std::ranges::copy_if(pair.places, std::back_inserter(all),
+                                 [](const Valued& each) { return each.value < none; });
         // Stable: equal factors keep the order of the grid.
-        std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-            return pairs_[a].value < pairs_[b].value;
-        });
+        std::ranges::stable_sort(all, {}, &Valued::value);
+        const std::size_t most = effort_ == Effort::sample ? valleys_of_sample : valleys_followed;
         std::vector<Place> starts;
-        for (const std::size_t n : order) {
-            if (pairs_[n].value == none || starts.size() == valleys_followed) break;
-            const Place& place = pairs_[n].place;
+        for (const Valued& each : all) {
+            if (starts.size() == most) break;
+            const Place& place = each.place;
             const auto near = [&](const Place& other) {
-                return std::abs(other.entry - place.entry) < 1.0 / 12.0 &&
+                return other.sag == place.sag && other.line == place.line &&
+                       other.which == place.which &&
+                       std::abs(other.entry - place.entry) < 1.0 / 12.0 &&
                        std::abs(other.exit - place.exit) < 1.0 / 12.0;
             };
-            if (std::none_of(starts.begin(), starts.end(), near)) starts.push_back(place);
+            if (std::ranges::none_of(starts, near)) starts.push_back(place);
         }
         return starts;
     }
@@ -314,14 +348,38 @@ class Search {
     }
 
     const Model& model_;
-    const scene::SlipSearch& ranges_;
+    const scene::SlipSearch ranges_;
     int threads_;
+    Effort effort_;
     std::vector<Line> boundaries_;
     std::vector<Pair> pairs_;
     SearchResult result_;
 };
 
 }  // namespace
+
+std::vector<Line> boundaries_of(const Strata& strata) {
+    std::vector<Line> lines;
+    const double middle = 0.5 * (strata.left() + strata.right());
+    const double width = strata.right() - strata.left();
+    const auto add = [&](const Line& line) {
+        // The same boundary in many strips is tried once.
+        const auto same = [&](const Line& other) {
+            return std::abs(other.at(middle) - line.at(middle)) < 1e-9 * width &&
+                   std::abs(other.slope - line.slope) < 1e-9;
+        };
+        if (std::none_of(lines.begin(), lines.end(), same)) lines.push_back(line);
+    };
+    for (const Strip& strip : strata.strips) {
+        const double x = 0.5 * (strip.from + strip.to);
+        const double limit = std::max(strip.bottom.at(x), strip.floor.at(x));
+        for (std::size_t k = strip.first + 1; k < strip.last; ++k) {
+            if (strata.layers[k].top.at(x) > limit) add(strata.layers[k].top);
+        }
+        add(strip.floor.at(x) >= strip.bottom.at(x) ? strip.floor : strip.bottom);
+    }
+    return lines;
+}
 
 Tally& Tally::operator+=(const Tally& other) {
     analysed += other.analysed;
@@ -333,7 +391,7 @@ Tally& Tally::operator+=(const Tally& other) {
 
 SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads,
                     Effort effort) {
-    return Search(model, ranges, threads).run(effort);
+    return Search(model, ranges, threads, effort).run();
 }
 
 }  // namespace breach::lem

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -56,14 +57,20 @@ struct PairBest {
 
 struct SearchResult {
     std::optional<Critical> critical;
+    /// Relative gap between the two best descents; infinite: fewer than two ended.
+    double error = std::numeric_limits<double>::infinity();
     Tally tally;
     std::vector<PairBest> pairs;
 };
 
 /// Slices in the coarse grid, at most. The descents, and so the result, use the model's number.
 inline constexpr int coarse_slices = 25;
-/// coarse: only the grid, an upper bound of the whole search's result.
-enum class Effort { whole, coarse };
+/// sample: a coarser grid and fewer descents, for one of many similar slopes. coarse: only the grid,
+/// an upper bound of the whole search's result.
+enum class Effort { whole, sample, coarse };
+/// All straight boundaries below ground, each once.
+std::vector<Line> boundaries_of(const Strata& strata);
+
 SearchResult search(const Model& model, const scene::SlipSearch& ranges, int threads = 1,
                     Effort effort = Effort::whole);
 

@@ -179,6 +179,44 @@ Spencer answer(const Mass& mass, const Leftover& balanced) {
     return {balanced.F, balanced.theta, m_alpha};
 }
 
+/// Newton's method for both equations from a similar mass's answer. None if it leaves the branch
+/// of that answer, or a base turns over.
+std::optional<Leftover> beside(const Mass& mass, const Spencer& near) {
+    constexpr double farthest = 0.1;  // [rad]; beyond it another root may be the nearest to level
+    double F = near.factor_of_safety;
+    double inclination = near.theta;
+    for (int n = 0; n < 8; ++n) {
+        const Direction theta(inclination);
+        double force = 0.0, force_F = 0.0, force_theta = 0.0;
+        double moment = mass.driving, moment_F = 0.0, moment_theta = 0.0;
+        for (const Block& b : mass.blocks) {
+            const double cosine = theta.cos_turn(b);
+            const double sine = theta.sin_turn(b);
+            const double divisor = F * cosine + sine * b.tan_phi;
+            if (cosine <= 1e-3 || divisor <= 0.0) return std::nullopt;
+            const double Q = (F * b.along - b.resistance) / divisor;
+            const double Q_F = (b.along - Q * cosine) / divisor;
+            const double Q_theta = -Q * (F * sine - cosine * b.tan_phi) / divisor;
+            const double lever = cosine * b.r - sine * b.f;
+            force += Q;
+            force_F += Q_F;
+            force_theta += Q_theta;
+            moment += Q * lever - b.along * b.r - b.normal * b.f;
+            moment_F += Q_F * lever;
+            moment_theta += Q_theta * lever + Q * (sine * b.r + cosine * b.f);
+        }
+        const double determinant = force_F * moment_theta - force_theta * moment_F;
+        const double d_F = (force_theta * moment - moment_theta * force) / determinant;
+        const double d_theta = (moment_F * force - force_F * moment) / determinant;
+        F += d_F;
+        inclination += d_theta;
+        if (!(F > 0.0) || !(std::abs(inclination - near.theta) < farthest)) return std::nullopt;
+        if (std::abs(d_F) <= 1e-12 * F && std::abs(d_theta) <= 1e-12)
+            return Leftover{inclination, F, moment};
+    }
+    return std::nullopt;
+}
+
 /// Searches from horizontal interslice forces outwards for equilibrium of both. Halves its steps
 /// near inclinations at which bases turn over and F diverges.
 std::optional<Leftover> outwards(const Mass& mass, const Leftover& level, double sense,
@@ -221,6 +259,19 @@ std::optional<Leftover> between_steps(const Mass& mass, Leftover& nearest) {
     return std::nullopt;
 }
 
+/// Whether the moment left over, between level forces and the inclination nearest to balance in a
+/// similar mass's failure, is at least half of what it was there.
+bool fails_alike(const Mass& mass, const Leftover& level, const Unbalanced& failure) {
+    const double left = failure.moment_left;
+    // Also false where no forces were in balance: such a failure is found at once.
+    const auto as_far = [&](double moment) {
+        return moment / mass.driving * left > 0.5 * left * left;
+    };
+    if (!as_far(level.moment)) return false;
+    const auto there = leftover(mass, failure.theta);
+    return there && as_far(there->moment);
+}
+
 }  // namespace
 
 std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circle, Slide slide,
@@ -245,12 +296,15 @@ std::optional<Ordinary> ordinary(const Slices& slices, const scene::Circle& circ
 }
 
 std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
-                                          Slide slide, double k_h) {
+                                          Slide slide, double k_h, const Similar& similar) {
     const Mass mass = mass_of(slices, circle, slide, k_h);
+    if (similar.answer)
+        if (const auto found = beside(mass, *similar.answer)) return answer(mass, *found);
     const bool frictionless =
         std::ranges::all_of(mass.blocks, [](const Block& b) { return b.tan_phi == 0.0; });
     const auto level = leftover(mass, 0.0);
     if (!level) return Unbalanced{0.0, 0.0, 0.0, frictionless};
+    if (similar.failure && fails_alike(mass, *level, *similar.failure)) return *similar.failure;
     Leftover nearest = *level;
     // The solution nearest to horizontal interslice forces is the physical one.
     for (const double sense : {1.0, -1.0})

@@ -44,10 +44,19 @@ struct Unbalanced {
     bool without_friction;
 };
 
+/// What is known of similar surfaces. A descent fills it in from surface to surface.
+struct Similar {
+    /// Newton's method from an answer is several times faster than the whole search.
+    std::optional<Spencer> answer;
+    /// A failure takes the whole search. Where a surface has as much moment left over, it is not
+    /// repeated.
+    std::optional<Unbalanced> failure;
+};
+
 /// Spencer (1967): all interslice forces have the same inclination; the whole mass is in
 /// equilibrium of forces and moments. Searches from -0.6 to 1.2 rad, with positive base forces
 /// only. circle: reference of the slices' moments.
 std::variant<Spencer, Unbalanced> spencer(const Slices& slices, const scene::Circle& circle,
-                                          Slide slide, double k_h);
+                                          Slide slide, double k_h, const Similar& similar = {});
 
 }  // namespace breach::lem

@@ -138,7 +138,7 @@ class Variations {
     static constexpr double stable = std::numeric_limits<double>::infinity();
 
     double searched(const scene::Scene& varied) const {
-        const SearchResult found = search(model_of(varied), *varied.lem->search);
+        const SearchResult found = search(model_of(varied), *varied.lem->search, 1, Effort::sample);
         return found.critical ? found.critical->bishop.factor_of_safety : stable;
     }
 

@@ -69,6 +69,10 @@ def slope(**lem):
         lem={"search": {"entry": [2, 39], "exit": [45, 85]}, **lem})
 
 
+cut = section({"clay": soil(48, 0)}, {"clay": [[0, -5], [90, -5], [90, 0], [66, 0], [50, 10.5], [0, 10.5]]},
+              lem={"search": {"entry": [20, 49], "exit": [55, 85]}})
+
+
 def of_elements(size):
     return {f"/section/regions/{i}/mesh": {"type": "unstructured", "element_size": size} for i in range(2)}
 
@@ -119,6 +123,7 @@ rows = [
     Row("range_edge", slope(search={"entry": [36, 38], "exit": [45, 85]}), run="lem_tool"),
     Row("deep_crack", slope(tension_crack={"depth": 9}), run="lem_tool"),
     Row("deep_crack", slope(tension_crack={"level": 1}), run="lem_tool"),
+    Row("no_tension_crack", cut, run="lem_tool"),
     Row("surfaces_disagree", seam, run="lem_tool"),
     Row("drained_only", "static_lift", {"/lem/undrained": []}, run="lem_tool"),
 ]

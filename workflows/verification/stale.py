@@ -69,13 +69,14 @@ def only_stability(measurement, study, known, stale):
 
 
 def cost(measurement, study, known, stale, cached):
-    """{phase: CPU seconds} of measuring the result again. cached: the service still has the run."""
+    """{phase: CPU seconds} of measuring the result again. cached: the service still has the run, or the command its folders."""
     there = {phase: each["cpu_seconds"] for phase, each in known["measured"]["phases"].items()}
     if only_stability(measurement, study, known, stale) or "catalogue" in measurement:
         return {phase: there[phase] for phase in stale}
-    if "command" in measurement or not cached:
+    if not cached:
         return there
-    first = min((CHAIN.index(each) for each in stale if each in CHAIN), default=0)
+    # A new critical depth may move the transfers of a study.
+    first = min((CHAIN.index(each) for each in stale if each in CHAIN), default=len(CHAIN) if "command" in measurement else 0)
     return {phase: seconds for phase, seconds in there.items() if phase in stale or phase in CHAIN[first:]}
 
 

@@ -36,7 +36,7 @@ json optimised(json text, int vertices = 13) {
     const scene::Scene scene = small::parsed(text);
     const Model model = make_model(scene);
     const SearchResult found = search(model, *scene.lem->search, 1);
-    json facts = optimised_polyline(scene, model, found.critical->surface);
+    json facts = optimised_polyline(scene, model, {{model.strata, found.critical->surface}});
     facts["bishop"] = found.critical->bishop.factor_of_safety;
     return facts;
 }
