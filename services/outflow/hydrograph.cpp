@@ -3,10 +3,12 @@
 // it.
 #include "services/outflow/hydrograph.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
+#include "core/words/number.hpp"
 
 namespace breach::outflow {
 
@@ -73,6 +75,24 @@ BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& fi
                               {{pointer, "is no width of a breach in metres",
                                 "give a number above 0, or three that ascend: low, best, high"}});
     return {entry[0], entry[1], entry[2]};
+}
+
+StatedWidth stated_width(const nlohmann::json& scene) {
+    const nlohmann::json& mpm = scene.at("mpm");
+    if (mpm.contains("breach_width"))
+        return {breach_width_from(mpm.at("breach_width"), "scene", "/mpm/breach_width"),
+                "/mpm/breach_width of the scene"};
+    const nlohmann::json regions = mpm.at("runout").value("regions", nlohmann::json::array());
+    const double toe = mpm.at("runout").at("toe").at(1);
+    double height = 0.0;
+    for (const auto& each : scene.at("section").at("regions")) {
+        const bool counts = regions.empty() || std::ranges::count(regions, each.at("name")) > 0;
+        for (const auto& corner : each.at("polygon"))
+            if (counts) height = std::max(height, corner.at(1).get<double>() - toe);
+    }
+    return {{2.0 * height, 3.0 * height, 4.0 * height},
+            "assumed, 3 (2 to 4) heights of " + words::text_of(height, 3) +
+                " m: usual for embankment dams (Wahl 1998); set /mpm/breach_width"};
 }
 
 }  // namespace breach::outflow

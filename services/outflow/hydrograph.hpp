@@ -50,4 +50,16 @@ struct BreachWidth {
 BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
                               const std::string& pointer);
 
+/// A width with its source in words.
+struct StatedWidth {
+    BreachWidth width;
+    std::string from;
+};
+
+/// The scene's /mpm/breach_width, else 3 (2 to 4) heights of the soil above the toe, the usual
+/// widths of embankment dams (Reclamation 1988 and FERC 1987, in Wahl 1998, DSO-98-004).
+/// For the report alone: other programs get only a width that someone chose. scene: completed, with
+/// a runout.
+StatedWidth stated_width(const nlohmann::json& scene);
+
 }  // namespace breach::outflow
