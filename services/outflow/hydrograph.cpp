@@ -91,8 +91,8 @@ StatedWidth stated_width(const nlohmann::json& scene) {
             if (counts) height = std::max(height, corner.at(1).get<double>() - toe);
     }
     return {{2.0 * height, 3.0 * height, 4.0 * height},
-            "assumed, 3 (2 to 4) heights of " + words::text_of(height, 3) +
-                " m: usual for embankment dams (Wahl 1998); set /mpm/breach_width"};
+            "assumed: 3 (2 to 4) heights of " + words::text_of(height, 3) +
+                " m (Wahl 1998); set /mpm/breach_width"};
 }
 
 }  // namespace breach::outflow

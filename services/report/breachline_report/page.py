@@ -6,6 +6,7 @@ import re
 import jinja2
 from markupsafe import Markup, escape
 
+from .clauses import index_of
 from .document import Document, Table, is_number
 from .words import at_least
 
@@ -19,6 +20,11 @@ def _classes_of(table: Table) -> list[str]:
     """n: numbers, bounds and blanks alone, right-aligned with their head. With a text among them all are left-aligned, below one another."""
     return ["n" if any(map(is_number, column)) and all(is_number(cell.removeprefix(at_least)) or cell in ("-", "") for cell in column) else ""
             for column in zip(*table.rows)]
+
+
+def _is_default(row: list[str]) -> bool:
+    """Of the annex: every value is a default (inputs.py)."""
+    return any(cell.endswith(" *") for cell in row) and all(cell.endswith(" *") or cell == "-" for cell in row[2:])
 
 
 def _class_of(cell: str, of_column: str) -> str:
@@ -52,6 +58,8 @@ def as_html(document: Document, folder: str) -> str:
     """folder: with the files of figures and tables, relative to the page, for links; empty: no links."""
     environment = jinja2.Environment(loader=jinja2.PackageLoader("breachline_report", "."), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
+    environment.tests["default"] = _is_default
     return environment.get_template("page.html.j2").render(
-        document=document, front=document.front, left_out=[f"{what}: {why}" for what, why in document.left_out], folder=folder,
+        document=document, clauses=index_of(document), front=document.front,
+        left_out=[f"{what}: {why}" for what, why in document.left_out], folder=folder,
         class_of=_class_of, classes_of=_classes_of, inline=_inline, unbroken=_unbroken, wordy_columns=_wordy_columns, many=_many)

@@ -14,6 +14,11 @@ def rounded(value: float, digits: int = 6) -> str:
     return f"{value:.{digits}g}"
 
 
+def amount(value: float) -> str:
+    """Three significant digits without an exponent: 14800."""
+    return f"{float(f'{value:.3g}'):.12g}"
+
+
 def entry(document: Json, pointer: str, default: Json = None) -> Json:
     """The entry at a JSON pointer; default: there is none, or it is null."""
     for key in pointer.split("/")[1:]:
