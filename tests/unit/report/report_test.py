@@ -200,6 +200,16 @@ class Variants(WetRun):
         self.assertEqual(changes_of(["/materials/a/c=1", "/materials/b/c=2", "/materials/a/d=3"]), "/materials/{a, b}/c=1, 2; /materials/a/d=3")
         self.assertEqual(cell(self.document(), "variants", "not_softened", "against the first [%]"), "-85.7")
 
+    def test_variants_of_the_same_entries_are_one_bar_and_the_longest_is_on_top(self):
+        self.write("study.json", {"variants": [{"name": "base", "overrides": []}] + [{"name": name, "overrides": [change]} for name, change in (
+            ("weak", "/c=1"), ("strong", "/c=3"), ("thick", "/viscosity=9"))]})
+        for name, reach in (("base", 100.0), ("weak", 150.0), ("strong", 90.0), ("thick", 80.0)):
+            self.runout(f"mpm_16.000000_{name}", 16.0, name, reach)
+        chart = figures(self.document())["sensitivity"].chart
+        self.assertEqual(chart.y.names, ["thick", "weak, strong"])
+        self.assertEqual([each.x for each in chart.series], [[100, 80, 100, 90], [100, 100, 100, 150]])
+        self.assertEqual(marks(figures(self.document())["sensitivity"]), {"base": 100})
+
     def test_grounds_are_shown_on_one_scale_with_the_longest_runout_of_each(self):
         document = self.document()
         self.assertEqual(row(document, "ground", "runout"), ["runout [m]", "210", "30", "> 800"])
@@ -281,7 +291,7 @@ class Risks(WetRun):
         self.write("study.json", {**STUDY, "scene": self.BRITTLE})
         self.task("lem_softened", "lem_tool", self.BRITTLE, {"factor_of_safety": 1.5}, "softened")
         self.assertEqual(row(self.document(), "brittle_soils", "tailings"),
-                         ["tailings", "c' = 0 kPa, phi' = 31 deg", "s_u = 8 kPa", "-", "the stability analysis alone"])
+                         ["tailings", "c' = 0 kPa, phi' = 31 deg", "s_u = 8 kPa", "-", "no runout"])
         self.task("lem_not_softened", "lem_tool", peak, {"factor_of_safety": 1.25}, "not_softened")
         for label, scene in ((SOFT, self.BRITTLE), (LATE, peak)):
             self.write(f"tasks/{label}/scene.completed.json", scene)

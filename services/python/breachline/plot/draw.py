@@ -190,7 +190,7 @@ def _saved(chart: Chart, **how: Any) -> bytes:
         _ticks(axes.xaxis, chart.x.logarithmic, x, width)
         _ticks(axes.yaxis, chart.y.logarithmic, y, height)
         if chart.y.names:
-            axes.set_yticks(range(len(chart.y.names)), [_text(each, 40) for each in chart.y.names])
+            axes.set_yticks(range(len(chart.y.names)), [_text(each, 26) for each in chart.y.names])
             axes.grid(False, axis="y")
         if chart.field:
             _draw_field(axes, chart.field, _dot_size(chart, width * height))

@@ -13,10 +13,10 @@ def _material_of(scene: Json, region: str) -> str:
     return next((str(each["material"]) for each in scene["section"]["regions"] if each["name"] == region), "")
 
 
-def _layers(phase: Phase) -> list[tuple[str, float]]:
-    """Materials of the layers that may liquefy, with their residual strength [kPa]."""
-    return [(_material_of(phase.scene, each["region"]), strength) for each in entry(phase.scene, "/lem/liquefaction", [])
-            if (strength := number(each, "/residual_strength_kPa"))]
+def _layers(run: Run) -> dict[str, float | None]:
+    """Materials of the layers that may liquefy, with their residual strength [kPa]; None: the material has it."""
+    return {_material_of(phase.scene, each["region"]): number(each, "/residual_strength_kPa") or None
+            for phase in run.of(lem)[:1] for each in entry(phase.scene, "/lem/liquefaction", [])}
 
 
 def _undrained_peak(run: Run, material: str) -> float | None:
@@ -26,24 +26,31 @@ def _undrained_peak(run: Run, material: str) -> float | None:
     return max(found, default=None)
 
 
+def _begins_weak(scene: Json, name: str, residual: float | None) -> bool:
+    """The runout begins with the residual strength."""
+    soil = scene["materials"].get(name, {})
+    if residual is None:
+        return bool(entry(soil, "/strength/residual")) and entry(soil, "/strength/residual") == entry(soil, "/strength/peak")
+    return number(soil, "/law/c_kPa") == residual and not number(soil, "/law/phi_deg")
+
+
 def _brittle(run: Run) -> Table:
     table = Table("brittle_soils", "Brittle soils, and the runs that assume them triggered",
                   ["soil", "before", "after", "brittleness", "triggered in"], [],
                   "Brittleness: share of the undrained peak strength that is lost (Bishop 1967). Triggered: the runout begins with the strength "
                   "after, whatever the trigger (GISTM 4.6). Softens: the runout finds where.")
-    layers = dict(pair for phase in run.of(lem)[:1] for pair in _layers(phase))
+    layers = _layers(run)
     for name, soil in entry(run.scene, "/materials", {}).items():
-        if name in layers:
-            peak, residual = _undrained_peak(run, name), layers[name]
-            law = f"/materials/{name}/law"
-            begins = [each.variant or each.label for each in run.of(mpm)
-                      if number(each.scene, law + "/c_kPa") == residual and not number(each.scene, law + "/phi_deg")]
-            drained = entry(soil, "/limit_strength") or soil["law"]
-            table.rows.append([name, f"s_u = {peak:.3g} kPa" if peak else strength_of({"type": "mohr_coulomb", **drained}),
-                               f"s_u = {residual:.3g} kPa", or_dash(1.0 - residual / peak if peak else None, 2), joined(begins) or "the stability analysis alone"])
-        elif (after := residual_of(soil)) != "-":
-            table.rows.append([name, strength_of(entry(soil, "/strength/peak") or soil["law"]), after, "-",
-                               "softens with strain" if run.of(mpm) else "-"])
+        residual, peak = layers.get(name), _undrained_peak(run, name)
+        after = residual_of(soil) if residual is None else f"s_u = {residual:.3g} kPa"
+        if after == "-":
+            continue
+        begun = [each.variant or each.label for each in run.of(mpm) if name in layers and _begins_weak(each.scene, name, residual)]
+        drained = entry(soil, "/limit_strength") if name in layers else None
+        before = {"type": "mohr_coulomb", **drained} if drained else entry(soil, "/strength/peak") or soil["law"]
+        table.rows.append([name, f"s_u = {peak:.3g} kPa" if peak else strength_of(before), after,
+                           or_dash(1.0 - residual / peak if peak and residual else None, 2),
+                           joined(begun) or ("softens with strain" if run.of(mpm) and name not in layers else "no runout")])
     return table
 
 
@@ -57,7 +64,7 @@ def _modes(run: Run, brittle: Table) -> Table:
     stability, water = run.of(lem), "no water flows or erodes in the model"
     tilted = [each for each in stability if number(each.scene, "/lem/seismic_coefficient")]
     layered = [each for each in stability if entry(each.scene, "/lem/floor") or entry(each.result, "/non_circular")]
-    triggered = [row[4] for row in brittle.rows if row[2].startswith("s_u") and row[4] != "the stability analysis alone"]
+    triggered = [row[4] for row in brittle.rows if row[4] not in ("softens with strain", "no runout")]
     rows = [("sliding of the dam and its foundation", _least(stability), "needs \"stability\" of the study"),
             ("sliding along a thin weak layer", _least(layered), "circular surfaces only; /lem/floor or /lem/non_circular follows a layer"),
             ("static liquefaction", f"the runout {triggered[0]} begins with it" if triggered and run.is_static else "",

@@ -51,9 +51,10 @@ class Entry:
 
     @property
     def words(self) -> str:
-        """The description's first clause, and the unit; "on: the ground shakes on" begins with a value and gives none."""
-        clause = re.split(r"[;:,(]|\. |\.$", self.what)[0].strip()
-        return (clause if " " in clause else "") + (f" [{self.unit}]" if self.unit else "")
+        """The description's first clause that names no phase and no value, and the unit."""
+        clauses = [each.strip() for each in re.split(r"[;:,()]|\. |\.$", self.what)]
+        named = [each for each in clauses if len(each) > 4 and not re.match("fem|mpm|lem", each) and each != self.value]
+        return (named[0] if named else "") + (f" [{self.unit}]" if self.unit else "")
 
 
 class Inputs:
