@@ -50,7 +50,7 @@ def main(folder):
           not re.search(r'https?:|\ssrc=|<script|@import|url\((?!#)|<link', html))
     check("the section is drawn among the inputs", html.count('<figure class="drawing">') == 1 and 'class="region"' in html)
     check("the page is small", len(html) < 5_000_000, len(html))
-    figures = re.findall(r'<figure id="([^"]+)">', html)
+    figures = re.findall(r'<figure id="([^"]+)"', html)
     check("there are figures", len(figures) >= 14, figures)
     for name in figures:
         check(f"{name} has its data", len(rows(files / f"{name}.csv")) > 0)

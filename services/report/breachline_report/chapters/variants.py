@@ -147,10 +147,11 @@ def _sensitivity(run: Run, value_of: Callable[[Run, str], float | None], name: s
     """A tornado: one bar per group of entries that variants change, the longest on top, from the variant that changes nothing."""
     figure = Figure(name, Chart(title, Axis(label), Axis("")),
                     "Each bar: the variants that change the same entries, from the one that changes nothing.")
-    base = next((each["name"] for each in _listed(run) if not each.get("overrides")), "")
+    written = [each for each in _listed(run) if not each.get("made_by")]
+    base = next((each["name"] for each in written if not each.get("overrides")), "")
     middle = value_of(run, base) if base else None
     groups: dict[frozenset[str], dict[str, float]] = {}  # by the entries: variants with their values
-    for each in _listed(run):
+    for each in written:
         if each["name"] != base and (value := value_of(run, each["name"])) is not None:
             groups.setdefault(frozenset(text.split("=", 1)[0] for text in each["overrides"]), {})[each["name"]] = value
     if middle is None or len(groups) < 2:
