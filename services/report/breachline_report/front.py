@@ -13,7 +13,7 @@ from .ended import any_moves, bounded, how_it_ended, range_of
 from .paper import Paper
 from .run import Phase, Run, fem, lem, mpm, post_seismic, transfer
 from .section import crest_of, phreatic_line, profile_of, top_at
-from .words import amount, at_least, entry, joined, number, or_dash, rounded, with_error
+from .words import at_least, entry, joined, number, or_dash, rounded, with_error
 
 _most_named = 12  # variants or times in a sentence
 _most_gauges = 4
@@ -90,12 +90,17 @@ def _of(phase: Phase, pointer: str) -> str:
     return "-" if value is None else rounded(value, 3)
 
 
+def _but_warnings(phase: Phase) -> str:
+    """How it ended; the verdict has the warnings."""
+    return how_it_ended(phase).split("; warnings", 1)[0]
+
+
 def _certainty(runout: Phase) -> str:
     """Error of the number, if known, and cautions about its result."""
     text = "numerical error not quantified (run an accuracy study, or set \"draws\")" if runout.error is None \
         else f"\u00b1 {runout.error:.2g} m: {runout.error_from}"
-    end = how_it_ended(runout)
-    return text if end.startswith("well") else f"{text}; {end}"  # warnings stand in the verdict
+    end = _but_warnings(runout)
+    return text if end == "well" else f"{text}; {end}"
 
 
 def _mean_row(run: Run) -> list[list[str]]:
@@ -116,9 +121,9 @@ def _through_the_breach(shown: Phase, width: Json) -> list[list[str]]:
     def row(what: str, per_metre: float | None, unit: str, lacking: str) -> list[str]:
         if per_metre is None:
             return [what, "-", "-", lacking]
-        low, best, high = (amount(per_metre * width[key]) for key in ("low", "best", "high"))
-        by_width = f" ({amount(width['low'])} to {amount(width['high'])} m: {low} to {high} {unit})" if width["high"] > width["low"] else ""
-        return [what, bounded(shown, best), "-", f"{bounded(shown, rounded(per_metre, 3))} per m, {amount(width['best'])} m wide{by_width}"]
+        low, best, high = (rounded(per_metre * width[key], 3) for key in ("low", "best", "high"))
+        by_width = f" ({rounded(width['low'], 3)} to {rounded(width['high'], 3)} m: {low} to {high} {unit})" if width["high"] > width["low"] else ""
+        return [what, bounded(shown, best), "-", f"{bounded(shown, rounded(per_metre, 3))} per m, {rounded(width['best'], 3)} m wide{by_width}"]
 
     toe, sections = shown.scene["mpm"]["runout"]["toe"][0], entry(shown.result, "/sections", {}).values()
     nearest = min(sections, key=lambda each: abs(float(each["x"] - toe)), default=None)
@@ -176,7 +181,7 @@ def _remark_on(factors: list[tuple[float, Phase]]) -> str:
         parts.append(f"k_h = {k_h:.3g}")
     if len(factors) > 1:
         parts.append(f"up to {rounded(factors[-1][0], 3)} in {factors[-1][1].variant or factors[-1][1].label}")
-    if (end := how_it_ended(shown)) != "well":
+    if (end := _but_warnings(shown)) != "well":
         parts.append(end)
     return joined(parts, "; ")
 
@@ -300,6 +305,10 @@ def _shown_part(runout: Phase) -> tuple[float, float] | None:
     return min([*changed, toe[0] - 5.0 * height]) - height, toe[0] + max(runout.result["runout_largest"], 0.0) + height
 
 
+def _picture(name: str, title: str, across: Axis, series: list[Series], marks: list[Mark]) -> Figure:
+    return Figure(name, Chart(title, across, Axis("y [m]"), [each for each in series if len(each.x)], marks, equal=True, least_height=60))
+
+
 def _pictures_of(run: Run) -> list[Figure]:
     """The section before the governing runout, with slip surface and phreatic line, and after it, in one scale."""
     farthest, least = run.farthest, run.least_factor
@@ -308,20 +317,21 @@ def _pictures_of(run: Run) -> list[Figure]:
     across = Axis("x [m]" if not farthest else "", shown=_shown_part(farthest) if farthest else None)
     toe = entry(scene, "/mpm/runout/toe") if farthest else None
     marks = [Mark("x", toe[0], "toe")] if toe else []
+    profile = [row for row in profile_of(farthest) if not across.shown or row[0] <= across.shown[1]] if farthest else []
+    outline, pieces = section_at_rest(scene), [row for pair in zip(profile, profile[1:]) for row in pair]
+    ground = Series("ground", [x for x, _, _ in pieces], [y for _, y, _ in pieces], "segments")
     regions = [Series(each["name"], [x for x, _ in each["polygon"]], [y for _, y in each["polygon"]], "area") for each in scene["section"]["regions"]]
     lines = [line_of(line, "phreatic line")] if (line := phreatic_line(scene)) else []
     if least and (surface := critical_surface(least.scene, least.result)):
         lines.append(surface)
-    figures = [Figure("section_before", Chart("Before" if farthest else "The section", across, Axis("y [m]"), regions + lines, marks,
-                                              equal=True, least_height=60))]
-    if farthest and (profile := profile_of(farthest)):
-        outline = section_at_rest(scene)
-        deposit = Series("soil", [x for x, _, _ in profile] + [x for x, _, _ in profile[::-1]],
-                         [surface for _, _, surface in profile] + [ground for _, ground, _ in profile[::-1]], "area")
+    figures = [_picture("section_before", "Before" if farthest else "The section", across, [*regions, *lines, ground], marks)]
+    if farthest and profile:
+        soil = Series("soil", [x for x, _, _ in profile] + [x for x, _, _ in profile[::-1]],
+                      [surface for _, _, surface in profile] + [ground for _, ground, _ in profile[::-1]], "area")
         reach = number(farthest.result, "/runout_beyond_toe") or 0.0
         far = [Mark("x", toe[0] + reach, f"reach {bounded(farthest, rounded(reach, 3))} m")] if toe and reach > 0.0 else []
-        figures.append(Figure("section_after", Chart(f"After, {farthest.where}" + (" (still moving)" if farthest.still_moves else ""), across,
-                                                     Axis("y [m]"), [deposit, outline], marks + far, equal=True, least_height=60)))
+        figures.append(_picture("section_after", f"After, {farthest.where}" + (" (still moving)" if farthest.still_moves else ""), across,
+                                [soil, outline, ground], marks + far))
     return figures
 
 

@@ -13,6 +13,7 @@ from .words import at_least
 _many = 9  # columns of a table that is set small
 _wordy = 24  # characters: columns with longer texts of such a table go to a line below each row
 _short = 12  # characters: a text that stays on one line
+_most_reasons = 2  # of the verdict on the first page
 _longest_word = 18  # characters: a narrow column breaks longer ones
 
 
@@ -62,4 +63,5 @@ def as_html(document: Document, folder: str) -> str:
     return environment.get_template("page.html.j2").render(
         document=document, clauses=index_of(document), front=document.front,
         left_out=[f"{what}: {why}" for what, why in document.left_out], folder=folder,
-        class_of=_class_of, classes_of=_classes_of, inline=_inline, unbroken=_unbroken, wordy_columns=_wordy_columns, many=_many)
+        class_of=_class_of, classes_of=_classes_of, inline=_inline, unbroken=_unbroken, wordy_columns=_wordy_columns, many=_many,
+        most_reasons=_most_reasons)

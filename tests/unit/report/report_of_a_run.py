@@ -79,7 +79,7 @@ def main(folder):
 
     left_out = html[html.index("Left out"):]
     check("a dry scene says why it shows no r_u", "dry" in left_out and "contours of r_u" in left_out)
-    check("no paper is compared with a slope", "comparison" not in html)
+    check("no paper is compared with a slope", 'id="comparison"' not in html)
     done = subprocess.run([programs / "report", folder / "nowhere", "--output", page], capture_output=True)
     check("a run that is not there is a file fault", done.returncode == 74)
 

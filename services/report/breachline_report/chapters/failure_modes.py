@@ -67,7 +67,7 @@ def _modes(run: Run, brittle: Table) -> Table:
     triggered = [row[4] for row in brittle.rows if row[4] not in ("softens with strain", "no runout")]
     rows = [("sliding of the dam and its foundation", _least(stability), "needs \"stability\" of the study"),
             ("sliding along a thin weak layer", _least(layered), "circular surfaces only; /lem/floor or /lem/non_circular follows a layer"),
-            ("static liquefaction", f"the runout {triggered[0]} begins with it" if triggered and run.is_static else "",
+            ("static liquefaction", f"runouts that begin with it: {triggered[0]}" if triggered and run.is_static else "",
              "no soil begins with its residual strength"),
             ("earthquake, pseudo-static", _least(tilted), "needs a variant with /lem/seismic_coefficient"),
             ("liquefaction by an earthquake", (_least(run.of(post_seismic)) or "finite elements under shaking") if run.is_shaken else "",

@@ -169,7 +169,7 @@ def _regions(inputs: Inputs) -> Table:
     for k, region in enumerate(inputs.scene["section"]["regions"]):
         mesh = [f"{key} {each.text}" for key, each in inputs.below(f"/section/regions/{k}/") if key not in ("name", "material", "polygon")]
         table.rows.append([region.get("name", "-"), region.get("material", "-"), rounded(_area(region["polygon"]), 6),
-                           " ".join(f"({x:.5g}, {y:.5g})" for x, y in region["polygon"]), "; ".join(mesh) or "-"])
+                           " ".join(f"({round(x, 2):.9g}, {round(y, 2):.9g})" for x, y in region["polygon"]), "; ".join(mesh) or "-"])
     return table
 
 

@@ -8,7 +8,7 @@ from ..document import Chapter, Document, Json, Table
 from ..ended import bounded
 from ..run import Phase
 from ..section import crest_of
-from ..words import amount, rounded
+from ..words import rounded
 from . import Material
 
 
@@ -30,12 +30,12 @@ def _balance(runout: Phase, before: Frame, width: Json) -> Table:
 
     def row(name: str, of: Array, times: float = 1.0) -> list[str]:
         whole, all_moved, within, past = (times * float(volume[of & part].sum()) for part in (of, moved, moved & ~beyond, moved & beyond))
-        return [name, amount(whole), *(bounded(runout, amount(each)) for each in (all_moved, within, past))]
+        return [name, rounded(whole, 3), *(bounded(runout, rounded(each, 3)) for each in (all_moved, within, past))]
 
     every = np.ones(len(volume), bool)
     table.rows = [row(str(name), material == name) for name in dict.fromkeys(material) if moved[material == name].any()] + [row("all soils", every)]
     if width:
-        table.rows.append(row(f"all soils, through a breach of {amount(width['best'])} m [m3]", every, width["best"]))
+        table.rows.append(row(f"all soils, through a breach of {rounded(width['best'], 3)} m [m3]", every, width["best"]))
     table.caption += f" {len(before.position) - len(after.position)} of {len(before.position)} points left the model."
     return table
 
