@@ -164,5 +164,22 @@ TEST(Breach, WidthIsANumberOrThreeThatAscend) {
         EXPECT_THROW(breach_width_from(wrong, "f", "/w"), fault::BadInput);
 }
 
+TEST(BreachWidth, IsTheScenesOrFollowsTheHeightOfItsSoilAboveTheToe) {
+    nlohmann::json scene = {
+        {"mpm", {{"runout", {{"toe", {0, 2}}, {"regions", {"dam"}}}}}},
+        {"section",
+         {{"regions",
+           {{{"name", "dam"}, {"polygon", {{-40, 2}, {0, 2}, {-20, 22}}}},
+            {{"name", "hill"}, {"polygon", {{-90, 0}, {-40, 0}, {-90, 80}}}}}}}}};
+    const StatedWidth by_rule = stated_width(scene);
+    EXPECT_DOUBLE_EQ(by_rule.width.low, 40.0);
+    EXPECT_DOUBLE_EQ(by_rule.width.best, 60.0);
+    EXPECT_DOUBLE_EQ(by_rule.width.high, 80.0);
+    EXPECT_NE(by_rule.from.find("assumed"), std::string::npos);
+    scene["mpm"]["breach_width"] = {50, 72, 90};
+    EXPECT_DOUBLE_EQ(stated_width(scene).width.best, 72.0);
+    EXPECT_EQ(stated_width(scene).from, "/mpm/breach_width of the scene");
+}
+
 }  // namespace
 }  // namespace breach::outflow
