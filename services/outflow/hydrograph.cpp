@@ -4,10 +4,12 @@
 #include "services/outflow/hydrograph.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
 #include "core/phases/files.hpp"
+#include "core/statistics/percentiles.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::outflow {
@@ -53,6 +55,26 @@ Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& se
         values = column->second;
     });
     return found;
+}
+
+Chosen at_percentile(const std::vector<Hydrograph>& samples, double p, const std::string& file) {
+    if (samples.size() < statistics::samples_needed(p))
+        throw fault::BadInput(file, {{"/percentile", statistics::not_enough(samples.size(), p),
+                                      "extend the run, or name a runout with variant"}});
+    std::vector<double> volumes;
+    for (const Hydrograph& each : samples) volumes.push_back(each.volume.back());
+    const double wanted = statistics::percentile(volumes, p).value;
+    const auto nearest = std::ranges::min_element(
+        volumes, {}, [&](double volume) { return std::abs(volume - wanted); });
+    const auto sample = static_cast<std::size_t>(nearest - volumes.begin());
+    Hydrograph found = samples[sample];
+    const double scale = *nearest > 0.0 ? wanted / *nearest : 1.0;
+    for (std::vector<double>* each : {&found.discharge, &found.volume, &found.mass})
+        for (double& value : *each) value *= scale;
+    found.warning = "The runout with a volume nearest to p" + words::text_of(p) + " of " +
+                    std::to_string(samples.size()) + " runouts, times " + words::text_of(scale, 3) +
+                    " to have it.";
+    return {sample, std::move(found)};
 }
 
 /// The version that mpm_solver/results.cpp writes.

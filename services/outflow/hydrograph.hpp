@@ -36,6 +36,16 @@ std::vector<std::string> sections_in(const exchange::Archive& history);
 Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& section,
                          const std::string& file);
 
+/// One of many samples, and its index.
+struct Chosen {
+    std::size_t sample;
+    Hydrograph hydrograph;
+};
+/// The one whose volume is nearest to the percentile p [%] of all volumes, scaled to that volume
+/// (discharge, volume and mass); its warning says so. Needs the samples of core/statistics, else
+/// throws BadInput.
+Chosen at_percentile(const std::vector<Hydrograph>& samples, double p, const std::string& file);
+
 /// The history in a runout's output folder.
 exchange::Archive history_of(const std::filesystem::path& output);
 
