@@ -302,7 +302,8 @@ def _shown_part(runout: Phase) -> tuple[float, float] | None:
         return None
     height = crest.before - toe[1]
     changed = [x for x, _, surface in profile_of(runout) if abs(surface - (top_at(runout.scene, x) or surface)) > 0.1 * height]
-    return min([*changed, toe[0] - 5.0 * height]) - height, toe[0] + max(runout.result["runout_largest"], 0.0) + height
+    upstream = min(x for x, _, _ in profile_of(runout))
+    return max(min([*changed, toe[0] - 5.0 * height]) - height, upstream), toe[0] + max(runout.result["runout_largest"], 0.0) + height
 
 
 def _picture(name: str, title: str, across: Axis, series: list[Series], marks: list[Mark]) -> Figure:

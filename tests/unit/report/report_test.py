@@ -317,6 +317,21 @@ class Pages(WetRun):
     def page(self, **choice):
         return as_html(self.document(**choice), "")
 
+    def test_no_reason_of_a_long_verdict_is_lost(self):
+        texts = [f"Reason {k}: " + "x" * 300 + "." for k in range(3)]
+        self.edit("run.json", verdict={"usable": "questionable", "words": "questionable", "reasons": [
+            {"usable": "questionable", "code": "a", "text": text} for text in texts]})
+        front, _, rest = self.page().partition("<nav>")
+        self.assertEqual([text in front for text in texts], [True, False, False])
+        self.assertIn("2 more after the contents", front)
+        self.assertEqual([text in rest for text in texts], [False, True, True])
+
+    def test_the_annex_sets_defaults_in_one_paragraph(self):
+        self.write("study.json", {**STUDY, "scene": {**SCENE, "mpm": {**SCENE["mpm"], "anti_locking": "auto"}}, "overrides": []})
+        html = self.page()
+        self.assertIn("Defaults: /mpm/anti_locking = auto", html)
+        self.assertIn(">/mpm/cell_size<", html.replace('<span class="short">', "").replace("</span>", ""))
+
     def test_names_in_chinese_and_long_ones_fit(self):
         long = "\u5c3e\u77ff\u5e93" * 40
         self.edit("run.json", title=long, name="n" * 120)

@@ -170,7 +170,7 @@ def _size(chart: Chart, x: tuple[float, float], y: tuple[float, float]) -> tuple
     """Width and height of the axes [px], and the exaggeration of heights."""
     if not chart.equal:
         return 480, 60 + 34 * len(chart.y.names) if chart.y.names else 240, 1
-    scale = min(860 / (x[1] - x[0]), 640 / (y[1] - y[0]))
+    scale = min(860 / (x[1] - x[0]), 360 / (y[1] - y[0]))
     width, height = scale * (x[1] - x[0]), scale * (y[1] - y[0])
     times = max(1, int(np.ceil(chart.least_height / height))) if width > 300 else 1
     return width, height * times, times
@@ -247,11 +247,12 @@ def _draw_field(axes: Any, field: Field, dot: float) -> None:
     shades = scale.to_rgba(np.asarray(field.value, float))
     for shade in np.unique(shades, axis=0):
         _draw_pieces(axes, places[(shades == shade).all(axis=1)], dot if field.corners == 1 else 0.4, shade, 1, fill=field.corners > 1)
-    height = axes.bbox.height / axes.figure.dpi / PX
-    bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0, -80 / height, 0.45, 14 / height)), orientation="horizontal")
+    width, height = (side / axes.figure.dpi / PX for side in (axes.bbox.width, axes.bbox.height))
+    long = min(1.0, max(0.45, 270 / width))  # a share: labels need some room
+    bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0, -80 / height, long, 14 / height)), orientation="horizontal")
     bar.solids.set_edgecolor("face")
     bar.ax.grid(False)
-    _ticks(bar.ax.xaxis, False, (field.low, field.high), 270)
+    _ticks(bar.ax.xaxis, False, (field.low, field.high), 0.8 * long * width)
     bar.ax.annotate(_text(field.label), (1, 0.5), xytext=(10, 0), xycoords="axes fraction", textcoords="offset points", va="center")
 
 
