@@ -61,16 +61,19 @@ export class SubmitDialog {
         try {
             await this.form.start();
             this.show_text(this.pane.text);
-            if (this.has_examples) return;
-            await this.templates.offer();
-            const examples = this.examples = await api.list_examples();
-            by_id("examples").append(...examples.map(({ name, title }) => element("option", { value: name, title: title || null }, name)));
-            by_id("examples-row").hidden = examples.length === 0;
-            this.has_examples = true;
+            await (this.offered ??= this.offer());
         } catch (fault) {
+            this.offered = null;
             this.refuse(fault);
         }
     }
+    async offer() {
+        await this.templates.offer();
+        const examples = this.examples = await api.list_examples();
+        by_id("examples").append(...examples.map(({ name, title }) => element("option", { value: name, title: title || null }, name)));
+        by_id("examples-row").hidden = examples.length === 0;
+    }
+
     entered(step) {
         if (step === "check") this.show_cost();
         if (step !== "water") return;
