@@ -49,10 +49,8 @@ std::string regions_where(const scene::Scene& scene, const Question& question) {
     return names;
 }
 
-std::string regions_that_soften(const scene::Scene& scene) {
-    return regions_where(scene, [](const scene::Material& material) {
-        return materials::softening(material.law) != nullptr;
-    });
+bool softens(const scene::Material& material) {
+    return materials::softening(material.law) != nullptr;
 }
 
 /// "1000 Pa s beside the law's stress in a; ...": every material with a viscosity and its regions.
@@ -171,7 +169,10 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
     const ModelDecisions& model = decided.model;
     const RunDecisions& run = decided.run;
     const std::string plastic = laws_that(scene, flows_without_memory);
-    const std::string softening = regions_that_soften(scene);
+    const std::string softening = regions_where(scene, softens);
+    const std::string nonlocal = regions_where(scene, [](const scene::Material& material) {
+        return softens(material) && material.nonlocal_length;
+    });
     const std::string viscous = viscous_regions(scene);
     const std::string undrained = undrained_regions(scene);
     const bool moves = std::ranges::any_of(scene::fem_of(scene).stages, [](const auto& stage) {
@@ -184,8 +185,10 @@ process::Plan plan_of(const Decisions& decided, const scene::Scene& scene) {
         line_of("plasticity", use_if(!plastic.empty()), {plastic, "no material flows plastically"},
                 "/materials"),
         line_of("softening", use_if(!softening.empty()),
-                {"in " + softening + "; explicit per step, so shear bands are one element wide",
-                 "no law softens"},
+                {"in " + softening + "; explicit per step", "no law softens"}, "/materials"),
+        line_of("nonlocal softening", use_if(!nonlocal.empty()),
+                {"in " + nonlocal + ": growth of each step averaged over the region's elements",
+                 "no softening material has a nonlocal_length: bands are as wide as an element"},
                 "/materials"),
         line_of("undrained strength in motion", use_if(!undrained.empty() && moves),
                 {undrained, undrained.empty() ? "no region's material has a dynamic_strength"

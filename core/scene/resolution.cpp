@@ -156,14 +156,12 @@ void judge_weak_layers(const Scene& scene, Resolved& resolved) {
     }
 }
 
-void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
-    const std::string pointer = "/materials/" + soil.name + "/nonlocal_length";
-    if (!materials::softening(soil.law)) {
-        resolved.faults.push_back({pointer, "belongs to a law that does not soften",
-                                   "give " + std::string("/materials/").append(soil.name) +
-                                       "/law/softening, or leave the length out"});
-        return;
-    }
+std::string length_of(const Material& soil) {
+    return "/materials/" + soil.name + "/nonlocal_length";
+}
+
+void judge_length_in_mpm(const Material& soil, const Mpm& mpm, Resolved& resolved) {
+    const std::string pointer = length_of(soil);
     if (!mpm.softening_length) {
         resolved.faults.push_back(
             {pointer, "needs the width of the shear band for which the softening strains hold",
@@ -193,18 +191,92 @@ void judge_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     }
 }
 
-void judge_lack_of_length(const Material& soil, const Mpm& mpm, Resolved& resolved) {
-    const materials::Softening* softening = materials::softening(soil.law);
-    if (!softening || softening->epsilon_q_end > brittle_until) return;
+/// Edge length of a region's elements: wanted, or from the divisions of a block [m].
+double element_size(const Region& region) {
+    const auto [along, up] = region.divisions;
+    if (along == 0) return region.element_size;
+    return std::sqrt(geometry::area(region.polygon) / (along * up));
+}
+
+/// The largest elements of a soil whose law acts in the FEM [m]; 0: unknown, in a mesh from a file.
+/// None: the FEM has no such soil.
+std::optional<double> largest_element(const Scene& scene, std::size_t material) {
+    if (!scene.fem || std::ranges::find(scene.fem->stages, StageLaws::scene, &Stage::laws) ==
+                          scene.fem->stages.end())
+        return std::nullopt;
+    std::optional<double> largest;
+    for (const Region& region : scene.section.regions) {
+        if (region.material != material || region.polygon.empty()) continue;
+        const double size = scene.fem->mesh.msh_file ? 0.0 : element_size(region);
+        largest = std::max(largest.value_or(0.0), size);
+    }
+    return largest;
+}
+
+void judge_length_in_fem(const Material& soil, double size, Resolved& resolved) {
+    const double wanted = *soil.nonlocal_length / nonlocal_cells_wanted;
+    // The size of divisions has round-off.
+    if (size <= wanted * (1.0 + 1e-9)) return;
+    resolved.flags.push_back(
+        {"short_nonlocal_length",
+         size > *soil.nonlocal_length ? fault::Severity::questionable : fault::Severity::warning,
+         "is " + text_of(*soil.nonlocal_length / size) + " elements of " + text_of(size) + " m (" +
+             text_of(nonlocal_cells_wanted) +
+             " are wanted): bands depend on the mesh; take elements of at most " +
+             text_of(words::rounded_down(wanted)) + " m, or a longer length",
+         length_of(soil)});
+}
+
+void judge_lack_of_length_in_mpm(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     resolved.flags.push_back(
         {"local_softening", fault::Severity::warning,
          "softens without a length: its shear bands are as wide as a cell, and cells half as large "
          "have changed runouts by up to 30 %; give it a length of two cells: " +
-             words::set("/materials/" + soil.name + "/nonlocal_length", 2.0 * mpm.cell_size) +
+             words::set(length_of(soil), 2.0 * mpm.cell_size) +
              (mpm.softening_length ? ""
                                    : " " + words::set("/mpm/softening_length", mpm.cell_size) +
                                          " (the cells that its softening strains are for)"),
          "/materials/" + soil.name});
+}
+
+void judge_lack_of_length_in_fem(const Material& soil, double size, Resolved& resolved) {
+    const std::string remedy =
+        !materials::softening(soil.law)
+            ? "compare two element sizes before you use a time of failure"
+        : size > 0.0
+            ? "give it a length of two elements: " + words::set(length_of(soil), 2.0 * size)
+            : "give it a length of two elements: " + length_of(soil);
+    resolved.flags.push_back(
+        {"local_softening", fault::Severity::warning,
+         "softens without a length: its shear bands are as wide as an element, and with smaller "
+         "elements it loses its strength at smaller displacements; " +
+             remedy,
+         "/materials/" + soil.name});
+}
+
+/// NorSand has no length. Its peak does not depend on the elements, what follows does
+/// (tests/verification/fem/biaxial_bands.py).
+bool is_brittle(const Material& soil) {
+    const materials::Softening* softening = materials::softening(soil.law);
+    return softening ? softening->epsilon_q_end <= brittle_until
+                     : materials::has_state_parameter(soil.law);
+}
+
+void judge_softening(const Scene& scene, std::size_t material, bool in_mpm, Resolved& resolved) {
+    const Material& soil = scene.materials[material];
+    const auto element = largest_element(scene, material);
+    if (soil.nonlocal_length && !materials::softening(soil.law)) {
+        resolved.faults.push_back({length_of(soil), "belongs to a law that does not soften",
+                                   "give " + std::string("/materials/").append(soil.name) +
+                                       "/law/softening, or leave the length out"});
+    } else if (soil.nonlocal_length) {
+        if (in_mpm) judge_length_in_mpm(soil, *scene.mpm, resolved);
+        if (element) judge_length_in_fem(soil, *element, resolved);
+    } else if (is_brittle(soil) && in_mpm) {
+        judge_lack_of_length_in_mpm(soil, *scene.mpm, resolved);
+    } else if (is_brittle(soil) && element) {
+        judge_lack_of_length_in_fem(soil, *element, resolved);
+    }
 }
 
 /// A region whose soil fails in shear bands.
@@ -245,16 +317,14 @@ void judge_widest_band(const Scene& scene, const std::vector<Soil>& soils, Resol
 }
 
 void judge_bands(const Scene& scene, Resolved& resolved) {
-    const std::vector<Soil> soils = soils_of(scene);
+    const std::vector<Soil> soils = scene.mpm ? soils_of(scene) : std::vector<Soil>{};
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
-        const Material& soil = scene.materials[m];
-        if (std::ranges::find(soils, m, &Soil::material) == soils.end()) continue;
-        if (soil.nonlocal_length)
-            judge_length(soil, *scene.mpm, resolved);
-        else
-            judge_lack_of_length(soil, *scene.mpm, resolved);
+        const bool in_mpm = std::ranges::find(soils, m, &Soil::material) != soils.end();
+        const bool drawn = std::ranges::find(scene.section.regions, m, &Region::material) !=
+                           scene.section.regions.end();
+        if (in_mpm || drawn) judge_softening(scene, m, in_mpm, resolved);
     }
-    judge_widest_band(scene, soils, resolved);
+    if (scene.mpm) judge_widest_band(scene, soils, resolved);
 }
 
 /// Cell sizes that divide the height of a bed: just below and just above the scene's.
@@ -401,7 +471,7 @@ Resolved resolution_of(const Scene& scene) {
         judge_cells(scene, resolved);
         judge_weak_layers(scene, resolved);
     }
-    if (scene.mpm) judge_bands(scene, resolved);
+    judge_bands(scene, resolved);
     if (scene.mpm) judge_beds(scene, resolved);
     judge_elements(scene, resolved);
     return resolved;

@@ -16,7 +16,7 @@ namespace breach::scene {
 /// its points share the same nodes.
 constexpr double cells_wanted = 8.0;
 constexpr double least_cells = 2.0;
-/// Cells per nonlocal length: least, and recommended. Shorter lengths average over too few nodes,
+/// Cells (or elements) per nonlocal length: least, and recommended. Shorter lengths average over too few nodes,
 /// and the band's width depends on the cells again.
 constexpr double least_nonlocal_cells = 1.3;
 constexpr double nonlocal_cells_wanted = 1.6;

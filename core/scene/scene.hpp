@@ -31,13 +31,15 @@ struct LimitStrength {
 /// Width of a shear band with nonlocal softening over the nonlocal length, independent of the cells
 /// [-].
 constexpr double band_in_nonlocal_lengths = 2.5;
+/// The same in the FEM (tests/verification/fem/shear_band.py).
+constexpr double band_in_nonlocal_lengths_of_fem = 2.7;
 
 struct Material {
     std::string name;
     double density;  ///< [kg/m3]
     materials::Law law;
     double viscosity = 0.0;  ///< adds the Newtonian stress 2 eta dev(D) [Pa s]
-    /// mpm: averaging length of the softening strains [m]
+    /// averaging length of the softening strains [m]
     std::optional<double> nonlocal_length{};
     std::optional<double> void_ratio{};                   ///< fem with water [-]
     std::optional<std::array<double, 2>> permeability{};  ///< hydraulic conductivity, x, y [m/s]

@@ -5,6 +5,11 @@
 
 namespace breach::scene {
 
+double softening_scale_in_fem(const Material& soil, const Scene& scene) {
+    if (!soil.nonlocal_length || !scene.mpm || !scene.mpm->softening_length) return 1.0;
+    return *scene.mpm->softening_length / (band_in_nonlocal_lengths_of_fem * *soil.nonlocal_length);
+}
+
 nlohmann::json softening_in(const Scene& scene) {
     std::set<std::string> soils;
     bool has_length = false;

@@ -2,9 +2,11 @@
 
 #include <cmath>
 
+#include "core/scene/softening.hpp"
 #include "fem_solver/model/absorbing_base.hpp"
 #include "fem_solver/model/ground.hpp"
 #include "fem_solver/model/ground_water.hpp"
+#include "fem_solver/model/nonlocal.hpp"
 
 namespace breach::fem {
 namespace {
@@ -17,8 +19,11 @@ std::vector<Zone> zones_of(const scene::Scene& scene, const Mesh& mesh) {
         if (opens) {
             const auto& region = scene.section.regions[mesh.region_of_element[e]];
             const auto& material = scene.materials[region.material];
+            const bool softens = materials::softening(material.law) != nullptr;
             zones.push_back({e, 0, material.density, material.law, material.viscosity,
-                             material.dynamic_strength});
+                             material.dynamic_strength,
+                             softens ? material.nonlocal_length.value_or(0.0) : 0.0,
+                             scene::softening_scale_in_fem(material, scene)});
         }
         ++zones.back().count;
     }
@@ -100,6 +105,7 @@ Model build_model(const scene::Scene& scene, const ModelDecisions& decided, Mesh
             1.0 / model.column_thickness;
     }
     model.mesh = std::move(mesh);
+    model.nonlocal = nonlocal_softening(model);
     // Weights first: loads on the ground are added to the same force.
     set_weights(decided.gravity.value, 0.0, model);
     add_ground_loads(decided, model);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "fem_solver/model/nonlocal.hpp"
+
 namespace breach::fem {
 namespace {
 
@@ -112,8 +114,13 @@ Model columns_alone(const Model& whole) {
     alone.body = {alone.mesh.nodes.size(), alone.mesh.quads.size()};
     for (const ZonePart& part : parts) {
         const Zone& zone = whole.zones[part.zone];
-        alone.zones.push_back(
-            {part.first - elements, part.count, zone.density, zone.law, zone.viscosity});
+        alone.zones.push_back({.first = part.first - elements,
+                               .count = part.count,
+                               .density = zone.density,
+                               .law = zone.law,
+                               .viscosity = zone.viscosity,
+                               .nonlocal_length = zone.nonlocal_length,
+                               .softening_scale = zone.softening_scale});
     }
     alone.s_u = rest_of(whole.s_u, elements * whole.points_per_element);
     // The columns become the body: their forces must keep the size that the copied state has.
@@ -133,6 +140,7 @@ Model columns_alone(const Model& whole) {
     alone.hourglass_modulus = whole.hourglass_modulus;
     alone.volume = rest_of(whole.volume, elements);
     alone.rayleigh = whole.rayleigh;
+    alone.nonlocal = nonlocal_softening(alone);
     return alone;
 }
 

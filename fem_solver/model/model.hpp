@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct Zone {
     materials::Law law;
     double viscosity = 0.0;  ///< eta of the additional Newtonian stress in dynamic stages [Pa s]
     std::optional<materials::StrengthCurve> dynamic_strength{};  ///< see Model::s_u
+    double nonlocal_length = 0.0;                                ///< of softening; 0: local [m]
+    double softening_scale = 1.0;  ///< of softening strains, with a nonlocal length
 };
 
 /// Damping matrix C = mass M + stiffness K_elastic.
@@ -54,6 +57,8 @@ enum class HourglassModulus {
     elastic,  ///< c_s = 4 G, as in OpenSees
 };
 
+class NonlocalSoftening;
+
 struct Model {
     Mesh mesh;
     std::vector<Zone> zones;
@@ -76,6 +81,8 @@ struct Model {
     std::vector<SspGeometry> hourglass;  ///< for single-point quads; else empty
     HourglassModulus hourglass_modulus = HourglassModulus::current;
     std::vector<double> volume;  ///< of the undeformed elements [m3]
+    /// Shared by copies, as it does not change; empty: no zone softens over a length.
+    std::shared_ptr<const NonlocalSoftening> nonlocal;
     Rayleigh rayleigh;
     // Absent elements keep their places in all arrays: numbers of elements never change.
     std::vector<char> absent;  ///< [elements] not placed yet or removed; empty: all are present

@@ -1,8 +1,18 @@
 #include "fem_solver/solve/step.hpp"
 
+#include "fem_solver/model/nonlocal.hpp"
 #include "fem_solver/model/pore_water.hpp"
 
 namespace breach::fem {
+
+namespace {
+
+/// Softening is explicit: what its strains become at the end of a step changes no stress of the step.
+void share_softening(const Model& model, const Motion& old, Motion& trial) {
+    if (model.nonlocal) model.nonlocal->share(model, old, trial);
+}
+
+}  // namespace
 
 Prediction prediction_for(const Model& model) {
     Prediction prediction;
@@ -34,6 +44,7 @@ NewtonOutcome static_step(Newton& newton, const Model& model,
     }
     const NewtonOutcome outcome =
         newton.solve({laws, old, rule, prediction.external, old.u, old.v, old.p_rate}, trial);
+    share_softening(model, old, trial);
     // Statics has no time: c_v = 1/s made increments of "velocities" only for the balance of water.
     trial.v.setZero();
     trial.p_rate.setZero();
@@ -65,9 +76,11 @@ NewtonOutcome dynamic_step(Newton& newton, const Model& model,
     trial.u = prediction.u + beta * dt * dt * old.a;  // constant acceleration as first guess
     trial.p = old.p + dt * old.p_rate;                // constant pressure rate
     const TimeRule rule{1.0 / (beta * dt * dt), gamma / (beta * dt)};
-    return newton.solve(
+    const NewtonOutcome outcome = newton.solve(
         {laws, old, rule, prediction.external, prediction.u, prediction.v, prediction.p_rate},
         trial);
+    share_softening(model, old, trial);
+    return outcome;
 }
 
 void settle_stresses(Newton& newton, const std::vector<materials::Law>& laws, Motion& motion,

@@ -7,20 +7,15 @@
 #include <cmath>
 #include <set>
 
+#include "core/materials/nonlocal.hpp"
+
 namespace breach::mpm {
 
 namespace {
 
-/// Radius of the neighbourhood: the weight is 4e-4 of its peak.
-constexpr double reach = 3.0;  // lengths
-/// Fully softened soil flows from this strain on; its strains do not describe a band.
-constexpr double spent_after = 5.0;  // strains at residual strength
 /// Interval between averages. Until then strains soften single points, which must not start bands
 /// of their own: with 0.05 a shear layer is 2.6 % narrower, with 0.02 0.4 %.
 constexpr double growth_to_share = 0.03;  // of the strain from peak to residual strength
-
-/// r exp(-(r / l)^2): 0 at the point itself, largest at 0.7 l (Galavi & Schweiger 2010).
-double weight(double r, double length) { return r * std::exp(-(r / length) * (r / length)); }
 
 /// Spread of the kernel: mean square of the distance to the nodes, in one direction, over all
 /// positions in a cell [cells2].
@@ -64,14 +59,15 @@ NonlocalSoftening::NonlocalSoftening(const Points& points, const std::vector<Zon
         if (zone.nonlocal_length == 0.0) continue;
         const double length = grid.h * among_nodes(zone.nonlocal_length * grid.per_h,
                                                    spread_of_kernel(gimp_half_size));
-        const auto farthest = static_cast<std::int32_t>(std::ceil(reach * length * grid.per_h));
+        const auto farthest =
+            static_cast<std::int32_t>(std::ceil(materials::nonlocal_reach * length * grid.per_h));
         for (std::int32_t c = -farthest; c <= farthest; ++c) {
             Column column{.columns = c, .rows = 0, .weights = {}};
             for (std::int32_t r = -farthest; r <= farthest; ++r) {
                 const double distance = grid.h * std::hypot(c, r);
-                if (distance >= reach * length) continue;
+                if (distance >= materials::nonlocal_reach * length) continue;
                 if (column.weights.empty()) column.rows = r;
-                column.weights.push_back(weight(distance, length));
+                column.weights.push_back(materials::nonlocal_weight(distance, length));
             }
             if (!column.weights.empty()) neighbourhoods_[z].push_back(std::move(column));
         }
@@ -117,7 +113,7 @@ double NonlocalSoftening::spread(Points& points, const std::vector<Zone>& zones,
     for (const Group& group : groups_) {
         const Zone& zone = zones[group.zone];
         const materials::Softening& softening = *materials::softening(zone.law);
-        const double spent = spent_after * softening.epsilon_q_end;
+        const double spent = materials::spent_strain(softening);
         const double per_range = 1.0 / (softening.epsilon_q_end - softening.epsilon_q_start);
         // Soil that has not yielded since the last average is equal to the last bit, and most soil
         // has not.

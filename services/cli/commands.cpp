@@ -277,7 +277,11 @@ ExitCode hydrograph(Server& server, const HydrographOptions& options, const Cons
                                   {"breach_width", options.breach_width},
                                   {"interval", options.interval},
                                   {"cell", options.cell},
-                                  {"concentration", options.concentration}}));
+                                  {"concentration", options.concentration},
+                                  {"percentile", options.percentile},
+                                  {"rheology", options.rheology},
+                                  {"yield_stress", options.yield_stress},
+                                  {"viscosity", options.viscosity}}));
     // FLO-2D's file has no place for the warning.
     if (!answer.warning.empty()) console.notes << harmless(answer.warning) << "\n";
     if (options.file.empty()) {

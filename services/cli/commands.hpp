@@ -96,13 +96,17 @@ struct TelemetryOptions {
 struct HydrographOptions {
     std::string run;
     std::string section;
-    std::string target = "csv";  ///< json, csv, hec-ras or flo-2d
+    std::string target = "csv";  ///< json, csv, hec-ras, hec-ras-unsteady or flo-2d
     std::string transfer_time;   ///< empty: the run has one runout
     std::string variant;
     std::string breach_width;    ///< [m], "72" or "60,72,90"; empty: the scene's
     std::string interval;        ///< between two flows of an export [s]
     std::string cell;            ///< FLO-2D: grid element that takes the inflow
-    std::string concentration;   ///< FLO-2D: solids by volume
+    std::string concentration;   ///< solids by volume
+    std::string percentile;      ///< of the volume, over all runouts
+    std::string rheology;        ///< HEC-RAS's non-Newtonian method
+    std::string yield_stress;    ///< [Pa]
+    std::string viscosity;       ///< [Pa s]
     std::filesystem::path file;  ///< empty: printed
 };
 

@@ -107,6 +107,16 @@ templates::Made made_of(const NewOptions& chosen, const json& options) {
 }  // namespace
 
 /// All at once, before the first file is written.
+void write(const Files& files) {
+    for (const auto& [path, text] : files) {
+        const std::filesystem::path folder = path.parent_path();
+        std::error_code error;
+        if (!folder.empty()) std::filesystem::create_directories(folder, error);
+        if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
+        exchange::publish_text(path, text);
+    }
+}
+
 void refuse_to_overwrite(const Files& files, const std::string& command) {
     std::vector<fault::Fault> faults;
     for (const auto& [path, text] : files)
@@ -157,14 +167,9 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
     if (!made.motion.empty()) files[folder / "motion.csv"] = made.motion;
     // After make(): wrong options are reported even where the files exist.
     if (!chosen.force) refuse_to_overwrite(files, "breach new");
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
+    write(files);
     json written = json::array();
-    for (const auto& [path, text] : files) {
-        exchange::publish_text(path, text);
-        written.push_back(path.string());
-    }
+    for (const auto& [path, text] : files) written.push_back(path.string());
     if (shown_as_json(
             {{"template", chosen.made_from}, {"options", made.options}, {"files", written}},
             console))

@@ -22,6 +22,9 @@ struct NewOptions {
 
 using Files = std::map<std::filesystem::path, std::string>;  ///< texts to write
 
+/// Makes folders that are missing.
+void write(const Files& files);
+
 /// Throws BadInput with every file that exists.
 void refuse_to_overwrite(const Files& files, const std::string& command);
 

@@ -48,8 +48,8 @@ void add_hydrograph(Program& program) {
     take_run(word, options.run);
     word.add_option("--section", options.section, "its name in the scene's /mpm/sections")
         ->required();
-    word.add_option("--for", options.target, "csv, hec-ras or flo-2d")
-        ->check(CLI::IsMember({"csv", "hec-ras", "flo-2d"}))
+    word.add_option("--for", options.target, "csv, hec-ras, hec-ras-unsteady or flo-2d")
+        ->check(CLI::IsMember({"csv", "hec-ras", "hec-ras-unsteady", "flo-2d"}))
         ->capture_default_str();
     word.add_option("--breach-width", options.breach_width,
                     "72, or 60,72,90 for low, best, high [m] (default: the scene's)");
@@ -58,7 +58,14 @@ void add_hydrograph(Program& program) {
     take_runout(word, options.transfer_time, options.variant);
     word.add_option("--cell", options.cell, "FLO-2D's grid element that takes the inflow (1)");
     word.add_option("--concentration", options.concentration,
-                    "FLO-2D: solids by volume, 0 to 1; adds the column for mudflow");
+                    "solids by volume, 0 to 1; FLO-2D: adds the column for mudflow");
+    word.add_option("--percentile", options.percentile,
+                    "10, 50 or 90 of the volume, over all runouts of the run");
+    word.add_option("--rheology", options.rheology,
+                    "hec-ras-unsteady: bingham, obrien or herschel-bulkley (bingham)");
+    word.add_option("--yield-stress", options.yield_stress,
+                    "hec-ras-unsteady [Pa] (default: that of the runout's soils)");
+    word.add_option("--viscosity", options.viscosity, "hec-ras-unsteady, with it [Pa s]");
     word.add_option("--output", options.file, "a file instead of the screen");
 }
 

@@ -18,6 +18,7 @@
 #include "services/orchestrator/records/identity.hpp"
 #include "services/orchestrator/records/or_null.hpp"
 #include "services/orchestrator/scene_entries.hpp"
+#include "services/outflow/hydrograph.hpp"
 
 namespace breach::orchestrator {
 
@@ -168,14 +169,25 @@ json inputs_of(const fs::path& folder, const json& asked) {
         entries.push_back({{"pointer", each.pointer},
                            {"value", each.value},
                            {"unit", each.unit},
+                           {"what", each.what},
                            {"default", each.is_default}});
     drawing::BaseScene base{asked.at("scene"), {}, ""};
     check::Checked checked = check::checked_document(base.scene, "scene", folder, {});
     // A drawing lists the faults of its scene.
     checked.faults.clear();
     const drawing::Draft draft = drawing::draft_of(std::move(base), std::move(checked));
-    return {{"entries", std::move(entries)},
-            {"drawing", drawing::can_be_drawn(draft) ? json(drawing::as_svg(draft, {})) : json()}};
+    json answer{
+        {"entries", std::move(entries)},
+        {"drawing", drawing::can_be_drawn(draft) ? json(drawing::as_svg(draft, {})) : json()},
+        {"breach_width", nullptr}};
+    if (asked.at("scene").contains("mpm")) {
+        const outflow::StatedWidth stated = outflow::stated_width(asked.at("scene"));
+        answer["breach_width"] = {{"low", stated.width.low},
+                                  {"best", stated.width.best},
+                                  {"high", stated.width.high},
+                                  {"from", stated.from}};
+    }
+    return answer;
 }
 
 }  // namespace

@@ -66,8 +66,9 @@ class Lister {
             // The entry has the default, not the alternatives of its oneOf.
             const json& written = resolved(property);
             const bool is_default = written.contains("default") && written.at("default") == value;
-            found.push_back(
-                {pointer, value, unit == "1" ? "" : unit, is_default && !was_set(pointer)});
+            found.push_back({pointer, value, unit == "1" ? "" : unit,
+                             property.value("description", written.value("description", "")),
+                             is_default && !was_set(pointer)});
         }
     }
 

@@ -12,6 +12,7 @@ struct SceneEntry {
     std::string pointer;  ///< "/mpm/floor/level"
     nlohmann::json value;
     std::string unit;  ///< of the schema; empty: it has none
+    std::string what;  ///< the schema's description
     bool is_default;   ///< whether the value is the schema's default
 };
 

@@ -137,12 +137,17 @@ std::string peaks_in_words(const Ordinates& flows) {
            ", each a mean over that time. Where the peak matters, ask for a shorter interval.";
 }
 
-std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
-                       const std::string& file) {
+Ordinates hec_ras_ordinates(const Hydrograph& hydrograph, double width, double interval,
+                            const std::string& file) {
     if (std::ranges::find(intervals_of_hec_ras, interval) == intervals_of_hec_ras.end())
         refuse(file, "/interval", "is not in HEC-RAS's list of data time intervals",
                "give 1, 2, 3, 4, 5, 6, 10, 15, 20 or 30 s, or whole minutes");
-    const Ordinates flows = ordinates_of(hydrograph, width, interval, file);
+    return ordinates_of(hydrograph, width, interval, file);
+}
+
+std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
+                       const std::string& file) {
+    const Ordinates flows = hec_ras_ordinates(hydrograph, width, interval, file);
     std::ostringstream table;
     table << "# HEC-RAS flow hydrograph, SI units, data time interval " << interval << " s, "
           << flows.m3_per_s.size() << " ordinates; section " << hydrograph.section

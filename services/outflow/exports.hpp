@@ -37,8 +37,11 @@ Ordinates ordinates_of(const Hydrograph& hydrograph, double width, double interv
 /// The peak before and after, with a warning and a remedy where more than a tenth of it is lost.
 std::string peaks_in_words(const Ordinates& flows);
 
-/// Comments, then ordinate, simulation time, flow [m3/s]. interval: whole seconds, one of
-/// HEC-RAS's; others throw BadInput.
+/// The same at an interval of HEC-RAS's list, in whole seconds; others throw BadInput.
+Ordinates hec_ras_ordinates(const Hydrograph& hydrograph, double width, double interval,
+                            const std::string& file);
+
+/// Comments, then ordinate, simulation time, flow [m3/s].
 std::string as_hec_ras(const Hydrograph& hydrograph, double width, double interval,
                        const std::string& file);
 

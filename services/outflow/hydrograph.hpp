@@ -36,6 +36,16 @@ std::vector<std::string> sections_in(const exchange::Archive& history);
 Hydrograph hydrograph_in(const exchange::Archive& history, const std::string& section,
                          const std::string& file);
 
+/// One of many samples, and its index.
+struct Chosen {
+    std::size_t sample;
+    Hydrograph hydrograph;
+};
+/// The one whose volume is nearest to the percentile p [%] of all volumes, scaled to that volume
+/// (discharge, volume and mass); its warning says so. Needs the samples of core/statistics, else
+/// throws BadInput.
+Chosen at_percentile(const std::vector<Hydrograph>& samples, double p, const std::string& file);
+
 /// The history in a runout's output folder.
 exchange::Archive history_of(const std::filesystem::path& output);
 
@@ -49,5 +59,17 @@ struct BreachWidth {
 /// From a number or [low, best, high]. Throws BadInput at `pointer`.
 BreachWidth breach_width_from(const nlohmann::json& entry, const std::string& file,
                               const std::string& pointer);
+
+/// A width with its source in words.
+struct StatedWidth {
+    BreachWidth width;
+    std::string from;
+};
+
+/// The scene's /mpm/breach_width, else 3 (2 to 4) heights of the soil above the toe, the usual
+/// widths of embankment dams (Reclamation 1988 and FERC 1987, in Wahl 1998, DSO-98-004).
+/// For the report alone: other programs get only a width that someone chose. scene: completed, with
+/// a runout.
+StatedWidth stated_width(const nlohmann::json& scene);
 
 }  // namespace breach::outflow

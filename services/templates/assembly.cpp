@@ -396,6 +396,7 @@ Json runout_of(const Context& all) {
     for (const auto& [name, heights] :
          {std::pair("one_height", 1.0), std::pair("three_heights", 3.0)})
         if (heights * H < right) mpm["gauges"].push_back({{"name", name}, {"x", heights * H}});
+    mpm["sections"] = {{{"name", "toe"}, {"x", 0}}};
     return mpm;
 }
 

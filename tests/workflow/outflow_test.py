@@ -12,7 +12,7 @@ from phases import check, root
 from service import Service
 
 WIDTH = 72.0  # m
-STUDY = {"format": "breachline-study/1", "name": "outflow", "scene": str(root / "workflows/scenes/column.json"), "transfer_times": [0.4], "draws": 3,
+STUDY = {"format": "breachline-study/1", "name": "outflow", "scene": str(root / "workflows/scenes/column.json"), "transfer_times": [0.4], "draws": 5,
          "overrides": ["/mpm/cell_size=2", "/mpm/duration=8", '/mpm/sections=[{"name":"toe","x":10},{"name":"far","x":55}]', f"/mpm/breach_width={WIDTH}"]}
 
 
@@ -50,6 +50,28 @@ def main(folder):
         # Straight lines between ordinates one second apart.
         carried = sum(0.5 * (a + b) for a, b in zip(flow, flow[1:]))
         check("HEC-RAS gets what passed", near(carried, WIDTH * volume[-1], 0.01), (carried, WIDTH * volume[-1]))
+        url = f"{service.url.rstrip('/')}/v1/runs/{run}/hydrograph?section=toe&percentile="
+        volumes = [json.loads(urllib.request.urlopen(f"{service.url.rstrip('/')}/v1/runs/{run}/hydrograph?section=toe&variant={each}").read())
+                   ["volume"]["values"][-1] for each in variants]
+        median = json.loads(urllib.request.urlopen(url + "50").read())
+        check("p50 has the median of the volumes", near(median["volume"]["values"][-1], statistics.median(volumes)), (median["warning"], volumes))
+        try:
+            urllib.request.urlopen(url + "90")
+            check("five runouts have no p90", False)
+        except urllib.error.HTTPError as refusal:
+            check("five runouts have no p90", "29 are needed" in refusal.read().decode(), refusal.code)
+        made = text("section=toe&for=hec-ras-unsteady&rheology=obrien&yield_stress=900&viscosity=20&concentration=0.5")
+        lines = made.splitlines()
+        at = next(k for k, line in enumerate(lines) if line.startswith("Flow Hydrograph="))
+        flow = [float(line[k:k + 8]) for line in lines[at + 1:lines.index("Stage Hydrograph TW Check=0")] for k in range(0, len(line), 8)]
+        check("the unsteady flow file says how many flows it has", len(flow) == int(lines[at].split("=")[1]), lines[at])
+        check("and carries what passed", near(sum(flow), WIDTH * volume[-1], 0.01), (sum(flow), WIDTH * volume[-1]))
+        check("with O'Brien's method, Pa and Pa s", {"Non-Newtonian Method= 2 , ", "User Yeild=   900", "User Viscosity=20"} <= set(lines), made)
+        try:
+            text("section=toe&for=hec-ras-unsteady&concentration=0.5")
+            check("dry sand has no yield stress", False)
+        except urllib.error.HTTPError as refusal:
+            check("dry sand has no yield stress", "give yield_stress and viscosity" in refusal.read().decode(), refusal.code)
         try:
             text("section=far&for=hec-ras")
             check("nothing that passed is no hydrograph", False)
@@ -57,10 +79,10 @@ def main(folder):
             check("nothing that passed is no hydrograph", refusal.code == 422, refusal.code)
 
         told = service.call(f"/v1/runs/{run}/envelopes")
-        check("each lattice is in the envelopes", told["samples"] == 3 and not told["left_out"], told["left_out"])
+        check("each lattice is in the envelopes", told["samples"] == 5 and not told["left_out"], told["left_out"])
         service.breach("export", run, folder / "run")
         files = [table(each.read_text()) for each in sorted((folder / "run/tasks").glob("mpm*/envelope.csv"))]
-        check("each runout left an envelope", len(files) == 3, len(files))
+        check("each runout left an envelope", len(files) == 5, len(files))
         bands = {"largest_depth": "largest_depth_m", "largest_velocity": "largest_velocity_m_per_s", "final_depth": "final_depth_m"}
         for name, column in bands.items():
             by_x = {float(rows[0]["x_m"]): statistics.median(float(row[column] or 0.0) for row in rows) for rows in zip(*files)}

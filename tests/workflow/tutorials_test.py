@@ -4,6 +4,7 @@ tutorials_test.py PAGE [--show] [--coarse].
 Blocks fenced with sh are commands. They run in one shell, in a folder that looks like the source tree. A block fenced with text shows
 what the commands before it print: the words of its first line must be in their output. Exits with 77 where the page needs a program
 that is not installed. --coarse: with a template's dam on cells of twice the size, a tenth of the CPU time. Prints the number of commands from nothing to the report, and their time."""
+import csv
 import json
 import os
 import pathlib
@@ -123,6 +124,27 @@ def check_own_dam(service, here):
     check("it stands on clay, above ground that falls", scene["materials"]["clay"] and scene["mpm"]["terrain"][-1][1] < 0)
     report = (here / "my_dam/report.html").read_text()
     check("the report says what is assumed", "assumed: drained strength" in report.replace("&#39;", "'"))
+    check_first_page(here / "my_dam")
+    if "--coarse" not in sys.argv and shutil.which("weasyprint") and shutil.which("pdfinfo"):  # coarse cells raise more flags
+        subprocess.run(["weasyprint", here / "my_dam/report.html", here / "my_dam/report.pdf"], check=True, capture_output=True)
+        said = subprocess.run(["pdfinfo", here / "my_dam/report.pdf"], check=True, capture_output=True, text=True).stdout
+        check("the report has at most 12 pages", int(said.split("Pages:")[1].split()[0]) <= 12, said)
+
+
+def check_first_page(dam):
+    """Its numbers are those of the results."""
+    result = json.loads((dam / "run/tasks/mpm_liquefied/result.json").read_text())
+    factors = [json.loads(file.read_text())["factor_of_safety"] for file in (dam / "run/tasks").glob("lem_*/result.json")]
+    width = 3 * 20  # of the assumed breach: three heights [m]
+
+    def shown(table, begin):
+        with open(dam / f"report_files/{table}.csv", newline="") as stream:
+            return next(row[1] for row in csv.reader(stream) if row[0].startswith(begin))
+
+    for table, begin, value in (("found", "Reach", result["runout_beyond_toe"]), ("found", "Released", width * result["area_beyond_toe"]),
+                                ("found", "Peak discharge", width * result["sections"]["toe"]["largest_discharge"]),
+                                ("stability", "as built", min(factors))):
+        check(f"page 1 has the result's {begin}", abs(float(shown(table, begin)) - value) <= 0.005 * value, (shown(table, begin), value))
 
 
 def check_earthquake(service, here):

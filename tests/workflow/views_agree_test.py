@@ -179,7 +179,7 @@ def compare(service, run, folder, by_program=True):
         first = plain(re.search(r'<p class="headline">.*?</p>', page, re.S).group(0)).strip().lower()
         outcome, *factors = head["headline"]["text"].lower().split("; ")
         hold(f"the report's headline is \"{first}\" for \"{outcome}\"", first.startswith(outcome) and all(each in first for each in factors))
-    heading = plain(re.search(r'<section id="verdict".*?</section>', page, re.S).group(0))
+    heading = plain(" ".join(re.findall(r'<section[^>]*class="verdict.*?</section>', page, re.S)))
     hold(f"the report's verdict is not \"{verdict['words']}\": {heading[:90]}", f"checks: {verdict['words']}" in heading)
     for reason in verdict["reasons"]:
         hold(f"the report does not say: {reason['text']}", reason["code"].startswith("entangled") or reason["text"] in heading)

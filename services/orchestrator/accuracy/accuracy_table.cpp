@@ -244,20 +244,19 @@ bool changes(const Ladder& ladder, std::string_view entry) {
 /// Softening without an internal length localises in one element or cell of any size.
 std::string softening_in_words(const AccuracyPlan& plan, const Ladder& ladder,
                                const AccuracyRow& row, statistics::Course course) {
+    if (!row.softens || row.has_length) return "";
+    const std::string begin =
+        "; the soil softens without a nonlocal_length, in bands as wide as the ";
     const bool of_fem = plan.quantity.reach == Reach::fem || plan.quantity.reach == Reach::chain;
     const bool mesh =
         of_fem && changes(ladder, "/section/") &&
         (course == statistics::Course::not_falling || course == statistics::Course::oscillating);
+    if (mesh) return begin + "elements: there may be no limit";
     const bool cells = has_lattice(plan.quantity.reach) && changes(ladder, "/mpm/cell_size");
-    if (!row.softens || (!mesh && !cells)) return "";
-    if (mesh)
-        return "; the soil softens, which in the FEM has no length of its own: every mesh slides "
-               "along a band as wide as its elements, and there may be no limit";
-    return row.has_length
-               ? ""
-               : "; the soil softens without a nonlocal_length, in bands as wide as the "
-                 "cells: smaller cells are another soil, too, and rungs that agree may be "
-                 "two errors that cancel";
+    return cells ? begin +
+                       "cells: smaller cells are another soil, too, and rungs that agree may be "
+                       "two errors that cancel"
+                 : "";
 }
 
 /// The order matters: ladders by themselves, then what rows take over from other ladders, then

@@ -123,9 +123,12 @@ def verdict_of(run: Run) -> Verdict:
 
 
 def flag_table(run: Run) -> Table:
-    return Table("flags", "Flags", ["run", "t_T [s]", "variant", "flag", "severity", "what", "entry of the scene"],
-                 [each.columns + [flag["code"].replace("_", " "), flag["severity"], flag["message"], flag.get("pointer") or "-"]
-                  for each in run.phases for flag in each.flags],
+    phases: dict[tuple[str, ...], list[str]] = {}  # with the same flag
+    for each in run.phases:
+        for flag in each.flags:
+            phases.setdefault((flag["code"].replace("_", " "), flag["severity"], flag["message"], flag.get("pointer") or "-"), []).append(each.label)
+    return Table("flags", "Flags", ["flag", "severity", "what", "entry of the scene", "runs"],
+                 [[*flag, ", ".join(labels)] for flag, labels in phases.items()],
                  "questionable: a number of that result is a bound or cannot be relied on. warning: the result holds, but is less certain.")
 
 

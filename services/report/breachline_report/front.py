@@ -11,12 +11,14 @@ from .chapters.runout import section_at_rest
 from .document import Front, Json, Table
 from .ended import any_moves, bounded, how_it_ended, range_of
 from .paper import Paper
-from .run import Phase, Run, fem, lem, mpm, transfer
-from .words import at_least, entry, fact, joined, number, or_dash, rounded, with_error
+from .run import Phase, Run, fem, lem, mpm, post_seismic, transfer
+from .section import crest_of, phreatic_line, profile_of, top_at
+from .words import at_least, entry, joined, number, or_dash, rounded, with_error
 
 _most_named = 12  # variants or times in a sentence
 _most_gauges = 4
 _most_fems = 6  # in rows of their own
+_k_h = "/lem/seismic_coefficient"
 
 
 # ---------------------------------------------------------------- what was asked
@@ -88,11 +90,16 @@ def _of(phase: Phase, pointer: str) -> str:
     return "-" if value is None else rounded(value, 3)
 
 
+def _but_warnings(phase: Phase) -> str:
+    """How it ended; the verdict has the warnings."""
+    return how_it_ended(phase).split("; warnings", 1)[0]
+
+
 def _certainty(runout: Phase) -> str:
     """Error of the number, if known, and cautions about its result."""
     text = "numerical error not quantified (run an accuracy study, or set \"draws\")" if runout.error is None \
         else f"\u00b1 {runout.error:.2g} m: {runout.error_from}"
-    end = how_it_ended(runout)
+    end = _but_warnings(runout)
     return text if end == "well" else f"{text}; {end}"
 
 
@@ -109,7 +116,25 @@ def _mean_row(run: Run) -> list[list[str]]:
              + (f"; not whole or questionable: {caution}" if caution else "")]]
 
 
-def _runout_rows(run: Run, table: Table) -> None:
+def _through_the_breach(shown: Phase, width: Json) -> list[list[str]]:
+    """Volume and discharge of the breach's width."""
+    def row(what: str, per_metre: float | None, unit: str, lacking: str) -> list[str]:
+        if per_metre is None:
+            return [what, "-", "-", lacking]
+        low, best, high = (rounded(per_metre * width[key], 3) for key in ("low", "best", "high"))
+        by_width = f" ({rounded(width['low'], 3)} to {rounded(width['high'], 3)} m: {low} to {high} {unit})" if width["high"] > width["low"] else ""
+        return [what, bounded(shown, best), "-", f"{bounded(shown, rounded(per_metre, 3))} per m, {rounded(width['best'], 3)} m wide{by_width}"]
+
+    toe, sections = shown.scene["mpm"]["runout"]["toe"][0], entry(shown.result, "/sections", {}).values()
+    nearest = min(sections, key=lambda each: abs(float(each["x"] - toe)), default=None)
+    at = f" past x = {nearest['x']:.6g} m" if nearest else ""
+    released = row("Released past the toe [m3]", number(shown.result, "/area_beyond_toe"), "m3", "the runout does not say")
+    released[3] += f", {width['from']}"
+    return [released, row(f"Peak discharge{at} [m3/s]", number(nearest, "/largest_discharge"), "m3/s",
+                          "a section at the toe (/mpm/sections) gives it")]
+
+
+def _runout_rows(run: Run, table: Table, width: Json) -> None:
     asked, shown = run.of(mpm), run.farthest
     if run.without_transfer:
         table.rows.append(["Variants without a transfer", "-", str(len(run.without_transfer)), run.without_transfer[0].get("reason") or ""])
@@ -119,20 +144,25 @@ def _runout_rows(run: Run, table: Table) -> None:
         table.rows.append(["Runout [m]", "no result", f"0 of {len(asked)}", asked[0].fault])
         return
     beyond = "" if shown.runout > 0.0 else "99 % of the soil stays before the toe"
-    rest = entry(shown.result, "/at_rest")
+    rest, reach = entry(shown.result, "/at_rest"), number(shown.result, "/runout_beyond_toe")
     at_rest = sum(entry(each.result, "/at_rest") is True for each in asked)
     end = f"{_of(shown, '/end_time')} s"
     table.rows += _mean_row(run) + [
-        ["Runout: 99 % of the mobile soil, from the toe [m]", bounded(shown, with_error(shown.runout, shown.error)),
-         range_of(asked, "/runout", True), _certainty(shown)],
-        ["Of what passed the toe, 99 % [m]", bounded(shown, _of(shown, "/runout_beyond_toe")), range_of(asked, "/runout_beyond_toe", True), beyond],
-        ["Deposit beyond the toe [m3 per m of width]", bounded(shown, _of(shown, "/area_beyond_toe")),
-         range_of(asked, "/area_beyond_toe", True), ""],
+        ["Reach: 99 % of what passed the toe [m]", bounded(shown, _of(shown, "/runout_beyond_toe") if reach is None
+                                                                     else with_error(reach, shown.error)),
+         range_of(asked, "/runout_beyond_toe", True), _certainty(shown)],
+        ["Runout: 99 % of mobile soil, from the toe [m]", bounded(shown, with_error(shown.runout, shown.error)),
+         range_of(asked, "/runout", True), beyond],
+        *_through_the_breach(shown, width),
         ["At rest", "not known" if rest is None else f"yes, after {end}" if rest else f"no: cut off at {end}", f"{at_rest} of {len(asked)}",
          "distances and volumes are lower bounds" if shown.still_moves else ""]]
     unless = ", unless one whose soil still moved would have gone farther" if any_moves(asked) and not shown.still_moves else ""
     table.caption = (f"Governing case: the largest runout of all ({shown.where}){unless}. In the whole run: least to largest, and how many have "
-                     "a result. \u2265: a lower bound, the soil still moved.")
+                     "a result." + (" \u2265: a lower bound, the soil still moved." if any_moves(asked) else ""))
+
+
+def _factor(phase: Phase) -> float | None:
+    return number(phase.result, "/factor_of_safety")
 
 
 def _liquefied(phase: Phase) -> float | None:
@@ -141,44 +171,38 @@ def _liquefied(phase: Phase) -> float | None:
     return number(stages[-1], "/factor_of_safety") if stages else None
 
 
-def _governing_stability(run: Run) -> Phase | None:
-    """Of the variant that runs farthest, or the one shared by all; without a runout the one with the least factor."""
-    for variant in (run.farthest.variant, "") if run.farthest else ():
-        for each in run.of(lem):
-            if each.variant == variant and number(each.result, "/factor_of_safety") is not None:
-                return each
-    return run.least_factor
+def _remark_on(factors: list[tuple[float, Phase]]) -> str:
+    """Where the least is, what other methods give there, and the range of all."""
+    shown = factors[0][1]
+    parts = [shown.variant] * bool(shown.variant) + [f"{name} {_of(shown, pointer)}" for name, pointer in (
+        ("Bishop", "/bishop/factor_of_safety"), ("Spencer", "/bishop/spencer/factor_of_safety"))
+        if factors[0][0] == _factor(shown) and _of(shown, pointer) != "-"]
+    if k_h := number(shown.scene, _k_h):
+        parts.append(f"k_h = {k_h:.3g}")
+    if len(factors) > 1:
+        parts.append(f"up to {rounded(factors[-1][0], 3)} in {factors[-1][1].variant or factors[-1][1].label}")
+    if (end := _but_warnings(shown)) != "well":
+        parts.append(end)
+    return joined(parts, "; ")
 
 
-def _factor_rows(run: Run, table: Table) -> None:
-    all_of, shown = run.of(lem), _governing_stability(run)
-    if not all_of:
-        return
-    if not shown:
-        table.rows.append(["Factor of safety", "no result", f"0 of {len(all_of)}", all_of[0].fault])
-        return
-    remarks = ["least of all surfaces"] + [f"{name} {_of(shown, pointer)}" for name, pointer in
-                                           (("Bishop", "/bishop/factor_of_safety"), ("Spencer", "/bishop/spencer/factor_of_safety"))
-                                           if _of(shown, pointer) != "-"]
-    if run.least_factor and run.least_factor is not shown:
-        remarks.append(f"{_of(run.least_factor, '/factor_of_safety')} in {run.least_factor.variant}")
-    if (end := how_it_ended(shown)) != "well":
-        remarks.append(end)
-    liquefied = sorted(((factor, each) for each in all_of if (factor := _liquefied(each)) is not None), key=lambda pair: pair[0])
-    table.rows.append(["Factor of safety before any layer liquefies" if liquefied else "Factor of safety", _of(shown, "/factor_of_safety"),
-                       range_of(all_of, "/factor_of_safety", False), joined(remarks, "; ")])
-    if liquefied:
-        least, largest = rounded(liquefied[0][0], 3), rounded(liquefied[-1][0], 3)
-        elsewhere = "" if liquefied[0][1] is shown else f"; {least} in {liquefied[0][1].variant}"
-        table.rows.append(["Factor of safety with every layer liquefied that may", or_dash(_liquefied(shown)),
-                           least + (f" to {largest}" if len(liquefied) > 1 else "") + f" ({len(liquefied)} of {len(all_of)})",
-                           "residual strengths" + elsewhere])
-    if "critical_depth" in shown.result:
-        depth = _of(shown, "/depth_at_fs_1")
-        table.rows += [["Liquefied depth at which the factor of safety falls to 1 [m]", depth, range_of(all_of, "/depth_at_fs_1", False),
-                        "stable with every layer liquefied" if depth == "-" else ""],
-                       ["Depth of the critical surface (critical_depth of triggers) [m]", _of(shown, "/critical_depth"),
-                        range_of(all_of, "/critical_depth", False), "lowest point of the stage with the least factor of safety"]]
+def _stability_of(run: Run) -> Table:
+    """The least factor of safety of each case beside its criterion."""
+    criteria, tilted = entry(run.study, "/report/criteria", {}), [each for each in run.of(lem) if number(each.scene, _k_h)]
+    built = [each for each in run.of(lem) if each not in tilted]
+    table = Table("stability", "Does it stand?", ["factor of safety", "least", "criterion", "met", "remark"], [],
+                  f"Criteria (/report/criteria of the study): {criteria['source']}." if "source" in criteria else "")
+    for name, key, phases, factor_of, needs in (
+            ("as built", "as_built", built, _factor, "\"stability\" of the study"),
+            ("pseudo-static", "pseudo_static", tilted, _factor, "a variant with /lem/seismic_coefficient"),
+            ("after the shaking", "post_seismic", run.of(post_seismic), _factor, "\"post_seismic\" of the study"),
+            ("liquefied, every layer that may", "liquefied", built, _liquefied, "/lem/liquefaction of the scene")):
+        factors = sorted(((factor, each) for each in phases if (factor := factor_of(each)) is not None), key=lambda pair: pair[0])
+        wanted = number(criteria, "/" + key)
+        table.rows.append([name, or_dash(factors[0][0] if factors else None), or_dash(wanted),
+                           ("yes" if factors[0][0] >= wanted else "no") if factors and wanted else "-",
+                           _remark_on(factors) if factors else next((each.fault for each in phases if each.fault), f"not analysed: needs {needs}")])
+    return table if run.of(lem) or run.of(post_seismic) else Table("stability", "", [])
 
 
 def _fem_rows(run: Run, table: Table) -> None:
@@ -271,37 +295,55 @@ def _headline_of(run: Run) -> str:
 # ---------------------------------------------------------------- before and after
 
 
-def _surface_of(runout: Phase) -> Series:
-    """Columns 0 and 3 of profile.csv, x and the surface [m]; without points: no such file."""
-    lines = (runout.files / "profile.csv").read_text().splitlines()[1:] if runout.has("profile.csv") else []
-    rows = [[float(cell or 0.0) for cell in line.split(",")] for line in lines]
-    return Series(f"after, {runout.where}" + (" (still moving)" if runout.still_moves else ""), [row[0] for row in rows], [row[3] for row in rows])
+def _shown_part(runout: Phase) -> tuple[float, float] | None:
+    """Where the ground changed by a tenth of the dam's height, and what the soil reached, with a margin; None: all."""
+    crest, toe = crest_of(runout), runout.scene["mpm"]["runout"]["toe"]
+    if not crest:
+        return None
+    height = crest.before - toe[1]
+    changed = [x for x, _, surface in profile_of(runout) if abs(surface - (top_at(runout.scene, x) or surface)) > 0.1 * height]
+    upstream = min(x for x, _, _ in profile_of(runout))
+    return max(min([*changed, toe[0] - 5.0 * height]) - height, upstream), toe[0] + max(runout.result["runout_largest"], 0.0) + height
 
 
-def _overview_of(run: Run) -> Figure:
-    """The section before and after the governing runout, with slip surface and phreatic line."""
+def _picture(name: str, title: str, across: Axis, series: list[Series], marks: list[Mark]) -> Figure:
+    return Figure(name, Chart(title, across, Axis("y [m]"), [each for each in series if len(each.x)], marks, equal=True, least_height=60))
+
+
+def _pictures_of(run: Run) -> list[Figure]:
+    """The section before the governing runout, with slip surface and phreatic line, and after it, in one scale."""
     farthest, least = run.farthest, run.least_factor
     shown = farthest or least
     scene = shown.scene if shown else run.scene
-    before = section_at_rest(scene)
-    before.name = "before"
-    water = [line for at in ("/fem/water/line", "/lem/water/line", "/transfer/phreatic_line") if isinstance(line := entry(scene, at), list)]
-    series = [before] + ([_surface_of(farthest)] if farthest else []) + [line_of(line, "phreatic line") for line in water[:1]]
+    across = Axis("x [m]" if not farthest else "", shown=_shown_part(farthest) if farthest else None)
+    toe = entry(scene, "/mpm/runout/toe") if farthest else None
+    marks = [Mark("x", toe[0], "toe")] if toe else []
+    profile = [row for row in profile_of(farthest) if not across.shown or row[0] <= across.shown[1]] if farthest else []
+    outline, pieces = section_at_rest(scene), [row for pair in zip(profile, profile[1:]) for row in pair]
+    ground = Series("ground", [x for x, _, _ in pieces], [y for _, y, _ in pieces], "segments")
+    regions = [Series(each["name"], [x for x, _ in each["polygon"]], [y for _, y in each["polygon"]], "area") for each in scene["section"]["regions"]]
+    lines = [line_of(line, "phreatic line")] if (line := phreatic_line(scene)) else []
     if least and (surface := critical_surface(least.scene, least.result)):
-        series.append(surface)
-    toe = entry(scene, "/mpm/runout/toe")
-    marks = [Mark("x", toe[0], "toe"), Mark("x", toe[0] + farthest.runout, f"runout {bounded(farthest, rounded(farthest.runout, 3))} m")] \
-        if farthest and toe else []
-    return Figure("overview", Chart("The section before and after" if marks else "The section", Axis("x [m]"), Axis("y [m]"),
-                                    [each for each in series if len(each.x)], marks, equal=True, least_height=75))
+        lines.append(surface)
+    figures = [_picture("section_before", "Before" if farthest else "The section", across, [*regions, *lines, ground], marks)]
+    if farthest and profile:
+        soil = Series("soil", [x for x, _, _ in profile] + [x for x, _, _ in profile[::-1]],
+                      [surface for _, _, surface in profile] + [ground for _, ground, _ in profile[::-1]], "area")
+        reach = number(farthest.result, "/runout_beyond_toe") or 0.0
+        far = [Mark("x", toe[0] + reach, f"reach {bounded(farthest, rounded(reach, 3))} m")] if toe and reach > 0.0 else []
+        figures.append(_picture("section_after", f"After, {farthest.where}" + (" (still moving)" if farthest.still_moves else ""), across,
+                                [soil, outline, ground], marks + far))
+    return figures
 
 
-def front_of(run: Run, paper: Paper | None) -> Front:
+def front_of(run: Run, paper: Paper | None, width: Json) -> Front:
+    """width: of the breach, as the service's program states it; None: the scene has no runout."""
     found = Table("found", "What comes out", ["quantity", "governing case", "in the whole run", "remark"], sampled_answer(run))
-    _runout_rows(run, found)
-    _factor_rows(run, found)
+    _runout_rows(run, found, width)
     _fem_rows(run, found)
     about = run.study.get("report", {})
-    people = [(each, about[each]) for each in ("site", "client", "author", "reviewer", "revision") if each in about]
-    return Front(_identity_of(run), people, _headline_of(run), [_overview_of(run)], _asked_of(run),
-                 [each for each in (found, _gauges_of(run)) if each.rows], _limits_of(run, paper), about.get("author", ""), about.get("reviewer", ""))
+    people = [(words, about[each]) for each, words in (("client", "client"), ("site", "dam"), ("revision", "revision"), ("author", "author"),
+                                                       ("reviewer", "reviewer")) if each in about]
+    return Front(_identity_of(run), people, _headline_of(run), _pictures_of(run), _asked_of(run),
+                 [each for each in (_stability_of(run), found, _gauges_of(run)) if each.rows], _limits_of(run, paper), about.get("author", ""),
+                 about.get("reviewer", ""))

@@ -15,8 +15,8 @@ from breachline.faults import BreachlineError
 from breachline.plot import Figure
 
 from .accuracy_page import write_accuracy_page
-from .chapters import Choice, Material, assessment, checklist, flow, ground, inputs, mesh, methods, motion, numbers, runout, shaking, soil_elements, \
-    stability, variants
+from .chapters import Choice, Material, assessment, checklist, failure_modes, flow, ground, inputs, mesh, methods, motion, numbers, release, runout, \
+    shaking, soil_elements, stability, variants
 from .document import Document, Table
 from .ended import verdict_of
 from .front import front_of
@@ -49,10 +49,11 @@ def _add_companion(folder: Path, paper: Paper | None, document: Document) -> Non
 def document_of(run: Run, choice: Choice) -> Document:
     paper = paper_for(run.scene["name"])
     of, asked = Material(run, paper, Measures(run, paper), choice), inputs.Inputs(run)
-    document = Document(run.title, front_of(run, paper), verdict_of(run))
+    document = Document(run.title, front_of(run, paper, asked.breach_width), verdict_of(run))
     assessment.add(of, document)
     inputs.add(asked, document)
     stability.add(of, document)
+    failure_modes.add(of, document)
     soil_elements.add(of, document)
     if run.is_static:
         document.leave_out("motion, course of the finite elements, meshes and transfers", "the scene is static: it has no FEM")
@@ -60,7 +61,9 @@ def document_of(run: Run, choice: Choice) -> Document:
         for add in (motion.add, motion.add_several, shaking.add, mesh.add, runout.add_transfer):
             add(of, document)
     if run.first(mpm):
-        for add in (runout.add, ground.add, flow.add, flow.add_outflow):
+        runout.add(of, document)
+        release.add(of, document, asked.breach_width)
+        for add in (ground.add, flow.add, flow.add_outflow):
             add(of, document)
     else:
         document.leave_out("runout, flow and deposit", "the run has no runout")

@@ -10,8 +10,8 @@ at_least = "\u2265 "  #: before a lower bound
 
 
 def rounded(value: float, digits: int = 6) -> str:
-    """Significant digits, without trailing zeros."""
-    return f"{value:.{digits}g}"
+    """Significant digits, without trailing zeros; large numbers without an exponent."""
+    return f"{float(f'{value:.{digits}g}'):.12g}"
 
 
 def entry(document: Json, pointer: str, default: Json = None) -> Json:

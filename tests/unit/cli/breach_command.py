@@ -372,7 +372,7 @@ class Breach(unittest.TestCase):
     def test_import_makes_a_scene_that_draw_takes(self):
         (self.here / "m.json").write_text(json.dumps({"materials": {"clay": {"density": 2000, "law": {
             "type": "mohr_coulomb", "E_MPa": 40, "nu": 0.3, "c_kPa": 5, "phi_deg": 30}}}}))
-        drawing, scene, picture = self.here / "dam.csv", self.here / "dam.json", self.here / "dam.svg"
+        drawing, scene, picture = self.here / "dam.csv", self.here / "new/folder/dam.json", self.here / "drawn/dam.svg"
         drawing.write_text("region,x,y\nclay,0,0\nclay,40,0\nclay,20,8\nclay,0,8\n\nbase,0,-3\nbase,40,-3\n"
                            "base,40,0.02\nbase,0,0\n")
         wishes = ["import", drawing, "--materials", self.here / "m.json", "--output", scene, "--draw", picture]

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/fault/fault.hpp"
+#include "services/outflow/hec_ras.hpp"
 
 namespace breach::outflow {
 namespace {
@@ -155,6 +156,94 @@ TEST(Sections, AreNamedWhereOneIsAskedForThatIsNotThere) {
     }
 }
 
+/// Value after "key" of the line that begins with it.
+std::string after(const std::vector<std::string>& lines, const std::string& key) {
+    for (const std::string& line : lines)
+        if (line.starts_with(key)) return line.substr(key.size());
+    return "none";
+}
+
+TEST(HecRas, UnsteadyFileCarriesTheVolumeInFieldsOfEight) {
+    const auto lines = lines_of(as_hec_ras_unsteady(triangle(), 72.0, 2.0, Resistance::bingham,
+                                                    {8700.0, 1000.0, "given"}, 0.5, "test"));
+    EXPECT_EQ(after(lines, "Interval="), "2SEC");
+    const std::size_t count = std::stoul(after(lines, "Flow Hydrograph="));
+    EXPECT_EQ(count, ordinates_of(triangle(), 72.0, 2.0, "test").m3_per_s.size());
+    const auto begin = std::ranges::find_if(
+        lines, [](const std::string& line) { return line.starts_with("Flow Hydrograph="); });
+    std::vector<double> flows;
+    for (auto line = begin + 1; flows.size() < count; ++line)
+        for (std::size_t k = 0; k + 8 <= line->size(); k += 8)
+            flows.push_back(std::stod(line->substr(k, 8)));
+    EXPECT_EQ(flows.size(), count);
+    EXPECT_NEAR(trapezoid(flows, 2.0), 576.0, 0.01);
+}
+
+TEST(HecRas, NonNewtonianBlockHasItsMethodAndPascals) {
+    const auto block = [](Resistance resistance) {
+        return lines_of(as_hec_ras_unsteady(triangle(), 1.0, 1.0, resistance,
+                                            {8700.0, 1000.0, "given"}, 0.45, "test"));
+    };
+    EXPECT_EQ(after(block(Resistance::bingham), "Non-Newtonian Method="), " 1 , ");
+    EXPECT_EQ(after(block(Resistance::obrien), "Non-Newtonian Method="), " 2 , ");
+    EXPECT_EQ(after(block(Resistance::herschel_bulkley), "Non-Newtonian Method="), " 4 , ");
+    EXPECT_EQ(after(block(Resistance::herschel_bulkley), "Herschel-Bulkley Coef="), "1000, 1");
+    const auto lines = block(Resistance::bingham);
+    EXPECT_EQ(after(lines, "User Yeild="), "   8700");
+    EXPECT_EQ(after(lines, "User Viscosity="), "1000");
+    EXPECT_EQ(after(lines, "Non-Newtonian Constant Vol Conc="), "45");
+    EXPECT_EQ(after(lines, "Herschel-Bulkley Coef="), "0, 0");
+}
+
+TEST(HecRas, RheologyIsTheMeanOfSoilsWithoutFrictionOnceTheyFlow) {
+    nlohmann::json scene = {
+        {"mpm", {{"runout", {{"regions", {"a", "b", "dam"}}}}}},
+        {"section",
+         {{"regions",
+           {{{"name", "a"}, {"material", "weak"}, {"polygon", {{0, 0}, {3, 0}, {3, 1}, {0, 1}}}},
+            {{"name", "b"}, {"material", "soft"}, {"polygon", {{0, 0}, {1, 0}, {1, 1}, {0, 1}}}},
+            {{"name", "dam"}, {"material", "fill"}, {"polygon", {{0, 0}, {9, 0}, {9, 9}}}},
+            {{"name", "far"}, {"material", "weak"}, {"polygon", {{0, 0}, {9, 0}, {9, 9}}}}}}}},
+        {"materials",
+         {{"weak",
+           {{"viscosity", 100}, {"law", {{"type", "mohr_coulomb"}, {"c_kPa", 4}, {"phi_deg", 0}}}}},
+          {"soft",
+           {{"viscosity", 500},
+            {"law",
+             {{"type", "mohr_coulomb"},
+              {"c_kPa", 30},
+              {"phi_deg", 0},
+              {"softening", {{"c_residual_kPa", 8}, {"phi_residual_deg", 0}}}}}}},
+          {"fill", {{"law", {{"type", "mohr_coulomb"}, {"c_kPa", 2}, {"phi_deg", 33}}}}}}}};
+    const Rheology found = rheology_of(scene);
+    EXPECT_NEAR(found.yield_stress, 5000.0, 1e-9);
+    EXPECT_NEAR(found.viscosity, 200.0, 1e-9);
+    EXPECT_EQ(found.from, "mean by area of a, b");
+    scene["mpm"]["runout"]["regions"] = {"dam"};
+    EXPECT_THROW(rheology_of(scene), fault::BadInput);
+}
+
+TEST(Percentiles, AreANearestRunScaledToTheVolume) {
+    std::vector<Hydrograph> samples;
+    for (const double scale : {1.0, 4.0, 2.0, 5.0, 3.1}) {
+        samples.push_back(triangle());
+        for (std::vector<double>* each : {&samples.back().discharge, &samples.back().volume})
+            for (double& value : *each) value *= scale;
+    }
+    samples.pop_back();
+    samples.push_back(triangle());
+    for (double& value : samples.back().volume) value *= 3.1;
+    const Hydrograph median = at_percentile(samples, 50.0, "test").hydrograph;
+    EXPECT_NEAR(median.volume.back(), 8.0 * 3.1, 1e-9);
+    EXPECT_NE(median.warning.find("p50 of 5 runouts, times 1"), std::string::npos)
+        << median.warning;
+    EXPECT_THROW(at_percentile(samples, 90.0, "test"), fault::BadInput);
+    while (samples.size() < 30) samples.push_back(triangle());
+    const Hydrograph high = at_percentile(samples, 90.0, "test").hydrograph;
+    EXPECT_NEAR(high.volume.back(), 8.0 * 2.11, 0.01);
+    EXPECT_NEAR(high.discharge[30] / triangle().discharge[30], high.volume.back() / 8.0, 1e-6);
+}
+
 TEST(Breach, WidthIsANumberOrThreeThatAscend) {
     EXPECT_EQ(breach_width_from(72, "f", "/w").high, 72.0);
     EXPECT_EQ(breach_width_from({60, 72, 90}, "f", "/w").low, 60.0);
@@ -162,6 +251,23 @@ TEST(Breach, WidthIsANumberOrThreeThatAscend) {
     for (const json& wrong : {json(0), json(-1), json("72"), json(nullptr), json({90, 72, 60}),
                               json({60, 72}), json(json::value_t::discarded)})
         EXPECT_THROW(breach_width_from(wrong, "f", "/w"), fault::BadInput);
+}
+
+TEST(BreachWidth, IsTheScenesOrFollowsTheHeightOfItsSoilAboveTheToe) {
+    nlohmann::json scene = {
+        {"mpm", {{"runout", {{"toe", {0, 2}}, {"regions", {"dam"}}}}}},
+        {"section",
+         {{"regions",
+           {{{"name", "dam"}, {"polygon", {{-40, 2}, {0, 2}, {-20, 22}}}},
+            {{"name", "hill"}, {"polygon", {{-90, 0}, {-40, 0}, {-90, 80}}}}}}}}};
+    const StatedWidth by_rule = stated_width(scene);
+    EXPECT_DOUBLE_EQ(by_rule.width.low, 40.0);
+    EXPECT_DOUBLE_EQ(by_rule.width.best, 60.0);
+    EXPECT_DOUBLE_EQ(by_rule.width.high, 80.0);
+    EXPECT_NE(by_rule.from.find("assumed"), std::string::npos);
+    scene["mpm"]["breach_width"] = {50, 72, 90};
+    EXPECT_DOUBLE_EQ(stated_width(scene).width.best, 72.0);
+    EXPECT_EQ(stated_width(scene).from, "/mpm/breach_width of the scene");
 }
 
 }  // namespace

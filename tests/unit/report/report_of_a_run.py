@@ -50,7 +50,7 @@ def main(folder):
           not re.search(r'https?:|\ssrc=|<script|@import|url\((?!#)|<link', html))
     check("the section is drawn among the inputs", html.count('<figure class="drawing">') == 1 and 'class="region"' in html)
     check("the page is small", len(html) < 5_000_000, len(html))
-    figures = re.findall(r'<figure id="([^"]+)">', html)
+    figures = re.findall(r'<figure id="([^"]+)"', html)
     check("there are figures", len(figures) >= 14, figures)
     for name in figures:
         check(f"{name} has its data", len(rows(files / f"{name}.csv")) > 0)
@@ -79,7 +79,7 @@ def main(folder):
 
     left_out = html[html.index("Left out"):]
     check("a dry scene says why it shows no r_u", "dry" in left_out and "contours of r_u" in left_out)
-    check("no paper is compared with a slope", "comparison" not in html)
+    check("no paper is compared with a slope", 'id="comparison"' not in html)
     done = subprocess.run([programs / "report", folder / "nowhere", "--output", page], capture_output=True)
     check("a run that is not there is a file fault", done.returncode == 74)
 

@@ -7,6 +7,7 @@ import unittest
 from wet_run import IMPLAUSIBLE, LATE, MOVING, SCENE, SOFT, STRONG, STUDY, WetRun, cell, figures, marks, row, shaking, tables
 from breachline.plot import Axis, Chart, Figure
 from breachline_report.chapters.variants import changes_of
+from breachline_report.clauses import index_of
 from breachline_report.document import Chapter, Document, Table, as_file_name
 from breachline_report.ended import how_it_ended
 from breachline_report.page import as_html
@@ -51,19 +52,46 @@ class Front(WetRun):
         self.edit(f"tasks/{SOFT}/scene.completed.json", mpm={**SCENE["mpm"], "shaking": "on"})
         self.assertTrue(any("shakes on in 1 of 3 runouts" in each for each in self.document().front.limits))
 
-    def test_the_last_stage_of_each_analysis_counts_as_liquefied(self):
-        for label, intact, liquefied in (("lem_softened", 1.5, 0.7), ("lem_not_softened", 1.4, 0.6)):
-            self.task(label, "lem_tool", SCENE, {"factor_of_safety": intact, "critical_depth": 5.0, "depth_at_fs_1": 3.0, "stages": [
-                {"factor_of_safety": intact, "liquefied_depth": 0.0}, {"factor_of_safety": liquefied, "liquefied_depth": 6.0}]}, label[4:])
-        self.edit("run.json", stability={"task": "lem_not_softened"})
-        self.assertEqual(row(self.document(), "found", "Factor of safety with every"),
-                         ["Factor of safety with every layer liquefied that may", "0.7", "0.6 to 0.7 (2 of 2)",
-                          "residual strengths; 0.6 in not_softened"])
+    def test_each_case_has_its_least_factor_beside_its_criterion(self):
+        for label, factor, liquefied, k_h in (("lem_softened", 1.5, 0.75, 0.0), ("lem_not_softened", 1.25, 0.5, 0.0),
+                                              ("lem_tilted", 1.125, 0.25, 0.1)):
+            self.task(label, "lem_tool", {**SCENE, "lem": {"seismic_coefficient": k_h}}, {
+                "factor_of_safety": factor, "critical_depth": 5.0, "stages": [
+                    {"factor_of_safety": factor, "liquefied_depth": 0.0}, {"factor_of_safety": liquefied, "liquefied_depth": 6.0}]}, label[4:])
+        self.task("lem_lost", "lem_tool", SCENE, variant="lost", state="failed")
+        self.write("study.json", {**STUDY, "report": {"criteria": {"as_built": 1.5, "pseudo_static": 1.125, "post_seismic": 1.1, "liquefied": 1.1,
+                                                                   "source": "the code"}}})
+        self.assertEqual([each[:4] for each in tables(self.document())["stability"].rows], [
+            ["as built", "1.25", "1.5", "no"], ["pseudo-static", "1.12", "1.12", "yes"], ["after the shaking", "-", "1.1", "-"],
+            ["liquefied, every layer that may", "0.5", "1.1", "no"]])
+        self.assertEqual(row(self.document(), "stability", "as built")[4], "not_softened; up to 1.5 in softened")
+        self.assertIn("k_h = 0.1", row(self.document(), "stability", "pseudo-static")[4])
+        self.assertEqual(row(self.document(), "stability", "after the shaking")[4], 'not analysed: needs "post_seismic" of the study')
+        self.assertIn("the code", tables(self.document())["stability"].caption)
+
+    def test_volume_and_discharge_are_those_of_the_result_times_the_width(self):
+        self.assertIn("at the toe (/mpm/sections)", row(self.document(), "found", "Peak discharge")[3])
+        self.result(LATE, area_beyond_toe=246.25, sections={"far": {"x": 90.0, "largest_discharge": 1.0},
+                                                            "toe": {"x": 2.5, "largest_discharge": 36.5}})
+        self.assertEqual(row(self.document(), "found", "Released")[1::2],
+                         ["739", "246 per m, 3 m wide (2 to 4 m: 492 to 985 m3), assumed: 3 (2 to 4) heights of 1 m (Wahl 1998); "
+                          "set /mpm/breach_width"])
+        self.assertEqual(row(self.document(), "found", "Peak discharge")[:2], ["Peak discharge past x = 2.5 m [m3/s]", "110"])
+        self.edit(f"tasks/{LATE}/scene.completed.json", mpm={**SCENE["mpm"], "breach_width": 60})
+        self.write("study.json", {**STUDY, "scene": {**SCENE, "mpm": {**SCENE["mpm"], "breach_width": [40, 60, 80]}}})
+        self.assertEqual(row(self.document(), "found", "Released")[1::2],
+                         ["14800", "246 per m, 60 m wide (40 to 80 m: 9850 to 19700 m3), /mpm/breach_width of the scene"])
+
+    def test_before_and_after_are_of_one_scale(self):
+        before, after = self.document().front.pictures
+        self.assertEqual(before.chart.x.shown, after.chart.x.shown)
+        self.assertEqual(marks(after), {"toe": 2, "reach 210 m": 212})
 
     def test_a_distance_has_the_digits_that_its_error_allows(self):
         self.write("results.json", {"rows": [{"variant": "softened", "transfer_time": 16.0, "runout_error": 12.3, "runout_error_from": "repeats"}]})
-        self.result(LATE, runout=210.4567)
-        self.assertEqual(row(self.document(), "found", "Runout: 99")[1::2], ["210", "\u00b1 12 m: repeats"])
+        self.result(LATE, runout=210.4567, runout_beyond_toe=220.6)
+        self.assertEqual(row(self.document(), "found", "Runout: 99")[1], "210")
+        self.assertEqual(row(self.document(), "found", "Reach: 99")[1::2], ["221", "\u00b1 12 m: repeats"])
         self.assertEqual(cell(self.document(), "numbers_mpm_solver", LATE, "runout [m]"), "210")
 
 
@@ -172,6 +200,16 @@ class Variants(WetRun):
         self.assertEqual(changes_of(["/materials/a/c=1", "/materials/b/c=2", "/materials/a/d=3"]), "/materials/{a, b}/c=1, 2; /materials/a/d=3")
         self.assertEqual(cell(self.document(), "variants", "not_softened", "against the first [%]"), "-85.7")
 
+    def test_variants_of_the_same_entries_are_one_bar_and_the_longest_is_on_top(self):
+        self.write("study.json", {"variants": [{"name": "base", "overrides": []}] + [{"name": name, "overrides": [change]} for name, change in (
+            ("weak", "/c=1"), ("strong", "/c=3"), ("thick", "/viscosity=9"))]})
+        for name, reach in (("base", 100.0), ("weak", 150.0), ("strong", 90.0), ("thick", 80.0)):
+            self.runout(f"mpm_16.000000_{name}", 16.0, name, reach)
+        chart = figures(self.document())["sensitivity"].chart
+        self.assertEqual(chart.y.names, ["thick", "weak, strong"])
+        self.assertEqual([each.x for each in chart.series], [[100, 80, 100, 90], [100, 100, 100, 150]])
+        self.assertEqual(marks(figures(self.document())["sensitivity"]), {"base": 100})
+
     def test_grounds_are_shown_on_one_scale_with_the_longest_runout_of_each(self):
         document = self.document()
         self.assertEqual(row(document, "ground", "runout"), ["runout [m]", "210", "30", "> 800"])
@@ -209,22 +247,90 @@ class Variants(WetRun):
 class Inputs(WetRun):
     def test_the_annex_has_every_entry_and_marks_defaults(self):
         self.write("study.json", {**STUDY, "scene": {**SCENE, "mpm": {**SCENE["mpm"], "anti_locking": "auto"}}, "overrides": []})
-        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/anti_locking"), ["/mpm/anti_locking", "auto *", ""])
-        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/cell_size"), ["/mpm/cell_size", "1.0", "m"])
+        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/anti_locking"), [
+            "/mpm/anti_locking", "cell-averaged volumetric strain increment and mean stress", "auto *"])
+        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/cell_size"), ["/mpm/cell_size", "edge of the square cells [m]", "1.0"])
         self.edit("study.json", overrides=["/mpm/anti_locking=auto"])
-        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/anti_locking")[1], "auto")
+        self.assertEqual(row(self.document(), "settings_mpm", "/mpm/anti_locking")[2], "auto")
 
     def test_the_reviewer_is_answered_from_the_run(self):
         self.result(LATE, flags=[{**IMPLAUSIBLE, "code": "coarse_cells"}], particles=4)
         found = row(self.document(), "checklist", "How fine is the runout")[1]
         self.assertIn("cells of 1.0 m, 4 points", found)
         self.assertIn("flagged: coarse_cells", found)
-        self.assertEqual(row(self.document(), "checklist", "Does limit equilibrium")[1], "not modelled")
+        self.assertIn("Does limit equilibrium", row(self.document(), "checklist", "Not modelled")[1])
+
+
+class Release(WetRun):
+    def test_volumes_add_up_and_each_soil_has_its_own(self):
+        found = tables(self.document())["volume_balance"].rows
+        self.assertEqual(found, [["liquefied_1", "3", "3", "0", "3"], ["all soils", "3.75", "3", "0", "3"],
+                                 ["all soils, through a breach of 3 m [m3]", "11.2", "9", "0", "9"]])
+        self.result(LATE, flags=[MOVING])
+        self.assertEqual(row(self.document(), "volume_balance", "all soils")[1:3], ["3.75", "\u2265 3"])
+
+    def test_the_crest_is_lost_and_the_freeboard_with_it(self):
+        self.assertEqual(row(self.document(), "crest", "crest"), ["crest", "1", "0.5", "0.5"])
+        self.assertIn("no pond", row(self.document(), "crest", "freeboard")[3])
+        self.edit(f"tasks/{LATE}/scene.completed.json", lem={"water": {"line": [[0, 0.95], [2, 0]]}})
+        self.assertEqual(row(self.document(), "crest", "freeboard above the pond at 0.95")[1:], ["0.05", "-0.45", "0.5"])
+
+    def test_without_frames_it_says_what_would_give_it(self):
+        (self.folder / f"tasks/{LATE}/particles_0.000000.vtkhdf").unlink()
+        self.assertIn(("volume balance", "the governing runout has no frames (/mpm/snapshot_interval)"), self.document().left_out)
+
+
+class Risks(WetRun):
+    BRITTLE = {**SCENE, "materials": {"tailings": {"law": {"type": "mohr_coulomb", "c_kPa": 8.0, "phi_deg": 0}, "limit_strength": {"phi_deg": 31}}},
+               "section": {"regions": [{"name": "beach", "material": "tailings", "polygon": [[0, 0], [2, 0], [2, 1], [0, 1]]}]},
+               "lem": {"liquefaction": [{"region": "beach", "residual_strength_kPa": 8.0}], "undrained": []}}
+
+    def test_a_brittle_soil_names_the_runs_that_begin_with_its_residual_strength(self):
+        peak = {**self.BRITTLE, "lem": {**self.BRITTLE["lem"], "undrained": [{"region": "beach", "strength_kPa": 32.0}]},
+                "materials": {"tailings": {"law": {"type": "mohr_coulomb", "c_kPa": 32.0, "phi_deg": 0}}}}
+        self.write("study.json", {**STUDY, "scene": self.BRITTLE})
+        self.task("lem_softened", "lem_tool", self.BRITTLE, {"factor_of_safety": 1.5}, "softened")
+        self.assertEqual(row(self.document(), "brittle_soils", "tailings"),
+                         ["tailings", "c' = 0 kPa, phi' = 31 deg", "s_u = 8 kPa", "-", "no runout"])
+        self.task("lem_not_softened", "lem_tool", peak, {"factor_of_safety": 1.25}, "not_softened")
+        for label, scene in ((SOFT, self.BRITTLE), (LATE, peak)):
+            self.write(f"tasks/{label}/scene.completed.json", scene)
+        self.assertEqual(row(self.document(), "brittle_soils", "tailings"), ["tailings", "s_u = 32 kPa", "s_u = 8 kPa", "0.75", "softened"])
+
+    def test_a_mode_is_analysed_only_where_the_run_has_an_answer(self):
+        self.assertEqual(row(self.document(), "failure_modes", "sliding of")[1:], ["not analysed", 'needs "stability" of the study'])
+        self.task("lem", "lem_tool", SCENE, {"factor_of_safety": 1.25})
+        self.assertEqual(row(self.document(), "failure_modes", "sliding of")[1:], ["analysed", "least factor of safety 1.25"])
+        self.assertEqual(row(self.document(), "failure_modes", "liquefaction by an earthquake")[1], "analysed")
+        self.assertEqual(row(self.document(), "failure_modes", "internal erosion")[1], "not analysed")
+
+    def test_each_clause_leads_to_a_place_of_the_page_or_says_that_there_is_none(self):
+        html, places = as_html(self.document(), ""), {clause: found for clause, _, found in index_of(self.document())}
+        self.assertEqual(places["CDA (2021), uncertainty"], [])
+        self.assertIn("not in this report", html)
+        self.assertIn(("failure_modes", "Credible failure modes"), places["GISTM (2020) 5.4"])
+        for name, _ in sum(places.values(), []):
+            self.assertIn(f'id="{name}"', html)
 
 
 class Pages(WetRun):
     def page(self, **choice):
         return as_html(self.document(**choice), "")
+
+    def test_no_reason_of_a_long_verdict_is_lost(self):
+        texts = [f"Reason {k}: " + "x" * 300 + "." for k in range(3)]
+        self.edit("run.json", verdict={"usable": "questionable", "words": "questionable", "reasons": [
+            {"usable": "questionable", "code": "a", "text": text} for text in texts]})
+        front, _, rest = self.page().partition("<nav>")
+        self.assertEqual([text in front for text in texts], [True, False, False])
+        self.assertIn("2 more after the contents", front)
+        self.assertEqual([text in rest for text in texts], [False, True, True])
+
+    def test_the_annex_sets_defaults_in_one_paragraph(self):
+        self.write("study.json", {**STUDY, "scene": {**SCENE, "mpm": {**SCENE["mpm"], "anti_locking": "auto"}}, "overrides": []})
+        html = self.page()
+        self.assertIn("Defaults: /mpm/anti_locking = auto", html)
+        self.assertIn(">/mpm/cell_size<", html.replace('<span class="short">', "").replace("</span>", ""))
 
     def test_names_in_chinese_and_long_ones_fit(self):
         long = "\u5c3e\u77ff\u5e93" * 40

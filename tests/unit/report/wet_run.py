@@ -56,6 +56,7 @@ def points(file, moved):
         out["VTKHDF/Points"] = numpy.array([[0.5, 0.25, 0], [0.5, 0.75, 0], [1.5 + moved, 0.25, 0], [1.5 + moved, 0.75, 0]], dtype="f4")
         out["VTKHDF/Types"] = numpy.ones(4, dtype="u1")
         out["VTKHDF/PointData/epsilon_q"] = numpy.array([0.01, 0.01, 0.5, 0.75])
+        out["VTKHDF/PointData/volume_0"] = numpy.array([0.25, 0.5, 1.0, 2.0])
         out["VTKHDF/PointData/region"] = numpy.array([0, 0, 1, 1])
         out.create_group("VTKHDF/CellData")
         out["breachline/regions"] = numpy.array([b"sand", b"sand"])
@@ -98,10 +99,13 @@ class Exported(unittest.TestCase):
 
     def runout(self, label, time, variant, length, scene=SCENE, **entries):
         self.task(label, "mpm_solver", scene, {
-            "runout": length, "runout_largest": length, "cpu_seconds": 2.5, "at_rest": True, "energy": {"numerical": {"share": 0.02}},
+            "runout": length, "runout_beyond_toe": max(length, 0.0), "runout_largest": length, "cpu_seconds": 2.5,
+            "at_rest": True, "energy": {"numerical": {"share": 0.02}},
             "gauges": {"toe": {"x": 2.0, "arrival_time": 0.5, "largest_depth": 0.75}}, "flags": [],
             "provenance": {"overrides": ["/mpm/cell_size=1"], "inputs": []}, **entries}, variant, time)
-        points(self.folder / f"tasks/{label}/final.vtkhdf", length)
+        for name, moved in (("particles_0.000000", 0.0), ("final", length)):
+            points(self.folder / f"tasks/{label}/{name}.vtkhdf", moved)
+        (self.folder / f"tasks/{label}/profile.csv").write_text("x_m,ground_m,depth_m,surface_m\n0.5,0,0.5,0.5\n1.5,0,0.25,0.25\n")
 
     def document(self, **choice):
         return document_of(read_run(self.folder), Choice(**choice))

@@ -130,6 +130,7 @@ TEST(NonlocalLength, IsAskedForWhereSoilBreaks) {
 TEST(NonlocalLength, HasToFitTheCellsAndTheRegion) {
     json document = dyke();  // 6 m wide
     document["mpm"]["cell_size"] = 0.4;
+    document["section"]["element_size"] = 0.3;
     json& clay = document["materials"]["clay"];
     clay["nonlocal_length"] = 0.7;
     EXPECT_EQ(refused(document),
@@ -151,6 +152,56 @@ TEST(NonlocalLength, HasToFitTheCellsAndTheRegion) {
     EXPECT_EQ(codes(document), Codes{"wide_band warning /materials/clay/nonlocal_length"});
     document["materials"]["unused"] = clay;
     EXPECT_EQ(codes(document), Codes{"wide_band warning /materials/clay/nonlocal_length"});
+}
+
+/// The dyke for the FEM alone, its clay softening.
+json softening_dyke_of_elements() {
+    json document = dyke();
+    document.erase("mpm");
+    document["materials"]["clay"]["law"]["softening"] = {{"epsilon_q_start", 0.01},
+                                                         {"epsilon_q_end", 0.1},
+                                                         {"c_residual_kPa", 0.5},
+                                                         {"phi_residual_deg", 20}};
+    return document;
+}
+
+TEST(Softening, WithoutALengthIsWarnedAboutInTheFemWhereItsLawActs) {
+    json document = softening_dyke_of_elements();
+    EXPECT_EQ(codes(document), Codes{"local_softening warning /materials/clay"});
+    EXPECT_NE(read(document).warnings[0].message.find("as wide as an element"), std::string::npos)
+        << read(document).warnings[0].message;
+    json elastic = document;
+    elastic["fem"]["stages"][0]["laws"] = "elastic";
+    EXPECT_EQ(codes(elastic), Codes{});
+    document["materials"]["clay"]["law"]["softening"]["epsilon_q_end"] = 1.0;  // flows
+    EXPECT_EQ(codes(document), Codes{});
+}
+
+TEST(Softening, OfNorSandIsWarnedAboutInTheFem) {
+    json document = softening_dyke_of_elements();
+    document["materials"]["clay"]["law"] = {
+        {"type", "norsand"}, {"Gamma", 0.9},  {"lambda", 0.02}, {"M_tc", 1.2},
+        {"N", 0.3},          {"chi_tc", 3.5}, {"H_0", 300},     {"G_ref_MPa", 30},
+        {"m", 1.0},          {"nu", 0.15},    {"psi_0", 0.05},  {"K_0", 0.7}};
+    EXPECT_EQ(codes(document), Codes{"local_softening warning /materials/clay"});
+}
+
+TEST(NonlocalLength, HasToFitTheElements) {
+    json document = softening_dyke_of_elements();
+    json& clay = document["materials"]["clay"];
+    clay["nonlocal_length"] = 1.6;  // elements of 1 m
+    EXPECT_EQ(codes(document), Codes{});
+    clay["nonlocal_length"] = 1.5;
+    EXPECT_EQ(codes(document),
+              Codes{"short_nonlocal_length warning /materials/clay/nonlocal_length"});
+    clay["nonlocal_length"] = 0.9;
+    EXPECT_EQ(codes(document),
+              Codes{"short_nonlocal_length questionable /materials/clay/nonlocal_length"});
+    document["section"]["regions"][1]["mesh"] = {{"type", "block"}, {"divisions", {12, 40}}};
+    EXPECT_EQ(codes(document), Codes{});
+    clay["law"].erase("softening");
+    EXPECT_EQ(refused(document),
+              Codes{"/materials/clay/nonlocal_length: belongs to a law that does not soften"});
 }
 
 TEST(Cells, AreCountedAcrossRegionsOfOneStrengthThatTouch) {

@@ -17,11 +17,20 @@ using nlohmann::json;
 
 json failing_column() {
     bench::Block block{.width = 10.0, .height = 20.0, .columns = 10, .rows = 20};
-    block.law = {
-        {"type", "mohr_coulomb"}, {"E_MPa", 20}, {"nu", 0.3}, {"c_kPa", 1}, {"phi_deg", 30}};
+    block.law = {{"type", "mohr_coulomb"},
+                 {"E_MPa", 20},
+                 {"nu", 0.3},
+                 {"c_kPa", 1},
+                 {"phi_deg", 30},
+                 {"softening",
+                  {{"epsilon_q_start", 0.0},
+                   {"epsilon_q_end", 0.1},
+                   {"c_residual_kPa", 0},
+                   {"phi_residual_deg", 20}}}};
     block.stages.push_back(
         {{"type", "dynamic"}, {"name", "failure"}, {"duration", 0.4}, {"time_step", 0.005}});
     json scene = bench::scene_of(block);
+    scene["materials"]["soil"]["nonlocal_length"] = 2.0;
     scene["fem"]["supports"].erase(1);
     scene["fem"]["snapshot_times"] = {0.1, 0.2, 0.333};
     return scene;

@@ -145,6 +145,8 @@ def _limits(chart: Chart, at: str) -> tuple[float, float]:
     axis = chart.x if at == "x" else chart.y
     if axis.names:
         return -0.6, len(axis.names) - 0.4
+    if at == "x" and axis.shown:
+        return axis.shown
     drawn: list[Series | Field] = [*chart.series, *filter(None, [chart.field])]
     parts = [np.asarray(each.x if at == "x" else each.y, np.float64) for each in drawn]
     if at == "y":
@@ -167,8 +169,8 @@ def _limits(chart: Chart, at: str) -> tuple[float, float]:
 def _size(chart: Chart, x: tuple[float, float], y: tuple[float, float]) -> tuple[float, float, int]:
     """Width and height of the axes [px], and the exaggeration of heights."""
     if not chart.equal:
-        return 560, 60 + 34 * len(chart.y.names) if chart.y.names else 360, 1
-    scale = min(860 / (x[1] - x[0]), 640 / (y[1] - y[0]))
+        return 480, 60 + 34 * len(chart.y.names) if chart.y.names else 240, 1
+    scale = min(860 / (x[1] - x[0]), 360 / (y[1] - y[0]))
     width, height = scale * (x[1] - x[0]), scale * (y[1] - y[0])
     times = max(1, int(np.ceil(chart.least_height / height))) if width > 300 else 1
     return width, height * times, times
@@ -189,16 +191,15 @@ def _saved(chart: Chart, **how: Any) -> bytes:
         _ticks(axes.yaxis, chart.y.logarithmic, y, height)
         for axis, names, tilt in ((axes.xaxis, chart.x.names, 25), (axes.yaxis, chart.y.names, 0)):
             if names:
-                axis.set_ticks(range(len(names)), [_text(each, 40) for each in names], rotation=tilt, ha="right")
+                axis.set_ticks(range(len(names)), [_text(each, 26) for each in names], rotation=tilt, ha="right")
                 axes.grid(False, axis=axis.axis_name)
         if chart.field:
             _draw_field(axes, chart.field, _dot_size(chart, width * height))
         colours = list(_looks(chart))
         for order, (each, look) in enumerate(zip(chart.series, colours)):
             _draw(axes, each, dict(look, zorder=2 + 0.001 * order), _dot_size(chart, width * height))
-        rows, beside = _draw_marks(axes, chart)
-        axes.set_title(_text(chart.title, 90), pad=6 + 13 * rows)
-        _draw_legend(axes, chart, colours, beside)
+        axes.set_title(_text(chart.title, 90), pad=6 + 13 * _draw_marks(axes, chart))
+        _draw_legend(axes, chart, colours)
         file = io.BytesIO()
         sheet.savefig(file, bbox_inches="tight", pad_inches=0.08, **how)
     return file.getvalue()
@@ -247,11 +248,12 @@ def _draw_field(axes: Any, field: Field, dot: float) -> None:
     shades = scale.to_rgba(np.asarray(field.value, float))
     for shade in np.unique(shades, axis=0):
         _draw_pieces(axes, places[(shades == shade).all(axis=1)], dot if field.corners == 1 else 0.4, shade, 1, fill=field.corners > 1)
-    height = axes.bbox.height / axes.figure.dpi / PX
-    bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0, -80 / height, 0.45, 14 / height)), orientation="horizontal")
+    width, height = (side / axes.figure.dpi / PX for side in (axes.bbox.width, axes.bbox.height))
+    long = min(1.0, max(0.45, 270 / width))  # a share: labels need some room
+    bar = axes.figure.colorbar(scale, cax=axes.inset_axes((0, -80 / height, long, 14 / height)), orientation="horizontal")
     bar.solids.set_edgecolor("face")
     bar.ax.grid(False)
-    _ticks(bar.ax.xaxis, False, (field.low, field.high), 270)
+    _ticks(bar.ax.xaxis, False, (field.low, field.high), 0.8 * long * width)
     bar.ax.annotate(_text(field.label), (1, 0.5), xytext=(10, 0), xycoords="axes fraction", textcoords="offset points", va="center")
 
 
@@ -309,9 +311,9 @@ def _draw_points(axes: Any, x: Any, y: Any, certainty: str, colour: str, order: 
                         linewidths=1.4, linestyles=(0, (1.6, 1.0)) if certainty == "questionable" else "-", zorder=order, clip_on=False)
 
 
-def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
+def _draw_marks(axes: Any, chart: Chart) -> int:
     """Labels lie outside the axes: of vertical marks above them, in as many rows as they need; of horizontal ones on the right. Gives
-    the number of rows and the width on the right [px]."""
+    the number of rows."""
     to_px = 1 / axes.figure.dpi / PX
 
     def extent(text: Any) -> float:
@@ -327,23 +329,22 @@ def _draw_marks(axes: Any, chart: Chart) -> tuple[int, float]:
         text.xyann = (2, 4 + 13 * row)
         axes.plot([mark.value] * 2, [0, 1 + (13 * row + 3) / 0.75 / (axes.bbox.height * to_px)], transform=axes.get_xaxis_transform(),
                   color="#333", linestyle=(0, (6, 4)), linewidth=0.8, clip_on=False, zorder=3)
-    beside, last = 0.0, -np.inf
+    last = -np.inf
     for mark in sorted((each for each in chart.marks if each.at == "y"), key=lambda each: each.value):
         place = float(axes.transData.transform((axes.get_xlim()[0], mark.value))[1] * to_px)
         last = max(place, last + 16)
-        text = axes.annotate(_text(mark.label, 200), (1, mark.value), xycoords=("axes fraction", "data"), textcoords="offset points",
-                             xytext=(5, 0.75 * (last - place)), va="center")
-        beside = max(beside, extent(text) + 8)
+        axes.annotate(_text(mark.label, 200), (1, mark.value), xycoords=("axes fraction", "data"), textcoords="offset points",
+                      xytext=(5, 0.75 * (last - place)), va="center")
         axes.axhline(mark.value, color="#333", linestyle=(0, (6, 4)), linewidth=0.8, zorder=3)
-    return len(begins), beside
+    return len(begins)
 
 
-def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]], beside: float) -> None:
-    """Right of the axes, or below those of equal aspect in as many columns as fit."""
+def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]]) -> None:
+    """Below the axes, in as many columns as fit: so two charts fit beside one another on a page."""
     line: dict[str, Any] = {"linewidth": 3}
     point: dict[str, Any] = {"marker": "o", "linestyle": ""}
     entries = [(lines.Line2D([], [], **{**look, **(point if each.style == "points" else line)}), each.name)
-               for each, look in zip(chart.series, looks) if each.like is None and each.style != "area"]
+               for each, look in zip(chart.series, looks) if each.like is None and each.style not in ("area", "segments")]
     if len(entries) > _MOST_ENTRIES:
         entries[_MOST_ENTRIES:] = [(lines.Line2D([], [], alpha=0), f"and {len(entries) - _MOST_ENTRIES} more")]
     for kind in ("lower bound", "questionable"):
@@ -352,11 +353,8 @@ def _draw_legend(axes: Any, chart: Chart, looks: list[dict[str, Any]], beside: f
     if not entries:
         return
     width, height = (side / axes.figure.dpi / PX for side in (axes.bbox.width, axes.bbox.height))
-    handles, names = zip(*[(handle, _text(name, 40)) for handle, name in entries])
+    handles, names = zip(*[(handle, _text(name, 60)) for handle, name in entries])
     how: dict[str, Any] = {"loc": "upper left", "borderaxespad": 0, "handlelength": 1.6, "scatterpoints": 1, "scatteryoffsets": [0.3]}
-    if not chart.equal:
-        axes.legend(handles, names, bbox_to_anchor=(1 + (beside + 12) / width, 1), **how)
-        return
-    below = (-122 if chart.field else -54) / height
+    below = (-122 if chart.field else -54 if chart.x.label else -34) / height
     longest = max(len(line) for name in names for line in name.split("\n"))
     axes.legend(handles, names, bbox_to_anchor=(0, below), ncol=max(1, int(width / (7.5 * longest + 60))), columnspacing=1.5, **how)

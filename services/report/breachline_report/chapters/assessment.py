@@ -115,7 +115,7 @@ def _assumptions(run: Run) -> Table:
     return table
 
 
-def _cases(run: Run) -> Table:
+def cases_of(run: Run) -> Table:
     liquefies = entry(run.scene, "/transfer/liquefied") is not None
     keeps = not liquefies and not run.is_static
     which = "" if liquefies or keeps else ("Whether this static scene is 2A or 2B depends on whether its strengths are those of liquefied soil, "
@@ -178,11 +178,11 @@ def _page(run: Run, name: str) -> Chapter:
                    f"{counted(len(parameters), 'uncertain parameter')}.", tables=[
                        Table("assessment_what", "What fails, and when", ["question", "answer"],
                              [["What fails", _what_fails(run)], ["When", _when_it_fails(run)]]),
-                       _answers(run), _assumptions(run), _cases(run), _error(run, name), _origin(run)],
+                       _answers(run), _assumptions(run), _error(run, name), _origin(run)],
                    cautions=run.uncertainty["cautions"]
                    + ["Percentiles are over the parameters named below, as they are distributed there, and over nothing else. They leave out what "
                       "the "
-                      "model leaves out (table of CDA's cases below)."])
+                      "model leaves out (table of CDA's cases)."])
 
 
 # ---------------------------------------------------------------- the data behind it

@@ -119,5 +119,6 @@ def add(of: Material, document: Document) -> None:
                               "water that flows along")]
     document.add(Chapter("What a reviewer asks", tables=[Table(
         "checklist", "Questions and answers", ["question", "answer of this run"],
-        [[question, answer or "not modelled"] for question, answer in answers],
+        [[question, answer] for question, answer in answers if answer]
+        + [["Not modelled in this run", " ".join(question for question, answer in answers if not answer)]] * any(not answer for _, answer in answers),
         "After the subjects of Boulanger & Beaty (2016) and USSD (2022). Of several analyses, the one that is shown; of runouts, the farthest.")]))

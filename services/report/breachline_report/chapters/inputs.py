@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import dataclass
 from functools import cached_property
 
 from ..document import Chapter, Document, Json, Table
 from ..run import Run, ask
-from ..words import entry, rounded
+from ..words import entry, number, rounded
 from . import Material
 
 _about_marks = "* default value, left out of the scene or equal to it."
@@ -40,11 +41,20 @@ class Entry:
     pointer: str  #: "/mpm/floor/level"
     value: Json
     unit: str
+    what: str  #: the schema's description
     default: bool  #: the program's own value
 
     @property
     def text(self) -> str:
+        """With a star where it is the default; page.py sets those rows in one paragraph."""
         return (self.value if isinstance(self.value, str) else _plain(self.value)) + (" *" if self.default else "")
+
+    @property
+    def words(self) -> str:
+        """The description's first clause that names no phase and no value, and the unit."""
+        clauses = [each.strip() for each in re.split(r"[;:,()]|\. |\.$", self.what)]
+        named = [each for each in clauses if len(each) > 4 and not re.match("fem|mpm|lem", each) and each != self.value]
+        return (named[0] if named else "") + (f" [{self.unit}]" if self.unit else "")
 
 
 class Inputs:
@@ -62,6 +72,11 @@ class Inputs:
     def drawing(self) -> str:
         return self._said["drawing"] or ""
 
+    @property
+    def breach_width(self) -> Json:
+        """{"low", "best", "high", "from"}; None: the scene has no runout."""
+        return self._said["breach_width"]
+
     @cached_property
     def entries(self) -> list[Entry]:
         """Without notes, which have a table, and without the transfer's where nothing is transferred: every completed scene has them."""
@@ -76,7 +91,7 @@ def _number(value: Json, digits: int = 4) -> str:
     return rounded(value, digits) if isinstance(value, (int, float)) and not isinstance(value, bool) else "-"
 
 
-def _strength(of: Json) -> str:
+def strength_of(of: Json) -> str:
     """drained c' = 5 kPa, phi' = 30 deg; s_u = 0.22 sigma'_v0; "-": the law has no strength."""
     kind = of.get("type", "")
 
@@ -98,37 +113,47 @@ def _in_motion(soil: Json) -> str:
     return f", in motion s_u = {_number(own['ratio'] * own.get('factor', 1.0), 3)} sigma'_v0" if own else ""
 
 
-def _residual(soil: Json) -> str:
+def residual_of(soil: Json) -> str:
     if profile := entry(soil, "/strength/residual"):
-        return _strength(profile)
+        return strength_of(profile)
     softening = entry(soil, "/law/softening")
-    return _strength({"type": "mohr_coulomb", "c_kPa": softening.get("c_residual_kPa", 0.0),
+    return strength_of({"type": "mohr_coulomb", "c_kPa": softening.get("c_residual_kPa", 0.0),
                       "phi_deg": softening.get("phi_residual_deg", soil["law"].get("phi_deg", 0.0))}) if softening else "-"
 
 
-def _soils(scene: Json) -> Table:
+def _used(run: Run, name: str) -> str:
+    """The strengths that the run's phases used, where they differ: 8.7 to 29.4 kPa."""
+    found = {value for each in run.phases if (value := number(each.scene, f"/materials/{name}/law/c_kPa")) is not None}
+    return f"{min(found):.3g} to {max(found):.3g} kPa" if len(found) > 1 else "-"
+
+
+def _notes_of(part: Json) -> list[str]:
+    notes = part.get("notes", [])
+    return notes if isinstance(notes, list) else [notes]
+
+
+def _soils(run: Run) -> Table:
     """One row per soil of a region or of the transfer."""
-    return Table("soils", "Soils", ["soil", "law", "density [kg/m3]", "strength", "after softening", "E [MPa]", "nu", "permeability [m/s]"],
+    return Table("soils", "Soils, with the source of their values",
+                 ["soil", "law", "density [kg/m3]", "strength", "after softening", "c in the run", "E [MPa]", "nu", "permeability [m/s]", "source"],
                  [[name, soil["law"].get("type", "").replace("_", " "), _number(soil.get("density")),
-                   _strength(entry(soil, "/strength/peak") or soil["law"]) + _in_motion(soil), _residual(soil), _number(soil["law"].get("E_MPa")),
-                   _number(soil["law"].get("nu")), _number(entry(soil, "/permeability/0"), 3)]
-                  for name, soil in entry(scene, "/materials", {}).items()],
-                 "Strength before failure, and what the soil softens to. The annex has every entry.")
+                   strength_of(entry(soil, "/strength/peak") or soil["law"]) + _in_motion(soil), residual_of(soil), _used(run, name),
+                   _number(soil["law"].get("E_MPa")), _number(soil["law"].get("nu")), _number(entry(soil, "/permeability/0"), 3),
+                   "; ".join(_notes_of(soil)) or "the scene does not say: add \"notes\" to the material"]
+                  for name, soil in entry(run.scene, "/materials", {}).items()],
+                 "Strength before failure, and what the soil softens to. c in the run: least and largest over its variants. The annex has every "
+                 "entry.")
 
 
 def _notes(scene: Json) -> Table:
-    parts = [("scene", scene), *entry(scene, "/materials", {}).items()] + [(title, entry(scene, key, {})) for key, title in (
+    parts = [("scene", scene)] + [(title, entry(scene, key, {})) for key, title in (
         ("/lem", "limit equilibrium"), ("/fem", "finite elements"), ("/transfer", "transfer"), ("/mpm", "runout"))]
-    table = Table("assumptions", "Notes of the scene", ["of", "note"])
-    for name, part in parts:
-        notes = part.get("notes", [])
-        table.rows += [[name, each] for each in (notes if isinstance(notes, list) else [notes])]
-    return table
+    return Table("assumptions", "Notes of the scene", ["of", "note"], [[name, each] for name, part in parts for each in _notes_of(part)])
 
 
 def add(inputs: Inputs, document: Document) -> None:
     document.add(Chapter("Inputs", "The table of variants lists their changes, the annex every entry.",
-                         tables=[_soils(inputs.scene), _notes(inputs.scene)], drawing=inputs.drawing))
+                         tables=[_soils(inputs.run), _notes(inputs.scene)], drawing=inputs.drawing))
 
 
 # ---------------------------------------------------------------- annex
@@ -140,11 +165,11 @@ def _area(polygon: Json) -> float:
 
 
 def _regions(inputs: Inputs) -> Table:
-    table = Table("section", "Regions", ["region", "material", "area [m2]", "corners (x, y) [m]", "mesh"], [], _about_marks)
+    table = Table("section", "Regions", ["region", "material", "area [m2]", "corners (x, y) [m]", "mesh"])
     for k, region in enumerate(inputs.scene["section"]["regions"]):
         mesh = [f"{key} {each.text}" for key, each in inputs.below(f"/section/regions/{k}/") if key not in ("name", "material", "polygon")]
         table.rows.append([region.get("name", "-"), region.get("material", "-"), rounded(_area(region["polygon"]), 6),
-                           " ".join(f"({_plain(x)}, {_plain(y)})" for x, y in region["polygon"]), "; ".join(mesh) or "-"])
+                           " ".join(f"({round(x, 2):.9g}, {round(y, 2):.9g})" for x, y in region["polygon"]), "; ".join(mesh) or "-"])
     return table
 
 
@@ -157,10 +182,10 @@ def _materials(inputs: Inputs) -> list[Table]:
         rows: dict[str, list[str]] = {}
         for k, name in enumerate(shown):
             for key, each in inputs.below(f"/materials/{name}/"):
-                rows.setdefault(key, [key, each.unit] + ["-"] * len(shown))[2 + k] = each.text
-        number = len(tables) + 1
-        tables.append(Table("materials" if number == 1 else f"materials_{number}", "Materials" if number == 1 else "Materials, continued",
-                            ["entry of the material", "unit", *shown], list(rows.values()), _about_marks))
+                rows.setdefault(key, [key, each.words] + ["-"] * len(shown))[2 + k] = each.text
+        page = len(tables) + 1
+        tables.append(Table("materials" if page == 1 else f"materials_{page}", "Materials" if page == 1 else "Materials, continued",
+                            ["entry of the material", "in words", *shown], list(rows.values()), _about_marks))
     return tables
 
 
@@ -169,8 +194,8 @@ def add_annex(inputs: Inputs, document: Document) -> None:
     for each in inputs.entries:
         if not _is_below(each.pointer, "/materials") and not _is_below(each.pointer, "/section/regions"):
             group = next(name for name, _, tops in _groups if any(_is_below(each.pointer, top) for top in tops))
-            by_group[group].append([each.pointer, each.text, each.unit])
+            by_group[group].append([each.pointer, each.words, each.text])
     defaults = sum(each.default for each in inputs.entries)
     document.add(Chapter("Annex: the scene, entry by entry", f"{len(inputs.entries)} entries, {defaults} of them at the program's own value (*).",
                          tables=[_regions(inputs), *_materials(inputs)]
-                         + [Table(name, title, ["entry of the scene", "value", "unit"], by_group[name], _about_marks) for name, title, _ in _groups]))
+                         + [Table(name, title, ["entry of the scene", "in words", "value"], by_group[name]) for name, title, _ in _groups]))

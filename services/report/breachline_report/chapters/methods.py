@@ -39,4 +39,6 @@ def add(of: Material, document: Document) -> None:
         if program == fem:
             laws = {entry(each, "/law/type") for each in entry(phase.scene, "/materials", {}).values()}
             table.rows += [row for law, row in _of_law.items() if law in laws] + [_of_transfer]
-    document.add(Chapter("Method and references", tables=[table]))
+    table.rows.append(["verification", "Each program is compared with closed forms, published tables and independent programs; breach verify repeats "
+                       "that on this machine.", "docs/verification/comparisons.md"])
+    document.add(Chapter("Method, references and verification", tables=[table]))

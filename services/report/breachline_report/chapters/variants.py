@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from statistics import median
 
-from breachline.plot import Axis, Chart, Figure, Series
+from breachline.plot import Axis, Chart, Figure, Mark, Series
 
 from ..document import Chapter, Document, Json, Table
 from ..ended import any_moves, bounded, certainty_of, how_it_ended, how_they_ended
@@ -131,20 +131,57 @@ def _against(run: Run, parameter: tuple[str, list[float]], program: str, pointer
                   f"Against {parameter[0]}, which alone the variants change.")
 
 
+# ---------------------------------------------------------------- sensitivity
+
+
+def _largest_reach(run: Run, variant: str) -> float | None:
+    return max((reach for each in run.runouts_of(variant) if (reach := number(each.result, "/runout_beyond_toe")) is not None), default=None)
+
+
+def _least_factor(run: Run, variant: str) -> float | None:
+    found = _own(run, lem, variant)
+    return number(found.result, "/factor_of_safety") if found else None
+
+
+def _sensitivity(run: Run, value_of: Callable[[Run, str], float | None], name: str, title: str, label: str) -> Figure:
+    """A tornado: one bar per group of entries that variants change, the longest on top, from the variant that changes nothing."""
+    figure = Figure(name, Chart(title, Axis(label), Axis("")),
+                    "Each bar: the variants that change the same entries, from the one that changes nothing.")
+    written = [each for each in _listed(run) if not each.get("made_by")]
+    base = next((each["name"] for each in written if not each.get("overrides")), "")
+    middle = value_of(run, base) if base else None
+    groups: dict[frozenset[str], dict[str, float]] = {}  # by the entries: variants with their values
+    for each in written:
+        if each["name"] != base and (value := value_of(run, each["name"])) is not None:
+            groups.setdefault(frozenset(text.split("=", 1)[0] for text in each["overrides"]), {})[each["name"]] = value
+    if middle is None or len(groups) < 2:
+        return figure
+    bars = [(min(middle, *found.values()), max(middle, *found.values()), ", ".join(found)) for found in groups.values()]
+    bars.sort(key=lambda bar: bar[1] - bar[0])
+    figure.chart.y.names = [names for _, _, names in bars]
+    at = [k for k in range(len(bars)) for _ in (0, 1)]
+    figure.chart.series = [Series(words, [x for bar in bars for x in (middle, (bar[0], bar[1])[end])], at, "bars")
+                           for end, words in enumerate(("least", "largest"))]
+    figure.chart.marks = [Mark("x", middle, base)]
+    return figure
+
+
 def add(of: Material, document: Document) -> None:
     run, variants = of.run, _listed(of.run)
     if len(variants) < 2 or run.uncertainty:  # samples have their own chapter
         return
+    tornados = [_sensitivity(run, _largest_reach, "sensitivity", "What decides the reach", "reach: 99 % of what passed the toe [m]"),
+                _sensitivity(run, _least_factor, "sensitivity_of_safety", "What decides the factor of safety", "factor of safety [-]")]
     if run.is_static:
         parameter = _one_parameter(variants)
         document.add(Chapter("Variants", "", [
             _against(run, parameter, mpm, "/runout", "runout_against_parameter", "Runout", "runout [m]"),
             _against(run, parameter, lem, "/factor_of_safety", "safety_against_parameter", "Factor of safety", "factor of safety [-]"),
-        ] if parameter else [], [_static_table(run)]))
+        ] if parameter else tornados, [_static_table(run)]))
         return
     first = plateau_of(run, variants[0]["name"])
     reference = None if first and any_moves(first.runouts) else _median_of(first, "/runout")
-    document.add(Chapter("Variants", "", [], [Table(
+    document.add(Chapter("Variants", "", tornados, [Table(
         "variants", "One thing changed at a time",
         ["variant", "changed", "runouts", "plateau t_T [s]", "runout [m]", "against the first [%]", "beyond toe, 99 % [m]", "beyond toe, 95 % [m]",
          "window opens [s]", "window closes [s]", "FEM ended", "CPU of runouts [s]", "how the runouts ended"],
