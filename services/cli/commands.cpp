@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/command/command.hpp"
 #include "core/exchange/csv.hpp"
 #include "core/exchange/publish.hpp"
+#include "core/exchange/temporary_folder.hpp"
 #include "core/words/list.hpp"
 #include "services/cli/accuracy_view.hpp"
 #include "services/cli/sending.hpp"
@@ -24,6 +26,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t length_of_ids = 26;  // of runs: ULIDs
+constexpr auto longest_print = std::chrono::minutes(5);
 
 /// Ids of tasks begin with their run's: "<run>-00007".
 /// By the form alone, which saves a request to find out.
@@ -287,6 +290,32 @@ ExitCode hydrograph(Server& server, const HydrographOptions& options, const Cons
         exchange::publish_text(options.file, answer.body);
         console.out << options.file.string() << "\n";
     }
+    return ExitCode::done;
+}
+
+ExitCode report(Server& server, const std::string& run, std::filesystem::path file,
+                const Console& console) {
+    const std::string path = path_of({"runs", run_named(server, run)});
+    if (file.empty()) file = server.get(path + "?tasks=0").at("name").get<std::string>() + ".pdf";
+    const std::string page = server.get_text(path + "/report").body;
+    if (file.extension() != ".pdf") {
+        exchange::publish_text(file, page);
+    } else {
+        const exchange::TemporaryFolder scratch("report-");
+        const std::filesystem::path html = scratch.path() / "report.html";
+        exchange::publish_text(html, page);
+        exchange::publish(file, [&](const std::filesystem::path& temporary) {
+            try {
+                const std::vector<std::string> words{"weasyprint", "--quiet", html, temporary};
+                if (command::run(words, "", longest_print).exit_code == 0) return;
+            } catch (const fault::IoError&) {  // not installed
+            }
+            throw fault::IoError(file.string() +
+                                 ": no PDF; install weasyprint (apt-get install weasyprint), or "
+                                 "print the page of --output report.html from a browser");
+        });
+    }
+    console.out << file.string() << "\n";
     return ExitCode::done;
 }
 

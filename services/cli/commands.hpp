@@ -114,6 +114,11 @@ struct HydrographOptions {
 fault::ExitCode hydrograph(Server& server, const HydrographOptions& options,
                            const Console& console);
 
+/// The report of the run so far as a PDF, or as HTML where the file's name ends so. file: empty for
+/// the run's name.
+fault::ExitCode report(Server& server, const std::string& run, std::filesystem::path file,
+                       const Console& console);
+
 fault::ExitCode telemetry(Server& server, const TelemetryOptions& options, const Console& console);
 /// document: a scene or a study.
 fault::ExitCode plan(Server& server, const std::filesystem::path& document, const Console& console);

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -171,11 +172,27 @@ class Onlooker {
     Diary diary_;
 };
 
+std::string farewell;  // for a signal handler, which may only use what is there
+
+void end_the_watching(int) {
+    const auto written = write(STDERR_FILENO, farewell.data(), farewell.size());
+    _exit(static_cast<int>(written < 0 ? ExitCode::io : ExitCode::interrupted));
+}
+
+/// Ctrl-C ends the command, not the run.
+void tell_at_interrupt(const std::string& run) {
+    farewell = "\nThe run goes on. To look on: breach watch " + run +
+               "; to stop it: breach cancel " + run + "\n";
+    std::signal(SIGINT, end_the_watching);
+}
+
 }  // namespace
 
 ExitCode watch(Server& server, const std::string& name, Questionable questionable,
                const Console& console) {
-    Onlooker onlooker(server, run_named(server, name), console);
+    const std::string id = run_named(server, name);
+    if (console.screen != Screen::quiet) tell_at_interrupt(id);
+    Onlooker onlooker(server, id, console);
     auto answered = steady_clock::now();
     bool ever_answered = false;
     for (;;) {

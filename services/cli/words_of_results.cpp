@@ -69,6 +69,26 @@ void add_hydrograph(Program& program) {
     word.add_option("--output", options.file, "a file instead of the screen");
 }
 
+void add_report(Program& program) {
+    struct Asked {
+        std::string run;
+        std::filesystem::path file;
+    };
+    const auto& [word, options] =
+        program.add<Asked>("report", "the report of a run as a PDF (needs weasyprint) or HTML",
+                           "latest --output my_dam.pdf",
+                           [](Server& server, const Asked& asked, const Console& console) {
+                               return report(server, asked.run, asked.file, console);
+                           });
+    take_run(word, options.run);
+    word.add_option("--output", options.file, "a .pdf or .html file (default: the run's name.pdf)")
+        ->check([](const std::string& name) {
+            const std::string kind = std::filesystem::path(name).extension();
+            return kind == ".pdf" || kind == ".html" ? ""
+                                                     : name + ": end the name with .pdf or .html";
+        });
+}
+
 void add_export(Program& program) {
     struct Copy {
         std::string run;
@@ -91,6 +111,7 @@ void add_words_of_results(Program& program) {
     add_logs(program);
     add_telemetry(program);
     add_hydrograph(program);
+    add_report(program);
     add_export(program);
 }
 

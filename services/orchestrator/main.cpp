@@ -61,11 +61,11 @@ int main(int argc, char** argv) {
     supervising->add_flag("--end-strays", ending, "the supervisor was killed: end what it left");
     try {
         app.parse(argc, argv);
-    } catch (const CLI::ConfigError& error) {
-        std::cerr << "breachline: " << ServeOptions::explained(error, app, *serving) << "\n";
-        return static_cast<int>(ExitCode::usage);
     } catch (const CLI::ParseError& error) {
-        return app.exit(error);
+        const auto place = ServeOptions::explained(error, app, *serving);
+        if (!place) return app.exit(error);
+        std::cerr << "breachline: " << *place << "\n";
+        return static_cast<int>(ExitCode::usage);
     }
 
     if (*serving) return guarded([&] { return serve(options.settings()); });

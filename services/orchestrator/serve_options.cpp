@@ -81,26 +81,48 @@ CLI::App* ServeOptions::add_to(CLI::App& program) {
     return serving;
 }
 
-/// CLI11 names the key but not its line. The line is found by reading the file again: the first
-/// that begins with the key.
-std::string ServeOptions::explained(const CLI::ConfigError& error, const CLI::App& program,
-                                    const CLI::App& serving) {
+/// CLI11 names the key ("... parse serve.slotz") or the option ("--slots: Value abc not in range 1
+/// to 100000"), but not the line. It is found by reading the file again.
+std::optional<std::string> ServeOptions::explained(const CLI::ParseError& error,
+                                                   const CLI::App& program,
+                                                   const CLI::App& serving) {
+    const CLI::Option* const config = program.get_config_ptr();
+    if (config->count() == 0) return std::nullopt;
     const std::string said = error.what();
-    const std::string key = said.substr(said.find_last_of(" .") + 1);  // "... parse serve.slotz"
-    const auto file = program.get_config_ptr()->as<std::string>();
-    std::ifstream settings(file);
+    const bool is_value = said.starts_with("--");
+    const std::size_t from = is_value ? 2 : said.find_last_of(" .") + 1;
+    const std::string key = said.substr(from, is_value ? said.find(':') - from : said.npos);
+    std::ifstream settings(config->as<std::string>());
     std::string line;
-    std::size_t number = 1;
-    while (std::getline(settings, line) && line.substr(0, line.find_first_of(" \t=")) != key)
-        ++number;
-    if (!settings) return said;
-    std::vector<std::string> known;
-    for (const CLI::Option* each : serving.get_options())
-        for (const std::string& name : each->get_lnames()) known.push_back(name);
-    const std::string meant = words::nearest(key, known);
-    return file + ":" + std::to_string(number) + ": unknown key \"" + key + "\"" +
-           (meant.empty() ? "; `breachline serve --help` lists them"
-                          : "; did you mean " + meant + "?");
+    bool is_inside = false;
+    for (std::size_t number = 1; std::getline(settings, line); ++number) {
+        line = CLI::detail::trim_copy(line);
+        const std::string place = config->as<std::string>() + ":" + std::to_string(number) + ": ";
+        if (line.starts_with('[')) {
+            is_inside = line == "[serve]";
+            if (!is_inside) return place + "write the section as [serve]";
+            continue;
+        }
+        const std::size_t equals = line.find('=');
+        if (line.empty() || line.starts_with('#') || line.starts_with(';')) continue;
+        if (!is_inside) return place + "put the line [serve] before the first key";
+        if (equals == line.npos) return place + "write the entry as KEY=VALUE";
+        if (CLI::detail::trim_copy(line.substr(0, equals)) != key) continue;
+        if (!is_value) {
+            std::vector<std::string> known;
+            for (const CLI::Option* each : serving.get_options())
+                for (const std::string& name : each->get_lnames()) known.push_back(name);
+            const std::string meant = words::nearest(key, known);
+            return place + "unknown key \"" + key + "\"" +
+                   (meant.empty() ? "; `breachline serve --help` lists them"
+                                  : "; did you mean " + meant + "?");
+        }
+        // The command line wins: its values are not those of the file.
+        const std::string value = CLI::detail::trim_copy(line.substr(equals + 1));
+        if (said.find(value.substr(value.find_last_of(' ') + 1)) != said.npos)
+            return place + key + said.substr(said.find(':'));
+    }
+    return std::nullopt;
 }
 
 void ServeOptions::add_access_options(CLI::App& serving) {

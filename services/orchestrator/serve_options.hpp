@@ -16,9 +16,10 @@ class ServeOptions {
 
     /// Adds the subcommand and, to the program, --config FILE with its section [serve].
     CLI::App* add_to(CLI::App& program);
-    /// Message about an unknown key of the settings file, with its line and the nearest known key.
-    static std::string explained(const CLI::ConfigError& error, const CLI::App& program,
-                                 const CLI::App& serving);
+    /// The same error with its line of the settings file and, of an unknown key, the nearest known
+    /// one. Nothing: the error is not the file's.
+    static std::optional<std::string> explained(const CLI::ParseError& error,
+                                                const CLI::App& program, const CLI::App& serving);
     /// Call after parsing. Throws BadInput and IoError.
     ServeSettings settings() const;
 

@@ -57,6 +57,34 @@ test("a warning of the submission is a reason of the verdict", async () => {
     assert.match(await text_of("#reasons"), /total stress.*at submission \(\/scene\/materials\/dam\): the soil is too strong/i);
 });
 
+test("the slip surface is that of the headline's factor of safety, also where another variant governs the runout", async () => {
+    const run = api.add_run({ ...two_variants, name: "two-factors" }, ended());
+    await page.route(`**/v1/runs/${run.id}`, async (route) => {
+        const answer = await (await route.fetch()).json();
+        const lem = answer.tasks.find(({ phase }) => phase === "lem_tool");
+        answer.tasks.push({ ...lem, id: "of-the-governing-variant", variant: "softened", result: { ...lem.result, factor_of_safety: 2 } });
+        lem.variant = "not-softened";
+        await route.fulfill({ json: answer });
+    });
+    await open_run(run.id);
+    assert.match(await text_of("#headline"), /FS 0\.912 as built/);
+    assert.match(await text_of("#answer-picture .legend"), /slip surface, FS 0\.912/);
+    await page.unroute(`**/v1/runs/${run.id}`);
+});
+
+test("names of gauges and of the axis are whole and apart", async () => {
+    const scene = { ...study.scene, mpm: { ...study.scene.mpm, gauges: [{ name: "the_first_house", x: 27 }, { name: "the_second_house", x: 28 }] } };
+    await open_run(api.add_run({ ...study, scene, name: "names" }, ended()).id);
+    const boxes = await page.locator("#answer-picture svg text").evaluateAll((all) => all.map((one) => {
+        const [{ left, right, top, bottom }, frame] = [one, one.ownerSVGElement].map((each) => each.getBoundingClientRect());
+        return { text: one.textContent, left, right, top, bottom, cut: left < frame.left || right > frame.right || top < frame.top - 1 || bottom > frame.bottom + 1 };
+    }));
+    assert.ok(boxes.some(({ text }) => text === "the_second_house") && boxes.some(({ text }) => / m$/.test(text)));
+    assert.deepEqual(boxes.filter(({ cut }) => cut), []);
+    const meet = (a, b) => a !== b && a.left < b.right && b.left < a.right && a.top + 3 < b.bottom && b.top + 3 < a.bottom;
+    assert.deepEqual(boxes.filter((a) => boxes.some((b) => meet(a, b))), []);
+});
+
 test("soil in motion and telemetry open on the governing variant, and stay where a person has put them", async () => {
     const run = api.add_run({ ...two_variants, name: "opens" }, ended());
     await open_run(run.id);
@@ -132,6 +160,8 @@ test("two runs stand side by side by numbers: what differs in the input, what in
     await open_run(left.id);
     await page.click("#differences-with");
     await until("the first", async () => (await text_of("#differences-says")) === "Choose the second run.");
+    const choices = await page.locator("#differences-run-1 option").allTextContents();
+    assert.match(choices.find((text) => /^Twelve strengths.*usable$/.test(text)) ?? choices.join(), /^Twelve strengths at one transfer time, \S*\d\d:\d\d:\d\d: usable$/);
     await page.selectOption("#differences-run-1", right.id);
     await until("both", async () => /^Left: usable, governed by t_T = 1 s, strength_x_0\.70\. Right: .*11 results are in both, 1 only left, 0 only right\.$/.test(await text_of("#differences-says")));
     const rows = async (part) => (await page.locator(`#differences-${part} tbody tr`).evaluateAll((all) => all.map((one) => [...one.children].map((cell) => cell.textContent))));

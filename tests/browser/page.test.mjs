@@ -62,6 +62,8 @@ test("no number of the run before stands under the name of the next", async () =
     await until("its name", async () => (await text_of("#run-title")) === "The next run");
     for (const part of ["#runout-rows", "#runout-csv", "#cost-rows"])
         assert.equal(await page.isVisible(part), false, part);
+    assert.equal(await page.isVisible("#cost-title"), true);
+    assert.match(await page.$eval("#cost-title", (title) => getComputedStyle(title, "after").content), /loading/);
     answer();
     await page.waitForSelector("#runout-rows tr");
     assert.match(await page.getAttribute("#runout-csv", "href"), new RegExp(next));

@@ -21,7 +21,7 @@ const open_dialog = async () => {
     await page.goto("about:blank");
     await page.goto(live.service.url);
     await page.click("nav [data-opens=submit]");
-    await until("templates", () => page.isVisible("#template-choice"));
+    await until("templates", () => page.isVisible("#template-choice button"));
 };
 const drop = (name, text) => page.evaluate(([file, content]) => {
     const data = new DataTransfer();
@@ -30,6 +30,23 @@ const drop = (name, text) => page.evaluate(([file, content]) => {
 }, [name, text]);
 const faults = () => page.locator("#steps .fault-count:visible:not(.warn)").count();
 const sound = (what) => until(what, async () => (await page.locator("#drawing-picture path.region").count()) > 1 && (await faults()) === 0);
+
+test("the start page shows three studies with section, sentence and minutes; a click opens one in the form", async () => {
+    await page.goto(live.service.url);
+    const card = (name) => page.locator(`#starts [value=${name}]`);
+    await until("three cards with their minutes", async () => (await page.locator("#starts button", { hasText: "minute" }).count()) === 3);
+    assert.match(await card("upstream_dam").textContent(), /upstream raises on tailings\d+ to \d+ minutes on one core$/);
+    assert.ok((await card("static-lift").locator("path.before").count()) > 2, "the section of its own scene");
+    await card("static-lift").click();
+    await until("its study", async () => (await page.inputValue("#study")).includes('"static-lift"'));
+    assert.equal(await page.textContent("#step-title"), "5. Check");
+    await page.keyboard.press("Escape");
+    await card("upstream_dam").click();
+    await until("its options", () => page.isVisible("#options-fields"));
+    assert.equal(await page.getAttribute("#template-choice [value=upstream_dam]", "aria-pressed"), "true");
+    assert.equal(await page.locator("#template-choice .plot path.toe").count(), 4, "every template has its picture");
+    await page.keyboard.press("Escape");
+});
 
 test("from nothing to a submitted dam of one's own with a clay layer, in at most 40 clicks and without JSON", async () => {
     await page.goto(live.service.url);
@@ -47,7 +64,8 @@ test("from nothing to a submitted dam of one's own with a clay layer, in at most
         await page.getByLabel(label, { exact: true }).filter({ visible: true }).fill(text);
     };
     await click("nav [data-opens=submit]");
-    await choose("#template-choice", "upstream_dam");
+    await click("#template-choice [value=upstream_dam]");
+    await until("the dam", async () => (await page.inputValue("#study")) !== "");
     await type("height", "18");
     await type("raises", "3");
     await type("foundation depth", "5");
@@ -82,7 +100,7 @@ test("from nothing to a submitted dam of one's own with a clay layer, in at most
 
 test("what a person entered stays when the template changes; what cannot stay is said", async () => {
     await open_dialog();
-    await page.selectOption("#template-choice", "upstream_dam");
+    await page.click("#template-choice [value=upstream_dam]");
     await sound("the dam");
     await (await field_of(page, "/scene/materials/foundation/density")).fill("1777");
     await (await field_of(page, "/scene/mpm/runout/toe")).fill("5");
@@ -159,7 +177,7 @@ test("a study file whose scene is a name asks for that file", async () => {
 
 test("a question puts in the parts that it needs and takes out the others", async () => {
     await open_dialog();
-    await page.selectOption("#template-choice", "upstream_dam");
+    await page.click("#template-choice [value=upstream_dam]");
     await sound("the dam");
     await go_to_step(page, "Question");
     const ask = (words) => page.locator(`#question label:has-text("${words}") input`).click();

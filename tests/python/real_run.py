@@ -150,7 +150,7 @@ class RealRun(unittest.TestCase):
         numpy.testing.assert_array_equal(difference, fine.results["runout"] - coarse.results["runout"])
 
     def test_refusals_are_the_services(self):
-        with self.assertRaisesRegex(breach.BreachlineError, "404"):
+        with self.assertRaisesRegex(breach.BreachlineError, "no run has the name or id"):
             breach.run("no-such-run")
         (self.here / "wrong").write_text("wrong")
         with self.assertRaisesRegex(breach.BreachlineError, "401"):

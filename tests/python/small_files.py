@@ -1,17 +1,21 @@
 """python3-breachline against an export and files written here: tables with holes, frames of both kinds, and what is said
 when something is missing. The real ones are real_run.py's."""
+import http.server
 import json
 import os
 import pathlib
 import sys
 import tempfile
+import threading
 import unittest
+import urllib.parse
 
 sys.path.insert(0, os.path.join(os.environ["BREACH_ROOT"], "services/python"))
 try:
     import h5py
     import numpy
     import breachline as breach
+    from breachline import plot
 except ImportError as missing:
     print(f"skipped: {missing}")
     sys.exit(77)
@@ -138,6 +142,58 @@ class Files(unittest.TestCase):
         (self.here / "a/tasks/mpm_0.5/particles_2.000000.vtkhdf").unlink()
         with self.assertRaisesRegex(breach.BreachlineError, "missing; repeat the export"):
             run.frames()[1]
+
+    def served(self, *about):
+        """The address of a service with these runs, (id, name), the newest first."""
+        runs = [{"id": each, "name": name, "title": "", "created": "2026-11-21T02:00:00Z", "state": "questionable", "study": {}, "tasks": [],
+                 "headline": {"outcome": "flows", "text": "flows 10.4 m"},
+                 "verdict": {"usable": "questionable", "words": "questionable", "reasons": [{"text": "Thin deposit."}]}} for each, name in about]
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                path, _, query = self.path.partition("?")
+                asked = urllib.parse.parse_qs(query)
+                found = [each for each in runs if asked.get("search", [""])[0] in each["id"] + each["name"]]
+                body = {"runs": found[:int(asked["limit"][0])]} if path == "/v1/runs" else next(each for each in runs if path.endswith(each["id"]))
+                self.send_response(200)
+                self.end_headers()
+                self.wfile.write(json.dumps(body).encode())
+
+            def log_message(self, *_):
+                pass
+
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self.addCleanup(server.server_close)
+        self.addCleanup(server.shutdown)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        return f"http://127.0.0.1:{server.server_port}"
+
+    def test_a_run_has_the_names_of_the_command_line_and_comes_before_a_folder(self):
+        address = self.served(("01JD00000000000000000000BB", "slope"), ("01JC00000000000000000000AA", "slope"), ("01JB00000000000000000000AA", "dam"))
+        for name, wanted in (("latest", "01JD"), ("slope", "01JD"), ("01JC", "01JC"), ("01JB00000000000000000000AA", "01JB")):
+            self.assertEqual(breach.run(name, server=address).id[:4], wanted)
+        with self.assertRaisesRegex(breach.BreachlineError, "several ids begin with \"01J\": 01JD"):
+            breach.run("01J", server=address)
+        with self.assertRaisesRegex(breach.BreachlineError, 'no run has the name or id "heap"'):
+            breach.run("heap", server=address)
+        for folder in ("slope", "heap"):
+            self.export(folder, rows((0.5, "succeeded", 1.0, "x")))
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.here)
+        self.assertEqual(breach.run("slope", server=address).id[:4], "01JD")
+        self.assertEqual([breach.run(name, server=address).id for name in ("./slope", "heap")], ["slope", "heap"])
+
+    def test_runs_are_a_table_and_a_run_shows_its_warnings(self):
+        address = self.served(("01JD00000000000000000000BB", "slope"), ("01JC00000000000000000000AA", "dam"))
+        table = breach.runs(server=address)
+        self.assertEqual((list(table["name"]), table[1]["verdict"]), (["slope", "dam"], "questionable"))
+        self.assertRegex(repr(table), "(?s)id +name +created +state +headline +verdict\n.*dam .* flows 10.4 m")
+        self.assertRegex(repr(breach.run("dam", server=address)), "flows 10.4 m; questionable\\)\n  Thin deposit.$")
+
+    def test_runouts_without_transfer_times_are_drawn_by_variant(self):
+        figure = plot.runouts(breach.run(self.export("a", rows((None, "succeeded", 12.5, "loose"), (None, "succeeded", -1.0, "dense")))))
+        self.assertEqual((figure.chart.x.names, list(figure.chart.series[0].y)), (["loose", "dense"], [12.5, -1.0]))
+        self.assertIn("loose", figure.svg())
 
     def test_a_service_that_is_not_there(self):
         with self.assertRaisesRegex(breach.Unreachable, "does not answer"):

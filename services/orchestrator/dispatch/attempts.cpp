@@ -263,7 +263,7 @@ void Attempts::note_exit(LiveAttempt& live) {
     pass_failpoint("exit_before");
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(task, live.number, AttemptEvent::exit, end);
-        if (transaction.try_move_task(task, TaskEvent::stopped)) return;
+        if (transaction.stop_task(task)) return;
         switch (ending) {
             case Ending::well:
                 transaction.move_task(task, TaskEvent::exit_well);
@@ -293,7 +293,7 @@ void Attempts::note_loss(LiveAttempt& live, const std::string& why) {
     executor_.clear_away(live.folder, attempt_id(task, live.number));
     store_.write([&](Transaction& transaction) {
         transaction.move_attempt(task, live.number, AttemptEvent::vanish, end);
-        if (transaction.try_move_task(task, TaskEvent::stopped)) return;
+        if (transaction.stop_task(task)) return;
         transaction.move_task(task, TaskEvent::vanish, {{"why", why}});
         retry_or_give_up(transaction, live, TaskEvent::retry, TaskEvent::give_up,
                          {std::nullopt, why});

@@ -355,35 +355,49 @@ bool Transaction::set_priority(const std::string& run, std::int64_t priority) {
 /// Ids are read first: moving tasks while the query steps over them would change what it returns.
 /// not_reached tasks stay skipped, as the same FEM would end as early again.
 std::optional<std::size_t> Transaction::retry_run(const std::string& run) {
-    std::vector<std::pair<std::string, std::string>> tasks;
-    bool known = false;
-    database_.query(
-        "SELECT id, state, release FROM tasks WHERE run=? AND not_reached=0 ORDER BY id", {run},
-        [&](const Row& row) {
-            known = true;
-            if (next(task_state_named(row.text("state")), TaskEvent::redo))
-                tasks.emplace_back(row.text("id"), row.text("release"));
-        });
-    if (!known) return std::nullopt;
+    std::vector<std::string> tasks;
     std::set<std::string> ids;
-    for (const auto& [task, release] : tasks) ids.insert(task);
+    bool known = false;
+    database_.query("SELECT id, state FROM tasks WHERE run=? AND not_reached=0 ORDER BY id", {run},
+                    [&](const Row& row) {
+                        known = true;
+                        const TaskState state = task_state_named(row.text("state"));
+                        const bool ended = next(state, TaskEvent::redo).has_value();
+                        if (ended) tasks.push_back(row.text("id"));
+                        if (ended || state == TaskState::cancelling) ids.insert(row.text("id"));
+                    });
+    if (!known) return std::nullopt;
     const std::vector<Trigger> triggers = triggers_to_rearm(run, ids);
-    if (!tasks.empty() || !triggers.empty())
+    if (!ids.empty() || !triggers.empty())
         add_run_event(run,
-                      {{"event", "retry"}, {"tasks", tasks.size()}, {"triggers", triggers.size()}});
+                      {{"event", "retry"}, {"tasks", ids.size()}, {"triggers", triggers.size()}});
     for (const Trigger& each : triggers) move_trigger(each, TriggerEvent::rearm);
-    open_batches(run, !tasks.empty());
-    for (const auto& [task, release] : tasks) {
-        // A retried breakdown loses its recipe: the cache would answer with the same breakdown.
-        database_.change(
-            R"(UPDATE tasks SET tries=0, same_as=NULL, fault_exit=NULL, fault_summary=NULL,
-    recipe=iif(fault_exit=70, NULL, recipe) WHERE id=?)",
-            {task});
-        database_.change("DELETE FROM artifacts WHERE task=?", {task});
-        move_task(task, TaskEvent::redo);
-        if (release == name_of(Release::at_once)) move_task(task, TaskEvent::release);
-    }
-    return tasks.size();
+    open_batches(run, !ids.empty());
+    for (const std::string& task : tasks) redo_task(task);
+    return ids.size();
+}
+
+void Transaction::redo_task(const std::string& task) {
+    // A retried breakdown loses its recipe: the cache would answer with the same breakdown.
+    const auto release = database_.text(
+        R"(UPDATE tasks SET tries=0, same_as=NULL, fault_exit=NULL, fault_summary=NULL,
+    recipe=iif(fault_exit=70, NULL, recipe) WHERE id=? RETURNING release)",
+        {task});
+    database_.change("DELETE FROM artifacts WHERE task=?", {task});
+    move_task(task, TaskEvent::redo);
+    if (release == name_of(Release::at_once)) move_task(task, TaskEvent::release);
+}
+
+/// The last order to the run decides; it is stored as an event, so that it outlives the service.
+bool Transaction::stop_task(const std::string& task) {
+    if (!try_move_task(task, TaskEvent::stopped)) return false;
+    const auto order = database_.text(
+        R"(SELECT json_extract(detail, '$.event') AS word FROM events
+    WHERE run=(SELECT run FROM tasks WHERE id=?) AND kind='run' AND word IN ('cancel', 'retry')
+    ORDER BY seq DESC LIMIT 1)",
+        {task});
+    if (order == "retry") redo_task(task);
+    return true;
 }
 
 void Transaction::add_event(const std::string& run, const std::optional<std::string>& task,

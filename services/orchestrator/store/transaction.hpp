@@ -93,11 +93,14 @@ class Transaction {
 
     /// Gives up to this many free pages at the end of the database back to the disk.
     void shrink(std::int64_t pages);
-    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; tasks that were
-    /// not reached stay so. Re-arms triggers that the cancellation disarmed, and triggers that
+    /// Failed, cancelled and skipped tasks wait again, with a fresh count of tries; those whose
+    /// process is still being stopped follow then (stop_task). Tasks that were not reached stay so. Re-arms triggers that the cancellation disarmed, and triggers that
     /// expired because of a task that now runs again (depends_on). Returns the number of tasks;
     /// nothing: no such run.
     std::optional<std::size_t> retry_run(const std::string& run);
+    /// The process of a cancelled task has ended. After a retry in the meantime the task waits again.
+    /// False: the task was not cancelled.
+    bool stop_task(const std::string& task);
 
     /// Adds a trigger to one FEM of the run, with a generated name if it is empty. Returns its id.
     std::string add_trigger(const std::string& run, const std::string& fem_task,
@@ -123,6 +126,7 @@ class Transaction {
     void insert_task(const std::string& run, const std::string& id, const TaskPlan& task,
                      const std::optional<std::string>& parent, std::int64_t priority,
                      TaskState state);
+    void redo_task(const std::string& task);
     std::int64_t next_ordinal(const std::string& run);
     void add_triggers(const NewRun& run);
     void add_samples(const std::string& run, const Extension& extension);

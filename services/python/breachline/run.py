@@ -5,6 +5,7 @@ import json
 import os
 import re
 import time
+import urllib.parse
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from typing import Any
 from .faults import BreachlineError
 from .frames import Frames
 from .sources import Api, Document, Exported, Served, Source
-from .table import Comparison, Table
+from .table import Column, Comparison, Table
 
 _timed = re.compile(r"(?:particles|snapshot)_([0-9]+(?:\.[0-9]+)?)\.vtkhdf")
 
@@ -44,7 +45,8 @@ class Run:
         self.about: Document = about  #: the service's description of the run
 
     def __repr__(self) -> str:
-        return f"Run({self.id}, {self.name}, {self.state}: {'; '.join(filter(None, [self.headline, self.verdict]))})"
+        head = f"Run({self.id}, {self.name}, {self.state}: {'; '.join(filter(None, [self.headline, self.verdict]))})"
+        return "\n  ".join([head, *self.reasons])
 
     @property
     def reasons(self) -> list[str]:
@@ -146,17 +148,34 @@ class Run:
 
 def run(name: str | os.PathLike[str] = "latest", server: str | None = None,
         token_file: str | os.PathLike[str] | None = None) -> Run:
-    """name: a run's id or "latest" of a service, or the folder of an exported run. server and token_file: default to
-    BREACH_SERVER and BREACH_TOKEN_FILE, else http://127.0.0.1:8470 without a token, as in the command line."""
-    if isinstance(name, os.PathLike) or os.sep in name or Path(name).is_dir():
+    """name: a run of a service as in the command line (its id, the beginning of it, its name, or "latest"), else the folder of an
+    exported run; "./slope" is always a folder. server and token_file: default to BREACH_SERVER and BREACH_TOKEN_FILE, else
+    http://127.0.0.1:8470 without a token, as in the command line."""
+    if isinstance(name, os.PathLike) or os.sep in name:
         return Run(Exported(Path(name)))
-    api = Api(server, token_file)
-    if name == "latest":
-        newest = _listed(api, 1)
-        if not newest:
-            raise BreachlineError(f"{api.server}: there is no run yet; submit one by: breach submit STUDY.json")
-        name = str(newest[0]["id"])
-    return Run(Served(api, name))
+    try:
+        api = Api(server, token_file)
+        return Run(Served(api, _id_of(api, name)))
+    except BreachlineError:
+        if not Path(name).is_dir():
+            raise
+        return Run(Exported(Path(name)))
+
+
+def _id_of(api: Api, name: str) -> str:
+    """The rules of the command line (run_named in services/cli/commands.cpp)."""
+    if len(name) == 26:
+        return name
+    latest = name == "latest"
+    found = _listed(api, limit=1 if latest else 500, search="" if latest else name)
+    named = [str(each["id"]) for each in found if latest or each["name"] == name][:1]
+    fitting = named or [str(each["id"]) for each in found if each["id"].startswith(name)]
+    if len(fitting) == 1:
+        return fitting[0]
+    if fitting:
+        raise BreachlineError(f'several ids begin with "{name}": ' + ", ".join(fitting))
+    raise BreachlineError(f"{api.server}: there is no run yet; submit one by: breach submit STUDY.json" if latest
+                          else f'{api.server}: no run has the name or id "{name}"; breachline.runs() shows the runs')
 
 
 def template(name: str, server: str | None = None, token_file: str | os.PathLike[str] | None = None, **options: Any) -> Document:
@@ -174,10 +193,16 @@ def submit(study: Document, server: str | None = None, token_file: str | os.Path
     return Run(Served(api, str(answer["id"])))
 
 
-def runs(server: str | None = None, token_file: str | os.PathLike[str] | None = None, most: int = 50) -> list[Document]:
-    """Descriptions of a service's newest runs, the newest first."""
-    return _listed(Api(server, token_file), most)
+def runs(server: str | None = None, token_file: str | os.PathLike[str] | None = None, most: int = 50) -> Table:
+    """A service's newest runs, the newest first."""
+    return Table([Column(name, "word", "", meaning) for name, meaning in _of_runs.items()],
+                 [{**each, "verdict": each["verdict"]["words"], "headline": each["headline"]["text"]}
+                  for each in _listed(Api(server, token_file), limit=most)])
 
 
-def _listed(api: Api, most: int) -> list[dict[str, Any]]:
-    return list(api.json_at(f"/v1/runs?limit={most}")["runs"])
+_of_runs = {"id": "of the run", "name": "of its study", "title": "of its study, or as renamed", "created": "when it was submitted, UTC",
+            "state": "of its tasks", "headline": "what happens; empty: no result yet", "verdict": "whether the results can be used"}
+
+
+def _listed(api: Api, **asked: Any) -> list[dict[str, Any]]:
+    return list(api.json_at("/v1/runs?" + urllib.parse.urlencode(asked))["runs"])

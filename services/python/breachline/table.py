@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,8 +45,16 @@ class Table:
     def __iter__(self) -> Iterator[Row]:
         return iter(self.rows)
 
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """[rows]: float64 with nan for unknown numbers; objects for other columns."""
+    @overload
+    def __getitem__(self, name: int) -> Row: ...
+
+    @overload
+    def __getitem__(self, name: str) -> NDArray[Any]: ...
+
+    def __getitem__(self, name: int | str) -> Row | NDArray[Any]:
+        """A row by its number, or a column [rows]: float64 with nan for unknown numbers; objects for other columns."""
+        if isinstance(name, int):
+            return self.rows[name]
         column = self.column(name)
         values = [row.get(name) for row in self.rows]
         if column.kind == "number":
@@ -68,7 +76,8 @@ class Table:
         return frame
 
     def _shown(self) -> list[str]:
-        return [name for name in ("variant", "transfer_time", "state", "runout", "runout_beyond_toe", "at_rest", "end_time")
+        return [name for name in ("id", "name", "created", "variant", "transfer_time", "state", "runout", "runout_beyond_toe", "at_rest", "end_time",
+                                  "headline", "verdict")
                 if any(row.get(name) not in (None, "") for row in self.rows)]
 
     def __repr__(self) -> str:

@@ -5,7 +5,6 @@ import { by_id, element, mirror, set_text } from "./dom.js";
 import { reason_items, verdict_look } from "./flags.js";
 import { number, point_name, seconds } from "./format.js";
 import { draws_of } from "./means.js";
-import { stability_of } from "./provenance.js";
 import { overlay_of, scene_of, water_of } from "./scene.js";
 import { profile_in, SectionPicture, slip_surface } from "./section_picture.js";
 
@@ -77,8 +76,7 @@ export class Answer {
 
     draw() {
         this.draw_figures();
-        const drawn = this.row ?? this.run.stability;
-        const stability = drawn && stability_of(this.run, drawn)?.result;
+        const stability = this.run.tasks.find(({ id }) => id === this.run.stability?.task)?.result; // of the headline's factor
         const { toe, outlines, gauges } = overlay_of(this.scene);
         const runout = this.runout();
         const after_name = ["after", this.rows.length > 1 && this.row ? point_name(this.row) : ""].filter(Boolean).join(", ");

@@ -108,6 +108,7 @@ async function look() {
         }
     } finally {
         looking = false;
+        by_id("loading").hidden = !again;
         if (again) look_soon();
         else if (busy) look_soon(Math.max(look_again, (performance.now() - began) / most_share));
     }
@@ -151,7 +152,10 @@ async function show_open_run(listed) {
         by_id("run").hidden = true;
         if (pair) await show_pair(pair, pictures ? [compare, "compare"] : [differences, "differences"]);
         else if (word) document.title = "Glossary – Breachline";
-        else if (!tables) document.title = "Breachline";
+        else if (!tables) {
+            document.title = "Breachline";
+            await submission.offer_starts();
+        }
         return;
     }
     const known = listed.find((each) => each.id === id);
@@ -161,6 +165,7 @@ async function show_open_run(listed) {
         answer.begin(known);
         by_id("run").hidden = false;
         by_id("answer").classList.remove("coming");
+        by_id("loading").hidden = true;
     }
     let run, read;
     try {
@@ -247,6 +252,7 @@ function open_database() {
 }
 
 window.addEventListener("hashchange", () => {
+    by_id("loading").hidden = false;
     look_soon(0);
     open_database();
     open_words();

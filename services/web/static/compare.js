@@ -5,10 +5,11 @@ import { by_id, element, mirror, set_text } from "./dom.js";
 import { field_name, fields_of, is_named } from "./fields.js";
 import { pace_text } from "./film.js";
 import { picture_verdict, rest_text } from "./flags.js";
-import { clock, is_active, number, seconds } from "./format.js";
+import { is_active, number, seconds } from "./format.js";
 import { first_with_frames, picture_tasks, size_canvas, source_name } from "./particles.js";
 import { extents_of, PointView, spacing_of } from "./points.js";
 import { Scale } from "./scale.js";
+import { offer_runs } from "./run_picker.js";
 import { materials_in, overlay_of, scene_of, water_of } from "./scene.js";
 import { sheet_of } from "./sheet.js";
 import { Snapshots } from "./snapshots.js";
@@ -133,9 +134,7 @@ export class Compare {
 
     offer({ index, run, source }, runs) {
         const known = runs.some(({ id }) => id === run.id) ? runs : [run, ...runs];
-        mirror(by_id(`compare-run-${index}`), known, ({ id }) => id, ({ id }) => element("option", { value: id }),
-               (option, each) => set_text(option, `${each.title || each.name} (${clock(each.created)})`));
-        by_id(`compare-run-${index}`).value = run.id;
+        offer_runs(by_id(`compare-run-${index}`), known, run.id);
         mirror(by_id(`compare-source-${index}`), picture_tasks(run), ({ id }) => id, ({ id }) => element("option", { value: id }),
                (option, task) => set_text(option, source_name(task)));
         by_id(`compare-source-${index}`).value = source.task;

@@ -1,9 +1,10 @@
 // The run database as tables: runs, tasks, attempts, events, results of sweeps, firings of triggers, transfers of all runs, and workers.
 // Reads the API page by page. The address #/database/TABLE/RUN selects the table and the run.
 import * as api from "./api.js";
-import { by_id, element, mirror, set_text } from "./dom.js";
+import { by_id, element, set_text } from "./dom.js";
 import { counts_text, flag_codes, rest_text } from "./flags.js";
 import { short_json, show_state } from "./format.js";
+import { offer_runs } from "./run_picker.js";
 import { run_address } from "./runs.js";
 import { DataTable } from "./table.js";
 
@@ -141,10 +142,8 @@ export class Database {
 
     async load_of_run(name, wanted) {
         const { runs } = await api.page_of_runs(null, page_size);
-        mirror(by_id("database-run"), runs, ({ id }) => id, ({ id }) => element("option", { value: id }),
-               (option, each) => set_text(option, `${each.name}, ${each.created.slice(0, 19).replace("T", " ")}`));
-        const id = wanted || runs[0]?.id;
-        by_id("database-run").value = id ?? "";
+        const id = wanted || (runs[0]?.id ?? "");
+        offer_runs(by_id("database-run"), runs, id);
         const link = by_id("database-csv");
         link.hidden = name !== "results" || !id;
         if (!link.hidden) link.href = api.results_csv(id);

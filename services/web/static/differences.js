@@ -1,10 +1,11 @@
 // Compares two runs by numbers: different entries of their studies, and different results.
 import * as api from "./api.js";
 import { governing_of } from "./answer.js";
-import { by_id, element, mirror, set_text } from "./dom.js";
-import { clock, is_active, number, point_name, short_json } from "./format.js";
+import { by_id, set_text } from "./dom.js";
+import { is_active, number, point_name, short_json } from "./format.js";
 import { pointer_of } from "./json_text.js";
 import { key_of } from "./results.js";
+import { offer_runs } from "./run_picker.js";
 import { DataTable } from "./table.js";
 
 export const differences_address = (...runs) => `#/differences/${runs.filter(Boolean).map(encodeURIComponent).join("/")}`;
@@ -83,9 +84,6 @@ export class Differences {
 
     offer(side, runs, run) {
         const known = !run || runs.some(({ id }) => id === run.id) ? runs : [run, ...runs];
-        const select = by_id(`differences-run-${side}`);
-        mirror(select, [...(run ? [] : [{ id: "" }]), ...known], ({ id }) => id, ({ id }) => element("option", { value: id }),
-               (option, each) => set_text(option, each.id ? `${each.title || each.name} (${clock(each.created)})` : "choose…"));
-        select.value = run?.id ?? "";
+        offer_runs(by_id(`differences-run-${side}`), known, run?.id ?? "");
     }
 }

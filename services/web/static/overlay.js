@@ -37,16 +37,30 @@ function draw_wedge({ context, to_screen, ratio }, at, filled) {
 
 export const draw_toe = (pen, toe) => draw_wedge(pen, toe, true);
 
+/// Centres and lines of names beside each other and, where they would meet, above each other; none passes an edge. labels: [{x: wanted
+/// centre, half: width}] from left to right.
+export function apart(labels, width) {
+    const ends = []; // of the last name in each line
+    return labels.map(({ x, half }) => {
+        const at = Math.max(half, Math.min(width - half, x));
+        const free = ends.findIndex((end) => end < at - half);
+        const line = free < 0 ? ends.length : free;
+        ends[line] = at + half;
+        return { at, line };
+    });
+}
+
 /// gauges: [{name, x, y}], drawn as open wedges with their names.
 export function draw_gauges(pen, gauges) {
     const { context, ratio } = pen;
     context.font = `${11 * ratio}px system-ui, sans-serif`;
     context.textAlign = "center";
     context.textBaseline = "bottom";
-    for (const { name, x, y } of gauges) {
-        const [px, py] = draw_wedge(pen, [x, y], false);
-        context.fillText(name, px, py - 2 * ratio);
-    }
+    const { width } = context.canvas;
+    const drawn = gauges.map(({ name, x, y }) => ({ name, half: context.measureText(name).width / 2 + ratio, place: draw_wedge(pen, [x, y], false) }))
+        .map((each) => ({ ...each, x: each.place[0] })).filter(({ x }) => x >= 0 && x <= width).sort((a, b) => a.x - b.x);
+    const top = Math.min(...drawn.map(({ place }) => place[1]));
+    apart(drawn, width).forEach(({ at, line }, i) => context.fillText(drawn[i].name, at, top - (2 + 13 * line) * ratio));
 }
 
 /// halo: background colour, so that the line is visible on any soil.

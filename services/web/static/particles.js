@@ -112,6 +112,7 @@ export class Particles {
 
     async open(task) {
         this.forget();
+        this.tell("Loading…");
         this.scene = scene_of(this.run.study, this.run.tasks.find(({ id }) => id === task)?.variant);
         this.view.overlay = { ...this.view.overlay, ...overlay_of(this.scene) };
         by_id("view-water-label").hidden = !water_of(this.scene);
@@ -142,7 +143,6 @@ export class Particles {
             this.update_controls();
             return;
         }
-        this.tell("");
         if (grew) await this.find_box();
         if (this.at < 0 || (at_end && grew && !this.playing)) await this.seek(this.frames.length - 1);
         else this.update_controls();
@@ -188,6 +188,7 @@ export class Particles {
         if (!this.view.box) await this.find_box();
         if (overtaken()) return;
         by_id("view-stride").value = source.stride;
+        this.tell("");
         this.snapshot = snapshot;
         this.shown = index;
         this.update_controls();

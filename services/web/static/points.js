@@ -1,7 +1,7 @@
 // Draws one snapshot, particles or a mesh of quads, on a canvas: equal aspect, pan, zoom, axes in metres.
 import { band_colours, mixed, packed, region_css, scale_packed, scale_steps, unknown_css } from "./colours.js";
 import { fill_contours } from "./contours.js";
-import { draw_cut, draw_gauges, draw_outlines, draw_toe, draw_vectors, draw_water } from "./overlay.js";
+import { apart, draw_cut, draw_gauges, draw_outlines, draw_toe, draw_vectors, draw_water } from "./overlay.js";
 import { tick_label, ticks } from "./plot_scale.js";
 import { draw_edge, fill_quad, fill_square } from "./raster.js";
 
@@ -329,7 +329,9 @@ export class PointView {
             const [px] = this.to_screen(x, 0);
             context.moveTo(px, bottom);
             context.lineTo(px, bottom + 5 * ratio);
-            context.fillText(`${tick_label(x, across.step)}${i === across.values.length - 1 ? " m" : ""}`, px, bottom + 8 * ratio);
+            const label = `${tick_label(x, across.step)}${i === across.values.length - 1 ? " m" : ""}`;
+            const [{ at }] = apart([{ x: px, half: context.measureText(label).width / 2 }], canvas.width);
+            context.fillText(label, at, bottom + 8 * ratio);
         });
         context.textAlign = "right";
         context.textBaseline = "middle";

@@ -296,7 +296,7 @@ function mark_of(row, several) {
 /// "12.5"; for a mean "12.5 ± 0.3".
 function cell_text(values, column) {
     const deviation = values.mean ? values[`${column}_deviation`] : null;
-    return number(values[column]) + (Number.isFinite(deviation) ? ` ± ${number(deviation, 2)}` : "");
+    return number(values[column], is_safety(column) ? 3 : 4) + (Number.isFinite(deviation) ? ` ± ${number(deviation, 2)}` : "");
 }
 
 function fill_row(row, values) {

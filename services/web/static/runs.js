@@ -5,12 +5,13 @@ import { by_id, element, mirror, set_text } from "./dom.js";
 import { verdict_look, verdict_sign } from "./flags.js";
 import { bytes, clock, is_active, percent, show_state, span, task_state } from "./format.js";
 import { RenameDialog } from "./rename.js";
+import { has_verdict, shown_state } from "./run_picker.js";
 
 export const run_address = (id) => `#/runs/${encodeURIComponent(id)}`;
 
-/// The state until the run ends well, then the verdict: a good run may have results that are not usable.
-function show_badge(badge, { state, paused, verdict }) {
-    if (!["succeeded", "questionable"].includes(state)) return show_state(badge, paused && is_active(state) ? "paused" : state);
+function show_badge(badge, run) {
+    if (!has_verdict(run)) return show_state(badge, shown_state(run));
+    const { verdict } = run;
     const look = verdict_look(verdict.usable);
     badge.className = `state ${look}`;
     set_text(badge, `${verdict_sign(verdict.usable)} ${verdict.words}`);

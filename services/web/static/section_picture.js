@@ -1,5 +1,6 @@
 // The section before and after the runout in one picture, with the slip surface, the water, the toe, the runout and its band, the gauges.
 import { element, svg } from "./dom.js";
+import { apart } from "./overlay.js";
 import { level_at } from "./scene.js";
 import { tick_label, ticks } from "./plot_scale.js";
 
@@ -7,7 +8,7 @@ const flat = 140;          // [px] lower sections are drawn with exaggerated hei
 const most_stretched = 5;
 const chords = 60;
 const character = 7.6;     // [px] of a character
-const margin = { side: 14, top: 30, bottom: 24 };
+const margin = { side: 14, top: 34, bottom: 24 };
 
 /// The slip surface of a stability analysis as points; []: none.
 export function slip_surface(result, floor) {
@@ -32,6 +33,7 @@ export function profile_in(table) {
     return lines.map((line) => ({ x: value(line, "x"), ground: value(line, "ground"), surface: value(line, "surface") }));
 }
 
+const half_of = (text) => (text.length * character) / 2 + 3;
 const wedge = (x, y) => `M${x},${y}l-5,-9h10Z`;
 const span_of = (values) => [Math.min(...values), Math.max(...values)];
 
@@ -62,38 +64,38 @@ export class SectionPicture {
         const scale = (width - 2 * margin.side) / (x_high - x_low);
         this.stretch = Math.min(most_stretched, Math.max(1, Math.floor(flat / (scale * (y_high - y_low)))));
         const px = (x) => margin.side + (x - x_low) * scale;
-        const py = (y) => margin.top + (y_high - y) * scale * this.stretch;
+        const named = gauges.map(({ name, x, y }) => ({ name, y, x: px(x), half: half_of(name) })).sort((a, b) => a.x - b.x);
+        const names = apart(named, width);
+        const ground = Math.max(...gauges.map(({ y }) => y)); // all names stand above it
+        const top = Math.max(margin.top, 26 + 13 * (1 + Math.max(...names.map(({ line }) => line))) - (y_high - ground) * scale * this.stretch);
+        const py = (y) => top + (y_high - y) * scale * this.stretch;
         const bottom = py(y_low);
         const path = (points) => `M${points.map(([x, y]) => `${px(x).toFixed(1)},${py(y).toFixed(1)}`).join("L")}`;
+        const inside = (at, text) => apart([{ x: at, half: half_of(text) }], width)[0].at;
         const drawn = [];
         const add = (tag, attributes, ...text) => drawn.push(svg(tag, attributes, ...text));
         for (const outline of parts.outlines.filter(({ length }) => length)) add("path", { class: "before", d: `${path(outline)}Z` });
         if (parts.after?.length) add("path", { class: "after", d: `${path(parts.after)}Z` });
         if (parts.water) add("path", { class: "water", d: path(parts.water) });
         if (parts.slip.length) add("path", { class: "slip", d: path(parts.slip) });
-        const under = py(Math.max(...gauges.map(({ y }) => y))); // all names
-        const taken = []; // right end of the names in each line
-        for (const { name, x, y } of [...gauges].sort((a, b) => a.x - b.x)) {
-            const half = (name.length * character) / 2;
-            const free = taken.findIndex((end) => end < px(x) - half);
-            const line = free < 0 ? taken.length : free;
-            taken[line] = px(x) + half;
-            add("path", { class: "gauge", d: wedge(px(x), py(y)) });
-            add("text", { x: px(x), y: under - 13 * (line + 1), "text-anchor": "middle" }, name);
-        }
+        for (const { x, y } of named) add("path", { class: "gauge", d: wedge(x, py(y)) });
+        names.forEach(({ at, line }, i) => add("text", { x: at, y: py(ground) - 10 - 13 * line, "text-anchor": "middle" }, named[i].name));
         if (toe) add("path", { class: "toe", d: wedge(px(toe[0]), py(toe[1])) });
         if (toe && runout) {
-            const [from, to, level] = [px(toe[0]), px(toe[0] + runout.reach), 18];
+            const [from, to, level] = [px(toe[0]), px(toe[0] + runout.reach), 22];
             if (Number.isFinite(runout.low)) {
                 const [low, high] = [runout.low, runout.high].map((reach) => px(toe[0] + reach));
                 add("rect", { class: "band", x: low, y: level - 6, width: Math.max(high - low, 1), height: 12 });
             }
             add("path", { class: "runout", d: `M${from},${level - 6}v12M${from},${level}H${to}M${to},${level - 6}v12M${to},${level}V${bottom}` });
-            add("text", { class: "label", x: Math.min(Math.max((from + to) / 2, 60), width - 60), y: 9, "text-anchor": "middle" }, runout.text);
+            add("text", { class: "label", x: inside((from + to) / 2, runout.text), y: 13, "text-anchor": "middle" }, runout.text);
         }
         const { values, step } = ticks(x_low, x_high, width / 110);
         add("path", { class: "axis", d: `M${margin.side},${bottom}H${width - margin.side}${values.map((x) => `M${px(x)},${bottom}v4`).join("")}` });
-        for (const x of values) add("text", { x: px(x), y: bottom + 17, "text-anchor": "middle" }, `${tick_label(x, step)}${x === values.at(-1) ? " m" : ""}`);
+        for (const x of values) {
+            const label = `${tick_label(x, step)}${x === values.at(-1) ? " m" : ""}`;
+            add("text", { x: inside(px(x), label), y: bottom + 17, "text-anchor": "middle" }, label);
+        }
         this.picture.setAttribute("viewBox", `0 0 ${width} ${bottom + margin.bottom}`);
         this.picture.setAttribute("height", bottom + margin.bottom);
         this.picture.setAttribute("aria-label", parts.says);

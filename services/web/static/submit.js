@@ -10,6 +10,7 @@ import { OptionsPanel } from "./options_panel.js";
 import { Path, step_of } from "./path.js";
 import { Question } from "./question.js";
 import { SectionImport } from "./section_import.js";
+import { study_card } from "./study_cards.js";
 import { Templates } from "./templates.js";
 
 function format_of(text) {
@@ -31,7 +32,7 @@ export class SubmitDialog {
         this.drawing = new LiveDrawing((fault, is_in_text) => this.fault_item(fault, is_in_text), (pointer) => this.point_to(pointer),
                                        (faults) => this.mark("drawing", faults));
         this.options = new OptionsPanel(this.pane, (fault) => this.refuse(fault), () => {
-            by_id("template-choice").value = "";
+            this.templates.mark("");
             this.drawing.return_to(this.pane.text);
         }, (study) => this.question.shaped(study));
         this.templates = new Templates(this.options);
@@ -60,16 +61,19 @@ export class SubmitDialog {
         try {
             await this.form.start();
             this.show_text(this.pane.text);
-            if (this.has_examples) return;
-            await this.templates.offer();
-            const examples = this.examples = await api.list_examples();
-            by_id("examples").append(...examples.map(({ name, title }) => element("option", { value: name, title: title || null }, name)));
-            by_id("examples-row").hidden = examples.length === 0;
-            this.has_examples = true;
+            await (this.offered ??= this.offer());
         } catch (fault) {
+            this.offered = null;
             this.refuse(fault);
         }
     }
+    async offer() {
+        await this.templates.offer();
+        const examples = this.examples = await api.list_examples();
+        by_id("examples").append(...examples.map(({ name, title }) => element("option", { value: name, title: title || null }, name)));
+        by_id("examples-row").hidden = examples.length === 0;
+    }
+
     entered(step) {
         if (step === "check") this.show_cost();
         if (step !== "water") return;
@@ -78,6 +82,16 @@ export class SubmitDialog {
     show_json(is_shown) {
         by_id("json").hidden = !is_shown;
         by_id("json-show").setAttribute("aria-pressed", String(is_shown));
+    }
+
+    /// A template and two studies of the tutorials, for the start page.
+    async offer_starts() {
+        if (by_id("starts").firstElementChild) return;
+        const [templates, examples] = await Promise.all([api.list_templates(), api.list_examples()]);
+        const card = (each, read, take) => study_card(each, read, () => this.open().then(take));
+        by_id("starts").replaceChildren(
+            ...templates.filter(({ name }) => name === "upstream_dam").map((each) => card(each, () => this.templates.study(each.name), () => this.templates.choose(each.name))),
+            ...examples.filter(({ name }) => ["static-lift", "column-sweep"].includes(name)).map((each) => card(each, () => api.read_example(each.name), () => this.take_example(each))));
     }
 
     /// Edits a previous study to run it again, without the variants that the service generated.

@@ -54,6 +54,7 @@ export class Telemetry {
         this.task = task;
         by_id("telemetry-source").value = task;
         this.forget();
+        set_text(by_id("telemetry-message"), "Loading…");
         await this.extend();
     }
 

@@ -1,7 +1,8 @@
 // Makes a new scene from one of the service's templates.
 import * as api from "./api.js";
-import { by_id, element } from "./dom.js";
+import { by_id } from "./dom.js";
 import { default_of } from "./schema.js";
+import { study_card } from "./study_cards.js";
 
 const entry_of = ({ topic, type, unit, default: usual, minimum, maximum, help, rule }) => ({ topic, type, unit, default: usual, minimum, maximum, description: rule ? `${help} (default: ${rule})` : help });
 
@@ -17,14 +18,12 @@ export class Templates {
     /// panel: an OptionsPanel.
     constructor(panel) {
         this.panel = panel;
-        by_id("template-choice").addEventListener("change", (event) => this.choose(event.target.value));
     }
 
     async offer() {
         if (this.templates) return;
         this.templates = await api.list_templates();
-        by_id("template-choice").append(...this.templates.map(({ name, title }) => element("option", { value: name, title }, name.replaceAll("_", " "))));
-        by_id("templates-row").hidden = this.templates.length === 0;
+        by_id("template-choice").append(...this.templates.map((each) => study_card(each, () => this.study(each.name), () => this.choose(each.name))));
     }
 
     /// Of options that several templates share, by name.
@@ -33,17 +32,25 @@ export class Templates {
         return Object.fromEntries(names.map((name) => all.find((each) => each.name === name)).filter(Boolean).map((each) => [each.name, entry_of(each)]));
     }
 
+    async study(name, values = {}, signal = undefined) {
+        return (await api.make_from_template(name, values, signal)).study;
+    }
+
+    /// "": none is chosen.
+    mark(name) {
+        for (const card of by_id("template-choice").children) card.setAttribute("aria-pressed", String(card.value === name));
+    }
+
     choose(name) {
         const template = this.templates.find((each) => each.name === name);
-        if (!template) return this.panel.close();
         const named = { type: "string", description: "of scene and study: small letters, digits, - and _", default: name };
         this.panel.open({
             title: `${template.title}.`,
             properties: { name: named, ...Object.fromEntries(template.options.map((each) => [each.name, entry_of(each)])) },
             follow: (values, control_of) => follow(template.options, values, control_of),
-            make: async (values, signal) => ({ study: (await api.make_from_template(name, values, signal)).study }),
+            make: async (values, signal) => ({ study: await this.study(name, values, signal) }),
         });
-        by_id("template-choice").value = name;
+        this.mark(name);
     }
 
     /// Whether the shown template has an earthquake; null: not an option, or no template is shown.

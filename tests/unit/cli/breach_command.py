@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
@@ -105,6 +106,28 @@ class Breach(unittest.TestCase):
             self.assertIn(f"mpm_solver  t_T 0.5 s  {end}", done.stdout)
             self.assertNotIn("\033", done.stdout)
 
+    def test_interrupted_watch_says_that_the_run_goes_on(self):
+        with subprocess.Popen([breach, "watch", run_id], text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              env={"BREACH_SERVER": self.serve(looks=10000).url}) as watching:
+            watching.stdout.readline()
+            watching.send_signal(signal.SIGINT)
+            said = watching.communicate(timeout=30)[1]
+        self.assertEqual(watching.returncode, 130)
+        self.assertIn(f"The run goes on. To look on: breach watch {run_id}; to stop it: breach cancel {run_id}\n", said)
+
+    def test_a_report_is_a_pdf_or_a_page(self):
+        service, page, sheet = self.serve(), self.here / "a.html", self.here / "a.pdf"
+        self.assertEqual(call(service, "report", "latest", "--output", page).stdout, f"{page}\n")
+        self.assertEqual(page.read_text(), "<html>the report</html>")
+        missing = call(service, "report", "latest", "--output", sheet, PATH=str(self.here))
+        self.assertEqual(missing.returncode, 74)
+        self.assertIn("install weasyprint", missing.stderr)
+        (self.here / "weasyprint").write_text('#!/bin/sh\n{ echo %PDF; /bin/cat "$2"; } > "$3"\n')
+        (self.here / "weasyprint").chmod(0o755)
+        self.assertEqual(call(service, "report", "latest", "--output", sheet, PATH=str(self.here)).returncode, 0)
+        self.assertEqual(sheet.read_text(), "%PDF\n<html>the report</html>")
+        self.assertEqual(call(service, "report", "latest", "--output", self.here / "a.doc").returncode, 2)
+
     def test_watch_as_json_gives_this_runs_events_and_the_run(self):
         lines = [json.loads(each) for each in call(self.serve(), "watch", run_id, "--json").stdout.splitlines()]
         self.assertEqual([each["run"] for each in lines[:-1]], [run_id])
@@ -179,7 +202,7 @@ class Breach(unittest.TestCase):
 
     def test_every_word_has_an_example_and_a_wrong_one_is_named(self):
         words = ("submit", "sweep", "extend", "list", "show", "watch", "cancel", "pause", "resume", "retry", "rename", "priority",
-                 "results", "logs", "telemetry", "export", "plan", "rm", "du", "files", "open", "new", "draw", "completion")
+                 "results", "logs", "telemetry", "report", "export", "plan", "rm", "du", "files", "open", "new", "draw", "completion")
         for word in words:
             self.assertIn(f"breach {word} ", call("http://127.0.0.1:1", word, "--help").stdout)
         wrong = call("http://127.0.0.1:1", "restart", run_id)

@@ -171,6 +171,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
             else:
                 self.answer(200, {"run": run_id, "verdict": server.verdict(), "columns": columns, "rows": [
                     {"transfer_time": 0.5, "state": "succeeded", "runout": 12.5, "questionable": False, "flags": []}]})
+        elif parts == ["runs", run_id, "report"]:
+            self.answer(200, b"<html>the report</html>", "text/html")
         elif parts == ["runs", run_id, "telemetry"]:
             begin = int(query["from"])
             lines = [{"time": 0.1 * i, "kinetic_energy": 2.0 * i} for i in range(begin, min(begin + 2, 5))]

@@ -42,11 +42,17 @@ class Settings(unittest.TestCase):
                     continue  # as many as the machine has; an example
                 self.assertRegex(shown, rf"--{name} \S+=?.*={re.escape(value)}\b|--{name} \S*={re.escape(value)}", name)
 
-    def test_a_misspelt_setting_is_refused(self):
-        with tempfile.TemporaryDirectory() as folder:
-            code, said = serve(pathlib.Path(folder), "[serve]\nslotz = 3\n")
-            self.assertNotEqual(code, 0)
-            self.assertIn('breachline: settings.toml:2: unknown key "slotz"; did you mean slots?', said)
+    def test_a_slip_is_refused_with_its_line(self):
+        for text, told in (("[serve]\nslotz = 3\n", '2: unknown key "slotz"; did you mean slots?'),
+                           ("[serve]\n# cores\n slots = abc\n", "3: slots: Value abc not in range 1 to 100000"),
+                           ("[serve]\nslots = 3\nexecutor = pbs\n", "3: executor: Check pbs value in"),
+                           ("slots = 3\n", "1: put the line [serve] before the first key"),
+                           ("\n[serv]\nslots = 3\n", "2: write the section as [serve]"),
+                           ("[serve]\nslots: 3\n", "2: write the entry as KEY=VALUE")):
+            with tempfile.TemporaryDirectory() as folder:
+                code, said = serve(pathlib.Path(folder), text)
+                self.assertNotEqual(code, 0)
+                self.assertIn(f"breachline: settings.toml:{told}", said)
 
 
 if __name__ == "__main__":

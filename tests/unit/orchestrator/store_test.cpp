@@ -620,6 +620,26 @@ TEST_F(StoreTest, AJobOfThousandsOfTasksIsDoneWholeOrPutBackWhole) {
     EXPECT_EQ(store.tasks_by_state().count("cancelled"), 0u);
 }
 
+TEST_F(StoreTest, ARetryWhileAProcessIsStillBeingStoppedRunsItsTaskAgain) {
+    Store store(file());
+    const NewRun run = small_run();
+    store.write([&](Transaction& t) { t.add_run(run); });
+    const std::string first = store.tasks_of(run.id).front().id;
+    const auto cancelled_and_stopped = [&](bool retried) {
+        store.write([&](Transaction& t) {
+            t.move_task(first, TaskEvent::claim);
+            t.cancel_run(run.id, "test");
+        });
+        if (retried) store.write([&](Transaction& t) { EXPECT_EQ(t.retry_run(run.id), 3u); });
+        EXPECT_EQ(store.task(first)->state, TaskState::cancelling);
+        store.write([&](Transaction& t) { EXPECT_TRUE(t.stop_task(first)); });
+        return store.task(first)->state;
+    };
+    EXPECT_EQ(cancelled_and_stopped(true), TaskState::ready);
+    EXPECT_EQ(cancelled_and_stopped(false), TaskState::cancelled) << "the last order counts";
+    store.write([&](Transaction& t) { EXPECT_FALSE(t.stop_task(first)); });
+}
+
 TEST_F(StoreTest, TwoLiveAttemptsOfOneTaskAreRefusedByTheDatabaseItself) {
     Store store(file());
     const NewRun run = small_run();

@@ -17,7 +17,7 @@ Numbers = Sequence[float] | NDArray[Any]
 class Axis:
     label: str  #: with its unit: "shear strain [%]"
     logarithmic: bool = False
-    names: list[str] = field(default_factory=list)  #: of the values 0, 1, 2, ...; for y only
+    names: list[str] = field(default_factory=list)  #: of the values 0, 1, 2, ...
     shown: tuple[float, float] | None = None  #: the rest is cut off; for x only; None: all
 
 

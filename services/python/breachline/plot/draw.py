@@ -143,7 +143,7 @@ def _check_columns(chart: Chart) -> None:
 def _limits(chart: Chart, at: str) -> tuple[float, float]:
     """All that is drawn, and a margin."""
     axis = chart.x if at == "x" else chart.y
-    if at == "y" and axis.names:
+    if axis.names:
         return -0.6, len(axis.names) - 0.4
     if at == "x" and axis.shown:
         return axis.shown
@@ -189,9 +189,10 @@ def _saved(chart: Chart, **how: Any) -> bytes:
         axes.set_ylabel(_text(chart.y.label + (f", heights x {times}" if times > 1 else ""), 50))
         _ticks(axes.xaxis, chart.x.logarithmic, x, width)
         _ticks(axes.yaxis, chart.y.logarithmic, y, height)
-        if chart.y.names:
-            axes.set_yticks(range(len(chart.y.names)), [_text(each, 26) for each in chart.y.names])
-            axes.grid(False, axis="y")
+        for axis, names, tilt in ((axes.xaxis, chart.x.names, 25), (axes.yaxis, chart.y.names, 0)):
+            if names:
+                axis.set_ticks(range(len(names)), [_text(each, 26) for each in names], rotation=tilt, ha="right")
+                axes.grid(False, axis=axis.axis_name)
         if chart.field:
             _draw_field(axes, chart.field, _dot_size(chart, width * height))
         colours = list(_looks(chart))

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ..frames import Frame
@@ -11,9 +12,15 @@ from .points import stride_of
 
 
 def runouts(run: Run) -> Figure:
-    """Runout against transfer time, one line per variant, with what is known of each value: its error, a lower bound, questionable."""
-    return Figure("runout_against_transfer_time", Chart(f"Runout of {run.name}", Axis("transfer time t_T [s]"), Axis("runout [m]"),
-                                                        runout_series(run.results)))
+    """Runout against transfer time, one line per variant, with what is known of each value: its error, a lower bound, questionable.
+    Of a study without transfers the runout of each variant."""
+    rows = [row for row in run.results if row.get("runout") is not None]
+    title, y = f"Runout of {run.name}", Axis("runout [m]")
+    if not rows or any(row.get("transfer_time") is not None for row in rows):
+        return Figure("runout_against_transfer_time", Chart(title, Axis("transfer time t_T [s]"), y, runout_series(rows)))
+    names = [str(row.get("variant") or run.name) for row in rows]
+    series = [replace(each, style="points") for each in runout_series({**row, "variant": "", "transfer_time": k} for k, row in enumerate(rows))]
+    return Figure("runout_of_variants", Chart(title, Axis("variant", names=names), y, series))
 
 
 def runout_series(rows: Iterable[dict[str, Any]]) -> list[Series]:
