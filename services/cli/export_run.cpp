@@ -9,6 +9,7 @@
 #include "core/exchange/publish.hpp"
 #include "core/scene/file_paths.hpp"
 #include "services/cli/logs.hpp"
+#include "services/cli/new_scene.hpp"
 #include "services/cli/table.hpp"
 #include "services/cli/views.hpp"
 
@@ -20,12 +21,6 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 
 namespace {
-
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw IoError(folder.string() + ": cannot be made: " + error.message());
-}
 
 /// The folder must be new, empty, or contain an earlier export of the same run.
 void claim(const fs::path& folder, const std::string& run) {

@@ -109,7 +109,7 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
             : json{{"title", "What is wrong with " + options.drawing.filename().string()}};
     const drawing::Draft draft{{shown, {}, ""}, std::move(imported.sketch), imported.faults};
     if (!options.picture.empty() && drawing::can_be_drawn(draft))
-        write({{options.picture, drawing::as_svg(draft, {})}});
+        write_files({{options.picture, drawing::as_svg(draft, {})}});
     if (!imported.faults.empty())
         throw fault::BadInput(options.drawing.string(), std::move(imported.faults));
     // The scene itself is not among the files that are protected: --output names it, and a drawing
@@ -117,7 +117,7 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
     Files files = beside(options.output, imported);
     if (!options.force) refuse_to_overwrite(files, "breach import");
     files[options.output] = imported.scene.dump(1) + "\n";
-    write(files);
+    write_files(files);
     if (shown_as_json(imported.report, console)) return ExitCode::done;
     for (const std::string& each : importing::lines_of(imported.report, most_lines))
         console.notes << each << "\n";

@@ -106,17 +106,20 @@ templates::Made made_of(const NewOptions& chosen, const json& options) {
 
 }  // namespace
 
-/// All at once, before the first file is written.
-void write(const Files& files) {
+void make_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
+}
+
+void write_files(const Files& files) {
     for (const auto& [path, text] : files) {
-        const std::filesystem::path folder = path.parent_path();
-        std::error_code error;
-        if (!folder.empty()) std::filesystem::create_directories(folder, error);
-        if (error) throw fault::IoError(folder.string() + ": cannot be made: " + error.message());
+        if (path.has_parent_path()) make_folder(path.parent_path());
         exchange::publish_text(path, text);
     }
 }
 
+/// All at once, before the first file is written.
 void refuse_to_overwrite(const Files& files, const std::string& command) {
     std::vector<fault::Fault> faults;
     for (const auto& [path, text] : files)
@@ -167,7 +170,7 @@ ExitCode make_new(const NewOptions& chosen, const Console& console) {
     if (!made.motion.empty()) files[folder / "motion.csv"] = made.motion;
     // After make(): wrong options are reported even where the files exist.
     if (!chosen.force) refuse_to_overwrite(files, "breach new");
-    write(files);
+    write_files(files);
     json written = json::array();
     for (const auto& [path, text] : files) written.push_back(path.string());
     if (shown_as_json(

@@ -22,8 +22,11 @@ struct NewOptions {
 
 using Files = std::map<std::filesystem::path, std::string>;  ///< texts to write
 
+/// With its parents. Throws IoError.
+void make_folder(const std::filesystem::path& folder);
+
 /// Makes folders that are missing.
-void write(const Files& files);
+void write_files(const Files& files);
 
 /// Throws BadInput with every file that exists.
 void refuse_to_overwrite(const Files& files, const std::string& command);
