@@ -3,11 +3,11 @@
 #include "services/outflow/hec_ras.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/fault/fault.hpp"
+#include "core/geometry/polygon.hpp"
 #include "core/words/number.hpp"
 #include "services/outflow/exports.hpp"
 
@@ -32,12 +32,10 @@ std::optional<double> flowing_strength(const json& soil) {
 }
 
 double area_of(const json& ring) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const json &a = ring[i], &b = ring[(i + 1) % ring.size()];
-        twice += a[0].get<double>() * b[1].get<double>() - b[0].get<double>() * a[1].get<double>();
-    }
-    return 0.5 * std::abs(twice);
+    geometry::Polygon polygon;
+    for (const json& each : ring)
+        polygon.emplace_back(each[0].get<double>(), each[1].get<double>());
+    return geometry::area(polygon);
 }
 
 /// A field of eight characters, of which HEC-RAS reads ten per line.

@@ -43,7 +43,7 @@ arrows = {
     "services/earthquake": {"core/geometry", "core/mechanics", "core/motion", "core/words"},
     "services/templates": {"services/earthquake", "core/fault", "core/geometry", "core/scene", "core/words"},
     "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
-    "services/outflow": {"core/exchange", "core/fault", "core/phases", "core/statistics", "core/words"},
+    "services/outflow": {"core/exchange", "core/fault", "core/geometry", "core/phases", "core/statistics", "core/words"},
     "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/outflow", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/templates", "core/check", "core/command", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
