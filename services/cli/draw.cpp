@@ -86,8 +86,8 @@ Preview preview_of(Server& server, const json& document, const drawing::Draft& d
     } catch (const Refused& refused) {
         if (std::ranges::none_of(refused.faults(), is_about_a_file)) faults = refused.faults();
     }
-    json cost =
-        estimate::as_json(estimate::cost_of(draft.scene, mesh), estimate::repeats_of(document));
+    const std::vector<estimate::PhaseCost> costs = estimate::cost_of(draft.scene, mesh);
+    json cost = estimate::as_json(costs, estimate::study_cost_of(costs, document));
     cost["warnings"] = warnings_of(draft);
     return {std::move(cost), std::move(faults)};
 }

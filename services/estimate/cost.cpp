@@ -1,6 +1,6 @@
 // The cost that `breach submit --dry-run`, `breach draw` and the study's page show before a run.
 // It counts instead of meshing, and multiplies by rates, so that the answer is there at once.
-// Earlier runs of this server correct the rates.
+// Earlier runs of the scene correct the rates.
 #include "services/estimate/cost.hpp"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 
 #include "core/phases/phases.hpp"
 #include "services/estimate/counts.hpp"
+#include "services/estimate/machine.hpp"
 
 namespace breach::estimate {
 
@@ -17,26 +18,22 @@ using nlohmann::json;
 
 namespace {
 
-// CPU seconds and bytes per unit of work, fitted to the runs of README.md in this folder. Another
-// machine is within the factor of two of all ranges, or `learn` corrects it.
+// CPU seconds and bytes per unit of work, fitted to runs on the reference machine: of the LEM 60
+// scenes, of the FEM 12, of the MPM 40.
 constexpr double start_up = 0.01;                  // of a program [s]
-constexpr double per_slice = 1.05e-7;              // [s]
+constexpr double per_slice = 1.2e-7;               // [s]
 constexpr double per_polyline_and_slice = 6.5e-7;  // [s]
 constexpr double per_element_step = 2.5e-6;        // iterations included [s]
 constexpr double softening_elements = 1200;        // with more, shear bands need more iterations
-constexpr double per_element_step_with_memory = 8e-6;  // PM4Sand with its pore water [s]
-constexpr double per_transferred_point = 4e-6;         // [s]
-constexpr double per_point_step = 5e-8;                // [s]
-constexpr double bytes_per_element = 600;              // of a snapshot
-constexpr double bytes_per_point = 210;                // of a whole state
-constexpr double bytes_per_framed_point = 20;          // of a frame with the usual fields
+constexpr double per_element_step_with_memory = 8e-6;     // PM4Sand with its pore water [s]
+constexpr double per_element_step_with_state = 2e-5;      // NorSand [s]
+constexpr double per_transferred_point = 4e-6;            // [s]
+constexpr double per_point_step = 7e-8, per_step = 4e-5;  // the second of grid and telemetry [s]
+constexpr double bytes_per_element = 600;                 // of a snapshot
+constexpr double bytes_per_point = 210;                   // of a whole state
+constexpr double bytes_per_framed_point = 20;             // of a frame with the usual fields
 constexpr double bytes_per_fem_line = 900, bytes_per_mpm_line = 250;  // of telemetry
 constexpr double bytes_beside = 5e4;                                  // result, scene, history
-/// Ranges are the middle divided and multiplied by fold.
-constexpr double fold = 2.0, widening_of_means = 1.5;
-
-Range around(double middle) { return {middle / fold, middle * fold}; }
-
 /// Output of the stages and samples of /lem; sensitivities and polylines are negligible.
 double lem_bytes(const scene::Lem& lem) {
     constexpr double per_stage = 8e3, per_number = 13.0;
@@ -54,9 +51,9 @@ PhaseCost lem_cost(const scene::Scene& scene) {
     const double circles = searches.surfaces * searches.stages;
     return {phases::lem.program,
             {{"surfaces", circles + searches.polylines}},
-            around(start_up + per_slice * searches.slices +
-                   per_polyline_and_slice * searches.polylines * lem.slices),
-            around(lem_bytes(lem)),
+            (start_up + per_slice * searches.slices +
+             per_polyline_and_slice * searches.polylines * lem.slices),
+            (lem_bytes(lem)),
             ""};
 }
 
@@ -64,19 +61,24 @@ PhaseCost lem_cost(const scene::Scene& scene) {
 /// each with a factorisation.
 double rate_of(const scene::Scene& scene, const MeshCounts& mesh) {
     const std::vector<double> elements = elements_of(scene);
-    double all = 0.0, with_memory = 0.0;
+    double all = 0.0, with_memory = 0.0, with_state = 0.0;
     bool softens = false;
     for (std::size_t r = 0; r < elements.size(); ++r) {
         const std::size_t material = scene.section.regions[r].material;
         if (material >= scene.materials.size()) continue;
         const materials::Law& law = scene.materials[material].law;
         all += elements[r];
-        if (materials::remembers(law)) with_memory += elements[r];
+        if (materials::has_state_parameter(law))
+            with_state += elements[r];
+        else if (materials::remembers(law))
+            with_memory += elements[r];
         if (materials::softening(law) != nullptr) softens = true;
     }
-    const double share = all > 0.0 ? with_memory / all : 0.0;
+    if (all == 0.0) return per_element_step;
     const double bands = softens ? std::max(1.0, mesh.elements / softening_elements) : 1.0;
-    return share * per_element_step_with_memory + (1.0 - share) * bands * per_element_step;
+    return (with_state * per_element_step_with_state + with_memory * per_element_step_with_memory +
+            (all - with_state - with_memory) * bands * per_element_step) /
+           all;
 }
 
 MeshCounts mesh_of(const scene::Scene& scene) {
@@ -95,17 +97,17 @@ PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool count
             {{counted ? "elements" : "elements, about", mesh.elements},
              {"unknowns, about", unknowns},
              {"steps", steps.steps}},
-            around(start_up + rate_of(scene, mesh) * mesh.elements * steps.steps),
-            around(bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
-                   bytes_per_fem_line * lines),
+            (start_up + rate_of(scene, mesh) * mesh.elements * steps.steps),
+            (bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
+             bytes_per_fem_line * lines),
             ""};
 }
 
 PhaseCost transfer_cost(double points) {
     return {phases::transfer.program,
             {{"points, about", points}},
-            around(2.0 * start_up + per_transferred_point * points),
-            around(0.5 * bytes_beside + bytes_per_point * points),
+            (2.0 * start_up + per_transferred_point * points),
+            (0.5 * bytes_beside + bytes_per_point * points),
             ""};
 }
 
@@ -121,8 +123,8 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
             {{"points, about", points},
              {"steps, about", steps},
              {mpm.until_rest ? "seconds until rest, about" : "seconds of flow", duration}},
-            around(start_up + per_point_step * points * steps),
-            around(bytes_beside + per_point * points + bytes_per_mpm_line * lines),
+            (start_up + (per_step + per_point_step * points) * steps),
+            (bytes_beside + per_point * points + bytes_per_mpm_line * lines),
             ""};
 }
 
@@ -134,7 +136,7 @@ std::string counted(double value) {
 }
 
 /// Two significant digits, with thousands separators: "5,500".
-/// Two digits: more would promise what a factor of two in the range denies.
+/// Two digits: more would promise what the range denies.
 std::string number(double value) {
     const double size = std::abs(value);
     const double unit = size > 0.0 ? std::pow(10.0, std::floor(std::log10(size)) - 1.0) : 1.0;
@@ -146,52 +148,31 @@ std::string number(double value) {
     return counted(std::round(value / unit) * unit);
 }
 
-std::string range(const Range& value, double unit, const char* name) {
-    return number(value.low / unit) + " to " + number(value.high / unit) + " " + name;
+/// "4 CPU min (2.4 to 6.8)"
+std::string range(double likely, double unit, const std::string& name) {
+    const Range all = range_around(likely / unit);
+    return number(likely / unit) + " " + name + " (" + number(all.low) + " to " + number(all.high) +
+           ")";
 }
 
-std::string time_of(const Range& seconds) {
-    if (seconds.high < 120.0) return range(seconds, 1.0, "CPU s");
-    if (seconds.high < 4.0 * 3600.0) return range(seconds, 60.0, "CPU min");
-    return range(seconds, 3600.0, "CPU h");
+/// kind: "CPU ", or "" for time by the clock.
+std::string time_of(double seconds, const std::string& kind) {
+    if (seconds < 90.0) return range(seconds, 1.0, kind + "s");
+    if (seconds < 3.0 * 3600.0) return range(seconds, 60.0, kind + "min");
+    return range(seconds, 3600.0, kind + "h");
 }
 
-std::string disk_of(const Range& bytes) {
-    return bytes.high < 2e9 ? range(bytes, 1e6, "MB") : range(bytes, 1e9, "GB");
+std::string disk_of(double bytes) {
+    return bytes < 1e9 ? number(bytes / 1e6) + " MB" : number(bytes / 1e9) + " GB";
 }
 
-/// How often a study runs the phase: least and most, because shared tasks are computed once.
-Range times_of(const std::string& phase, const Repeats& repeats) {
-    // The server has planned the study: shared and cached tasks are known, nothing is to be
-    // guessed.
-    if (!repeats.tasks.empty()) {
-        const auto planned = repeats.tasks.find(phase);
-        const double count = planned == repeats.tasks.end() ? 0.0 : planned->second;
-        return {count, count};
-    }
-    const bool per_runout = phase == phases::transfer.program || phase == phases::mpm.program;
-    if (per_runout) return {repeats.runouts, repeats.runouts};
-    return {1.0, phase == phases::fem.program ? repeats.variants : 1.0};
-}
-
-struct Sum {
-    Range cpu_seconds{0.0, 0.0}, bytes{0.0, 0.0};
-};
-/// A phase that runs many times gets the range of the mean: single runs scatter, their sum less so.
-/// Lows and highs are added: the error of a rate is the same in all runs and does not average out.
-Sum sum_of(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
-    Sum sum;
-    for (const PhaseCost& each : costs) {
-        const Range times = times_of(each.phase, repeats);
-        const bool many = times.low > 1.0;
-        const Range& cpu_seconds = many ? each.mean_cpu_seconds : each.cpu_seconds;
-        const Range& bytes = many ? each.mean_bytes : each.bytes;
-        sum.cpu_seconds.low += times.low * cpu_seconds.low;
-        sum.cpu_seconds.high += times.high * cpu_seconds.high;
-        sum.bytes.low += times.low * bytes.low;
-        sum.bytes.high += times.high * bytes.high;
-    }
-    return sum;
+/// With what a task takes beside its CPU time: it is started, and its files are stored.
+double wall_seconds(const StudyCost& all) {
+    constexpr double per_run = 1.0, per_task = 0.2;
+    double tasks = 0.0;
+    for (const auto& [phase, count] : all.tasks) tasks += count;
+    const double beside = per_run + per_task * tasks / all.workers;
+    return std::max(all.cpu_seconds / all.workers, all.longest) + beside;
 }
 
 /// Of "transfer_times" as the author wrote them, checked or not: anything unreadable counts as one.
@@ -209,7 +190,10 @@ double length_of(const json& times) {
 
 }  // namespace
 
-double Range::middle() const { return std::sqrt(low * high); }
+Range range_around(double likely) {
+    constexpr double fold = 1.7;
+    return {likely / fold, likely * fold};
+}
 
 /// The transfer exists only between a FEM and a runout; a scene without a FEM is filled with
 /// points.
@@ -222,73 +206,77 @@ std::vector<PhaseCost> cost_of(const scene::Scene& scene, const std::optional<Me
     if (scene.fem && scene.transfer && scene.mpm) costs.push_back(transfer_cost(points));
     if (scene.mpm) costs.push_back(mpm_cost(scene, points));
     for (PhaseCost& each : costs) {
-        each.mean_cpu_seconds = each.cpu_seconds;
-        each.mean_bytes = each.bytes;
+        each.cpu_seconds *= slowness();
         each.basis = "by the scene alone";
     }
     return costs;
 }
 
-/// Ratios, not times, so that a run of another size of the same scene teaches as well.
+/// Ratios, not times, so that a run of another size of the same scene teaches as well. The median:
+/// soil that stands costs a tenth of soil that flows.
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier) {
+    const auto median = [](std::vector<double> ratios) {
+        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+        std::ranges::nth_element(ratios, middle);
+        return *middle;
+    };
     for (PhaseCost& cost : costs) {
-        std::vector<const Earlier*> all, same;
+        std::vector<double> cpu, bytes;
         for (const Earlier& each : earlier) {
-            if (each.phase != cost.phase || each.cpu_ratio <= 0.0) continue;
-            all.push_back(&each);
-            if (each.scene == scene) same.push_back(&each);
+            if (each.phase != cost.phase || each.scene != scene || each.cpu_ratio <= 0.0) continue;
+            cpu.push_back(each.cpu_ratio);
+            // A run without stored files still teaches its time.
+            if (each.bytes_ratio > 0.0) bytes.push_back(each.bytes_ratio);
         }
-        const std::vector<const Earlier*>& used = same.empty() ? all : same;
-        if (used.empty()) continue;
-        const double widening = same.empty() ? fold : used.size() > 1 ? 1.25 : 1.5;
-        const auto moved = [&](const Range& range, double Earlier::*ratio) {
-            const auto [low, high] =
-                std::ranges::minmax(used, {}, [&](const Earlier* each) { return each->*ratio; });
-            return Range{range.middle() * (low->*ratio) / widening,
-                         range.middle() * (high->*ratio) * widening};
-        };
-        const auto mean = [&](const Range& range, double Earlier::*ratio) {
-            double sum = 0.0;
-            for (const Earlier* each : used) sum += each->*ratio;
-            const double middle = range.middle() * sum / static_cast<double>(used.size());
-            const double factor = same.empty() ? fold : widening_of_means;
-            return Range{middle / factor, middle * factor};
-        };
-        cost.mean_cpu_seconds = mean(cost.cpu_seconds, &Earlier::cpu_ratio);
-        cost.cpu_seconds = moved(cost.cpu_seconds, &Earlier::cpu_ratio);
-        // A run without stored files still teaches its time.
-        const bool sized =
-            std::ranges::all_of(used, [](const Earlier* each) { return each->bytes_ratio > 0.0; });
-        if (sized) {
-            cost.mean_bytes = mean(cost.bytes, &Earlier::bytes_ratio);
-            cost.bytes = moved(cost.bytes, &Earlier::bytes_ratio);
-        }
-        cost.basis = "by " + std::to_string(used.size()) +
-                     (used.size() == 1 ? " earlier run" : " earlier runs") +
-                     (same.empty() ? " of other scenes" : " of this scene");
+        if (cpu.empty()) continue;
+        cost.basis = "by " + std::to_string(cpu.size()) +
+                     (cpu.size() == 1 ? " earlier run" : " earlier runs") + " of this scene";
+        cost.cpu_seconds *= median(std::move(cpu));
+        if (!bytes.empty()) cost.bytes *= median(std::move(bytes));
     }
 }
 
-/// Reads a document that may still have faults, as the page shows a cost while it is written.
-Repeats repeats_of(const json& document) {
-    Repeats repeats;
-    if (!document.is_object() || !document.contains("scene")) return repeats;
-    if (const auto list = document.find("variants"); list != document.end() && list->is_array())
-        repeats.variants = std::max<double>(1.0, static_cast<double>(list->size()));
-    if (const auto draws = document.find("draws"); draws != document.end() && draws->is_number())
-        repeats.variants *= std::max(1.0, draws->get<double>());
-    if (const auto entry = document.find("uncertainty");
-        entry != document.end() && entry->is_object() && entry->contains("samples") &&
-        entry->at("samples").is_number())
-        repeats.variants = std::max(1.0, entry->at("samples").get<double>());
-    repeats.runouts = repeats.variants;
-    if (const auto times = document.find("transfer_times"); times != document.end())
-        repeats.runouts *= std::max(1.0, length_of(*times));
-    return repeats;
+double StudyCost::add(const PhaseCost& task, double before) {
+    ++tasks[task.phase];
+    cpu_seconds += task.cpu_seconds;
+    bytes += task.bytes;
+    longest = std::max(longest, before + task.cpu_seconds);
+    return before + task.cpu_seconds;
 }
 
-std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
+/// Reads a document that may still have faults, as the page shows a cost while it is written.
+StudyCost study_cost_of(const std::vector<PhaseCost>& costs, const json& document) {
+    double variants = 1.0, times = 1.0;
+    if (document.is_object() && document.contains("scene")) {
+        const auto number_in = [](const json& within, const char* name) {
+            const auto found = within.find(name);
+            const bool counts = found != within.end() && found->is_number();
+            return counts ? std::max(1.0, found->get<double>()) : 1.0;
+        };
+        if (const auto list = document.find("variants"); list != document.end() && list->is_array())
+            variants = std::max(1.0, static_cast<double>(list->size()));
+        variants *= number_in(document, "draws");
+        if (const auto entry = document.find("uncertainty");
+            entry != document.end() && entry->is_object() && entry->contains("samples"))
+            variants = number_in(*entry, "samples");
+        if (const auto found = document.find("transfer_times"); found != document.end())
+            times = std::max(1.0, length_of(*found));
+    }
+    StudyCost all;
+    for (const PhaseCost& each : costs) {
+        const bool per_runout =
+            each.phase == phases::transfer.program || each.phase == phases::mpm.program;
+        const double count = variants * (per_runout ? times : 1.0);
+        all.tasks[each.phase] = count;
+        all.cpu_seconds += count * each.cpu_seconds;
+        all.bytes += count * each.bytes;
+        if (each.phase != phases::lem.program) all.longest += each.cpu_seconds;
+    }
+    return all;
+}
+
+std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const StudyCost& all) {
     std::vector<std::string> lines;
     for (const PhaseCost& each : costs) {
         std::string line = each.phase + ": ";
@@ -298,21 +286,25 @@ std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Rep
                         ? counted(count) + " " + what + ", "
                         : "about " + number(count) + " " + what.substr(0, about) + ", ";
         }
-        lines.push_back(line + time_of(each.cpu_seconds) + ", " + disk_of(each.bytes) + " (" +
-                        each.basis + ")");
+        lines.push_back(line + time_of(each.cpu_seconds, "CPU ") + ", " + disk_of(each.bytes) +
+                        " (" + each.basis + ")");
     }
     if (costs.empty()) return {"Cost: the scene asks for no phase"};
-    const Sum sum = sum_of(costs, repeats);
-    std::string all = "All";
-    if (repeats.tasks.empty() && repeats.runouts > 1.0)
-        all += ", with " + counted(repeats.runouts) + " runouts";
-    for (const auto& [phase, count] : repeats.tasks) all += ", " + counted(count) + " " + phase;
-    lines.push_back(all + ": " + time_of(sum.cpu_seconds) + ", " + disk_of(sum.bytes));
+    std::string sum = "All";
+    for (const auto& [phase, count] : all.tasks) sum += ", " + counted(count) + " " + phase;
+    sum += ": " + time_of(all.cpu_seconds, "CPU ");
+    if (all.workers > 1)
+        sum += ", " + time_of(wall_seconds(all), "") + " on " + std::to_string(all.workers) +
+               " workers";
+    lines.push_back(sum + ", " + disk_of(all.bytes));
     return lines;
 }
 
-json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
-    const auto both = [](const Range& range) { return json::array({range.low, range.high}); };
+json as_json(const std::vector<PhaseCost>& costs, const StudyCost& all) {
+    const auto both = [](double likely) {
+        const Range range = range_around(likely);
+        return json::array({range.low, range.high});
+    };
     json phases = json::array();
     for (const PhaseCost& each : costs) {
         json counts = json::object();
@@ -324,13 +316,13 @@ json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats) {
                           {"bytes", both(each.bytes)},
                           {"basis", each.basis}});
     }
-    const Sum sum = sum_of(costs, repeats);
     json answer{{"phases", phases},
-                {"runouts", repeats.runouts},
-                {"cpu_seconds", both(sum.cpu_seconds)},
-                {"bytes", both(sum.bytes)},
-                {"lines", lines_of(costs, repeats)}};
-    for (const auto& [phase, count] : repeats.tasks) answer["tasks"][phase] = std::llround(count);
+                {"tasks", json::object()},
+                {"cpu_seconds", both(all.cpu_seconds)},
+                {"wall_seconds", both(wall_seconds(all))},
+                {"bytes", both(all.bytes)},
+                {"lines", lines_of(costs, all)}};
+    for (const auto& [phase, count] : all.tasks) answer["tasks"][phase] = std::llround(count);
     return answer;
 }
 

@@ -1,5 +1,5 @@
-// Estimates the cost of a scene before a run: problem size, CPU seconds and bytes of each phase, as
-// ranges. Uses the scene, its mesh if there is one, and earlier runs if there are any. Called for
+// Estimates the cost of a scene before a run: problem size, CPU seconds and bytes of each phase.
+// Uses the scene, its mesh if there is one, and earlier runs if there are any. Called for
 // previews and by `breach draw`; the dispatcher does not ask it.
 #pragma once
 
@@ -14,10 +14,11 @@
 
 namespace breach::estimate {
 
+/// What is shown of a forecast: its likeliest value divided and multiplied by 1.7.
 struct Range {
     double low, high;
-    double middle() const;  ///< geometric
 };
+Range range_around(double likely);
 
 /// Size of an existing mesh.
 struct MeshCounts {
@@ -25,19 +26,17 @@ struct MeshCounts {
     double nodes;
 };
 
-/// One run of one phase.
+/// One run of one phase, as it is likely.
 struct PhaseCost {
     std::string phase;                                   ///< its program
     std::vector<std::pair<std::string, double>> counts;  ///< "elements" and their number
-    Range cpu_seconds;                                   ///< [s]
-    Range bytes;                                         ///< on disk
-    std::string basis;                                   ///< where the ranges come from
-    Range mean_cpu_seconds = {0.0, 0.0};                 ///< mean over many such runs [s]
-    Range mean_bytes = {0.0, 0.0};
+    double cpu_seconds;                                  ///< on this machine [s]
+    double bytes;                                        ///< on disk
+    std::string basis;                                   ///< what the forecast rests on
 };
 
-/// Cost of every phase in the scene. Ranges reach from half to twice the likeliest value. The time
-/// until soil rests is guessed from its height and from whether it keeps friction.
+/// Cost of every phase in the scene, at the speed of this machine (machine.hpp). The time until
+/// soil rests is guessed from its height and its strength after softening.
 std::vector<PhaseCost> cost_of(const scene::Scene& scene,
                                const std::optional<MeshCounts>& mesh = {});
 
@@ -46,30 +45,33 @@ std::vector<PhaseCost> cost_of(const scene::Scene& scene,
 struct Earlier {
     std::string phase;
     std::string scene;  ///< its name
-    double cpu_ratio;   ///< over the middle of the range
+    double cpu_ratio;
     double bytes_ratio;
 };
 
-/// Scales the ranges by the least and the largest ratio of earlier runs. Runs of a scene of the
-/// same name come first: widened by a quarter, or by half for a single run. Otherwise other scenes
-/// count, widened by a factor of two. The mean of many runs uses the mean ratio, widened by half.
-/// Phases without earlier runs are unchanged.
+/// Multiplies by the median ratio of earlier runs of the scene. Those of other scenes teach nothing:
+/// the speed of the machine is measured, and what else differs is the scene.
 void learn(std::vector<PhaseCost>& costs, const std::string& scene,
            const std::vector<Earlier>& earlier);
 
-/// How often a study runs each phase, from its document: repeats, variants (or samples) and
-/// transfer times multiplied, without tasks from triggers.
-struct Repeats {
-    double runouts = 1.0;
-    double variants = 1.0;
-    std::map<std::string, double> tasks = {};  ///< by phase, exact where tasks are planned
+/// All that a study asks for.
+struct StudyCost {
+    std::map<std::string, double> tasks = {};  ///< by phase
+    double cpu_seconds = 0.0;
+    double longest = 0.0;  ///< CPU seconds of the tasks that wait for each other
+    double bytes = 0.0;
+    unsigned workers = 1;  ///< that share the tasks
+
+    /// One task; before: CPU seconds of what it waits for. Returns those with its own.
+    double add(const PhaseCost& task, double before);
 };
-/// For a study, checked or not; 1 for any other document.
-Repeats repeats_of(const nlohmann::json& document);
+/// For a document without a server, checked or not: repeats, variants (or samples) and transfer
+/// times multiplied. 1 for any other document.
+StudyCost study_cost_of(const std::vector<PhaseCost>& costs, const nlohmann::json& document);
 
 /// One text line per phase, and their sum.
-std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Repeats& repeats);
+std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const StudyCost& all);
 /// Includes lines_of.
-nlohmann::json as_json(const std::vector<PhaseCost>& costs, const Repeats& repeats);
+nlohmann::json as_json(const std::vector<PhaseCost>& costs, const StudyCost& all);
 
 }  // namespace breach::estimate

@@ -23,9 +23,9 @@ double snapshots_of(const scene::Fem& fem);
 /// Material points of the transfer, or of the filled section without a FEM.
 double points_of(const scene::Scene& scene, double elements);
 
-/// Duration of a runout that ends at rest [s]: 7 sqrt(H / g), or 75 sqrt(H / g) where soil can flow
-/// that keeps no friction after softening or liquefaction; limited by the earliest rest and the
-/// longest duration.
+/// Duration of a runout that ends at rest [s]: the longer the less strength the soil keeps after
+/// softening or liquefaction, from 7 sqrt(H / g) on; limited by the earliest rest and the longest
+/// duration.
 double runout_duration(const scene::Scene& scene);
 /// Time step from the Courant number and the fastest wave speed of all soils [s].
 double runout_step(const scene::Scene& scene);

@@ -15,8 +15,9 @@ namespace {
 using estimate::Earlier;
 using Found = std::optional<Earlier>;  // nothing: the task has no usable cost
 
-/// Newer runs resemble the next one, and each costs an estimate of its scene.
-constexpr std::size_t newest_runs = 8, tasks_of_a_phase = 8;
+/// Enough to find the last runs of a scene behind those of others; each costs an estimate of its
+/// scene.
+constexpr std::size_t newest_runs = 30, tasks_of_a_phase = 4;
 
 double bytes_of(const Store& store, const std::string& task) {
     double sum = 0.0;
@@ -34,8 +35,8 @@ Found earlier_of(const Store& store, const Task& task, const std::string& run_sc
     for (const estimate::PhaseCost& each : estimate::cost_of(reading.scene))
         if (each.phase == task.phase)
             return Earlier{task.phase, reading.scene.name,
-                           cpu->get<double>() / each.cpu_seconds.middle(),
-                           bytes_of(store, task.id) / each.bytes.middle()};
+                           cpu->get<double>() / each.cpu_seconds,
+                           bytes_of(store, task.id) / each.bytes};
     return std::nullopt;
 }
 

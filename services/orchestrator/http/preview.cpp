@@ -4,9 +4,13 @@
 #include "services/orchestrator/http/preview.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <string_view>
 
 #include "core/phases/phases.hpp"
+#include "core/scene/reading.hpp"
 #include "core/scene/schema.hpp"
 #include "core/words/number.hpp"
 #include "services/drawing/mesh_question.hpp"
@@ -74,28 +78,100 @@ Judged judged(const Service& service, const json& document, const drawing::Draft
     }
 }
 
-/// With what this server's earlier runs say of its rates.
-std::vector<estimate::PhaseCost> cost_here(const Service& service, const scene::Scene& scene,
-                                           const std::optional<estimate::MeshCounts>& mesh = {}) {
-    std::vector<estimate::PhaseCost> costs = estimate::cost_of(scene, mesh);
-    estimate::learn(costs, scene.name, service.earlier_costs.of(service.store));
-    return costs;
+/// Of scenes, with what this server's earlier runs of the same scene say.
+class CostsHere {
+  public:
+    explicit CostsHere(const Service& service)
+        : earlier_(service.earlier_costs.of(service.store)) {}
+
+    std::vector<estimate::PhaseCost> of(
+        const scene::Scene& scene, const std::optional<estimate::MeshCounts>& mesh = {}) const {
+        std::vector<estimate::PhaseCost> costs = estimate::cost_of(scene, mesh);
+        estimate::learn(costs, scene.name, earlier_);
+        return costs;
+    }
+
+  private:
+    std::vector<estimate::Earlier> earlier_;
+};
+
+/// Costs of a study's scene with a task's overrides, each read once.
+class CostsOfTasks {
+  public:
+    CostsOfTasks(const CostsHere& here, const Study& study)
+        : here_(here), scene_(study.scene.dump()) {}
+
+    /// Of its phase; the stability analysis after the shaking counts as the one before it.
+    const estimate::PhaseCost* of(const TaskPlan& task) {
+        const std::vector<estimate::PhaseCost>& costs = read(task.overrides);
+        const std::string& program =
+            task.phase == phases::post_seismic.program ? phases::lem.program : task.phase;
+        const auto found = std::ranges::find(costs, program, &estimate::PhaseCost::phase);
+        return found == costs.end() ? nullptr : &*found;
+    }
+
+  private:
+    const std::vector<estimate::PhaseCost>& read(const std::vector<std::string>& overrides) {
+        // Beyond these, samples cost on the mean what the first ones do.
+        constexpr std::size_t most_scenes = 40;
+        const auto known = known_.find(overrides);
+        if (known != known_.end()) return known->second;
+        if (known_.size() >= most_scenes)
+            return std::next(known_.begin(), static_cast<std::ptrdiff_t>(turn_++ % known_.size()))
+                ->second;
+        const scene::Reading reading = scene::read_text(scene_, "scene", "/", overrides);
+        return known_.emplace(overrides, here_.of(reading.scene)).first->second;
+    }
+
+    const CostsHere& here_;
+    std::string scene_;
+    std::map<std::vector<std::string>, std::vector<estimate::PhaseCost>> known_;
+    std::size_t turn_ = 0;
+};
+
+/// The tasks that a study without faults asks for; of an uncertainty study with all requested
+/// samples, where tasks that samples share count once.
+estimate::StudyCost study_cost_here(const Service& service, json document, const CostsHere& here) {
+    if (document.contains("uncertainty")) {
+        json& entry = document["uncertainty"];
+        if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
+    }
+    const Study study = sent_study(std::move(document), service);
+    const TaskGraph graph = plan_tasks(study, service.numerics);
+    CostsOfTasks costs(here, study);
+    estimate::StudyCost all{.workers = static_cast<unsigned>(service.dispatcher.settings().slots)};
+    // known: of tasks that are counted already.
+    const auto add = [&](const std::vector<TaskPlan>& tasks, std::string_view known) {
+        std::vector<double> ends;  // CPU seconds until each is over; parents come first
+        for (const TaskPlan& each : tasks) {
+            const double before = each.parent ? ends.at(*each.parent) : 0.0;
+            const estimate::PhaseCost* cost = costs.of(each);
+            const bool counts = cost && each.phase != known;
+            ends.push_back(counts ? all.add(*cost, before)
+                                  : before + (cost ? cost->cpu_seconds : 0.0));
+        }
+    };
+    add(graph.tasks, "");
+    // Triggers add their transfers later: one per variant is the best guess.
+    if (!all.tasks.contains(phases::mpm.program)) add(graph.one_more_transfer, phases::fem.program);
+    return all;
 }
 
-/// Number of tasks of a study without faults; of an uncertainty study with all requested samples,
-/// where tasks that samples share count once.
-estimate::Repeats repeats_here(const Service& service, json document) {
-    estimate::Repeats repeats = estimate::repeats_of(document);
-    if (!document.is_object() || !document.contains("uncertainty")) return repeats;
-    json& entry = document["uncertainty"];
-    if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
-    const TaskGraph graph = plan_tasks(sent_study(std::move(document), service), service.numerics);
-    for (const TaskPlan& each : graph.tasks) ++repeats.tasks[each.phase];
-    // Triggers add their transfers later: one per variant is the best guess.
-    if (!repeats.tasks.contains(phases::mpm.program))  // for triggers
-        for (const TaskPlan& each : graph.one_more_transfer)
-            if (each.phase != phases::fem.program) ++repeats.tasks[each.phase];
-    return repeats;
+struct Forecast {
+    std::vector<estimate::PhaseCost> phases;
+    estimate::StudyCost all;
+
+    std::vector<std::string> lines() const { return estimate::lines_of(phases, all); }
+    json as_json() const { return estimate::as_json(phases, all); }
+};
+
+Forecast forecast(const Service& service, const json& document, const drawing::Draft& draft,
+                  const std::optional<estimate::MeshCounts>& mesh = {}) {
+    const CostsHere here(service);
+    std::vector<estimate::PhaseCost> phases = here.of(draft.scene, mesh);
+    estimate::StudyCost all = is_study(draft) ? study_cost_here(service, document, here)
+                                              : estimate::study_cost_of(phases, document);
+    return {std::move(phases), std::move(all)};
 }
 
 drawing::DrawnMesh mesh_here(const Service& service, const drawing::Draft& draft) {
@@ -125,8 +201,7 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
                   static_cast<double>(additions.mesh->nodes.size())};
     }
     if (additions.faults.empty())
-        additions.foot = estimate::lines_of(cost_here(service, draft.scene, counts),
-                                            repeats_here(service, document));
+        additions.foot = forecast(service, document, draft, counts).lines();
     return drawing::as_svg(draft, additions);
 }
 
@@ -136,7 +211,7 @@ json cost_of(const Service& service, const std::string& body) {
     std::vector<fault::Flag> warnings = draft.scene.warnings;
     if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or throws its faults
     if (!draft.faults.empty()) throw refusal_of(draft, {});
-    json cost = estimate::as_json(cost_here(service, draft.scene), repeats_here(service, document));
+    json cost = forecast(service, document, draft).as_json();
     cost["warnings"] = fault::as_json(warnings);
     return cost;
 }

@@ -19,6 +19,6 @@ async function fill(name, picture, minutes, read) {
     const study = await read();
     const scene = scene_of(study);
     picture.show({ ...overlay_of(scene), water: water_of(scene), gauges: [], slip: [], says: `section of ${name}` });
-    const { cpu_seconds: [low, high] } = await (estimate = estimate.catch(() => {}).then(() => api.cost_of(JSON.stringify(study))));
-    set_text(minutes, high < 60 ? "less than a minute" : `${number(low / 60, 1)} to ${number(high / 60, 1)} minutes on one core`);
+    const { wall_seconds: [low, high] } = await (estimate = estimate.catch(() => {}).then(() => api.cost_of(JSON.stringify(study))));
+    set_text(minutes, high < 60 ? "less than a minute" : `${number(low / 60, 1)} to ${number(high / 60, 1)} minutes`);
 }
