@@ -60,6 +60,24 @@ double rounded(double x, double length) {
     return std::round(x / step) * step;
 }
 
+/// Without the points that lie within `off` of the straight line between those kept.
+std::vector<Vec2> cornered(const std::vector<Vec2>& line, double off) {
+    std::vector<Vec2> corners;
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool is_end = i == 0 || i + 1 == line.size();
+        const auto strays = [&](const Vec2& each) {
+            return geometry::distance_to_segment(each, line[from], line[i + 1]) > off;
+        };
+        if (!is_end && std::none_of(line.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                                    line.begin() + static_cast<std::ptrdiff_t>(i) + 1, strays))
+            continue;
+        corners.push_back(line[i]);
+        from = i;
+    }
+    return corners;
+}
+
 }  // namespace
 
 geometry::Outlines outlines_of(const std::vector<Soil>& soils) {
@@ -70,13 +88,15 @@ geometry::Box box_of(const std::vector<Soil>& soils) {
     return geometry::extent(outlines_of(soils));
 }
 
-/// Pieces in one line: stretches without soil are straight between their ends.
+/// Pieces in one line: stretches without soil are straight between their ends. A border that
+/// reaches the face from inside is no corner of the ground: a crest would move to it.
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
+    constexpr double straight = 1e-3;  // m
     std::vector<Vec2> ground;
     for (const auto& piece : geometry::ground_between(outlines_of(soils), -everywhere, everywhere))
         ground.insert(ground.end(), piece.begin(), piece.end());
-    return ground;
+    return cornered(ground, straight);
 }
 
 /// Between all neighbouring corners, in the middle: there the order of the strata is the same
