@@ -14,7 +14,8 @@ struct Lines {
 
 struct Document {
     nlohmann::json scene;
-    nlohmann::json guessed;  ///< [{pointer, value, from}]
+    nlohmann::json study = nullptr;  ///< of static liquefaction, without the scene; else null
+    nlohmann::json guessed;          ///< [{pointer, value, from}]
     std::vector<std::string> remarks;
     std::optional<Slope> slope;
 };

@@ -1,0 +1,309 @@
+// What liquefies at rest is what lies below the phreatic line of the named regions. Its strength is
+// a profile by sigma'_v0, so that no layers by depth are needed; if there are any, the stability
+// analysis liquefies them one after the other. A user must give each residual strength with its
+// source: nothing else decides the runout as much.
+//
+// A pond is the phreatic line above the ground behind the crest. The scene is the dam without its
+// water in the runout; variants add the pond as drawn.
+#include "services/import/liquefy.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/mechanics/atmosphere.hpp"
+#include "core/words/list.hpp"
+#include "core/words/number.hpp"
+#include "services/earthquake/soils.hpp"
+#include "services/import/numbers.hpp"
+#include "services/import/shake.hpp"
+#include "services/templates/assembly.hpp"
+#include "services/templates/wet_fill.hpp"
+
+namespace breach::importing {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* form =
+    "REGION=0.08,SOURCE (share of sigma'_v0) or REGION=4kPa,SOURCE; a peak may stand between, as "
+    "REGION=0.08,0.27,SOURCE";
+
+/// Limits and usual values are those of the templates.
+const templates::Option& option(const char* name) {
+    return *std::ranges::find(templates::named("upstream_dam").options, name,
+                              &templates::Option::name);
+}
+
+std::optional<Undrained> undrained_in(std::string_view text) {
+    text = trimmed(text);
+    const bool in_kPa = lower(std::string(text)).ends_with("kpa");
+    if (in_kPa) text.remove_suffix(3);
+    const auto value = number_in(text);
+    if (!value) return std::nullopt;
+    return Undrained{*value, in_kPa};
+}
+
+std::string text_of(const Undrained& strength) {
+    return words::text_of(strength.value) + (strength.in_kPa ? " kPa" : " sigma'_v0");
+}
+
+/// Whether the strength is within the limits of this option of the templates; else a fault.
+bool is_sound(const Undrained& strength, const std::string& entry, const char* name,
+              std::vector<Fault>& faults) {
+    const templates::Option& ratio = option(name);
+    constexpr double most = 500.0;  // kPa
+    if (strength.in_kPa ? strength.value > 0.0 && strength.value <= most
+                        : strength.value >= ratio.least && strength.value <= ratio.most)
+        return true;
+    faults.push_back({"liquefied", "\"" + entry + "\": the strength is " + text_of(strength),
+                      "give " + words::text_of(ratio.least) + " to " + words::text_of(ratio.most) +
+                          " (share of sigma'_v0), or at most " + words::text_of(most) +
+                          " kPa, as 4kPa"});
+    return false;
+}
+
+/// Whether the request names this soil, whose name may be that of a part.
+bool means(const LiquefiedRequest& request, const Soil& soil) {
+    const std::string name = lower(request.region);
+    return name == lower(soil.name) || name == lower(soil.cut_from) || name == lower(soil.layer);
+}
+
+/// Those of the wet parts that are named.
+const LiquefiedRequest* request_of(const Soil& soil, const std::vector<LiquefiedRequest>& asked) {
+    const auto found =
+        std::ranges::find_if(asked, [&](const auto& each) { return means(each, soil); });
+    return soil.depth_layer > 0 && found != asked.end() ? &*found : nullptr;
+}
+
+json profile_of(const Undrained& strength) {
+    if (strength.in_kPa) return {{"type", "undrained"}, {"s_u_kPa", strength.value}};
+    return {{"type", "undrained_ratio"}, {"ratio", strength.value}, {"minimum_kPa", 1}};
+}
+
+/// The soil's own strength stays that of the stability analysis before it liquefies.
+json liquefied_of(const json& own, const LiquefiedRequest& request) {
+    const json& law = own.at("law");
+    json made = earthquake::undrained(earthquake::tailings, 0.0,
+                                      "liquefied: residual strength " + text_of(request.residual) +
+                                          ", source: " + request.source +
+                                          "; limit_strength is drained, before it liquefies");
+    made["density"] = own.at("density");
+    made["limit_strength"] = own.value(
+        "limit_strength", json{{"c_kPa", law.at("c_kPa")}, {"phi_deg", law.at("phi_deg")}});
+    made["law"]["E_MPa"] = law.at("E_MPa");
+    made["law"].erase("c_kPa");
+    made["law"].erase("phi_deg");
+    made["strength"] = {{"peak", profile_of(request.residual)},
+                        {"residual", profile_of(request.residual)}};
+    return made;
+}
+
+/// The phreatic line without what stands above the ground left of `until`.
+std::vector<Vec2> without_pond(const std::vector<Vec2>& line, const std::vector<Vec2>& ground,
+                               double until) {
+    std::set<double> xs{until};
+    for (const auto* each : {&line, &ground})
+        for (const Vec2& point : *each) xs.insert(point.x());
+    const auto above = [&](double x) {
+        return geometry::level_at(line, x) - geometry::level_at(ground, x);
+    };
+    std::vector<Vec2> lowered;
+    for (auto at = xs.begin(); at != xs.end(); ++at) {
+        if (at != xs.begin()) {
+            const double before = *std::prev(at), a = above(before), b = above(*at);
+            if (*at <= until && a * b < 0.0) {
+                const double x = before + (*at - before) * a / (a - b);
+                lowered.emplace_back(x, geometry::level_at(ground, x));
+            }
+        }
+        const double level = geometry::level_at(line, *at);
+        const bool is_behind = *at <= until && *at >= ground.front().x();
+        lowered.emplace_back(*at, is_behind ? level - std::max(above(*at), 0.0) : level);
+    }
+    return lowered;
+}
+
+bool has_pond(const std::vector<Vec2>& line, const std::vector<Vec2>& ground, double until) {
+    constexpr double least = 0.1;  // m: less is a line that was drawn along the ground
+    return std::ranges::any_of(ground, [&](const Vec2& each) {
+        return each.x() <= until && geometry::level_at(line, each.x()) - each.y() > least;
+    });
+}
+
+std::string assigned(const std::string& pointer, const json& value) {
+    return pointer + "=" + value.dump();
+}
+
+json joined(json some, const json& more) {
+    for (const json& each : more) some.push_back(each);
+    return some;
+}
+
+json points_of(const std::vector<Vec2>& line) {
+    json points = json::array();
+    for (const Vec2& each : line) points.push_back(as_json(each));
+    return points;
+}
+
+}  // namespace
+
+std::optional<LiquefiedRequest> liquefied_request_from(const std::string& entry,
+                                                       std::vector<Fault>& faults) {
+    const std::string shown = as_utf8(entry);
+    const auto refuse = [&](const std::string& cause) {
+        faults.push_back({"liquefied", "\"" + shown + "\" " + cause, std::string("write ") + form});
+        return std::nullopt;
+    };
+    const std::size_t split = shown.find('=');
+    if (split == std::string::npos || split == 0) return refuse("names no region with a strength");
+    std::string_view rest = std::string_view(shown).substr(split + 1);
+    const auto next = [&] {
+        const std::size_t comma = rest.find(',');
+        const std::string_view word = rest.substr(0, comma);
+        rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+        return word;
+    };
+    LiquefiedRequest request;
+    request.region = trimmed(std::string_view(shown).substr(0, split));
+    const auto residual = undrained_in(next());
+    if (!residual) return refuse("gives no residual strength");
+    request.residual = *residual;
+    if (const auto peak = undrained_in(rest.substr(0, rest.find(',')))) {
+        request.peak = peak;
+        next();
+    }
+    request.source = trimmed(rest);
+    if (request.source.empty()) return refuse("does not say where its strength is from");
+    if (!is_sound(request.residual, shown, "residual_ratio", faults) ||
+        (request.peak && !is_sound(*request.peak, shown, "peak_ratio", faults)))
+        return std::nullopt;
+    const Undrained peak = request.peak.value_or(Undrained{option("peak_ratio").value, false});
+    if (peak.in_kPa == request.residual.in_kPa && peak.value < request.residual.value)
+        return refuse("has a peak of " + text_of(peak) + ", below the residual strength");
+    return request;
+}
+
+Healed with_liquefied_parts(std::vector<Soil> soils, const std::vector<LiquefiedRequest>& asked,
+                            const std::vector<Vec2>& phreatic, double tolerance) {
+    Healed healed{std::move(soils), {}, {}, {}};
+    for (const LiquefiedRequest& request : asked) {
+        std::vector<std::string> whole;
+        for (const Soil& each : healed.soils)
+            if (means(request, each) && each.cut_from.empty()) whole.push_back(each.name);
+        for (const std::string& each : whole) {
+            Healed cut = with_layers(std::move(healed.soils), {each, {}}, phreatic, tolerance);
+            healed.soils = std::move(cut.soils);
+            std::ranges::move(cut.changes, std::back_inserter(healed.changes));
+            std::ranges::move(cut.faults, std::back_inserter(healed.faults));
+        }
+    }
+    return healed;
+}
+
+std::vector<Fault> faults_of_liquefying(const std::vector<LiquefiedRequest>& asked,
+                                        const std::vector<Soil>& soils, const Lines& lines,
+                                        const json& materials) {
+    std::vector<Fault> faults;
+    if (!has_phreatic(lines, faults)) return faults;
+    check_slope(slope_of(ground_of(soils)), "--liquefied", faults);
+    for (const LiquefiedRequest& request : asked) {
+        const auto is_meant = [&](const Soil& each) { return means(request, each); };
+        if (std::ranges::none_of(soils, is_meant))
+            faults.push_back({"liquefied", "there is no region \"" + request.region + "\"",
+                              "the regions are " + words::list_of(soils, &Soil::name)});
+        else if (std::ranges::none_of(soils, [&](const Soil& each) {
+                     return is_meant(each) && each.depth_layer > 0;
+                 }))
+            faults.push_back({"liquefied",
+                              request.region + " lies above the phreatic line: it cannot liquefy",
+                              "name a region below the line, or check the line's levels"});
+    }
+    for (const Soil& soil : soils)
+        if (soil.depth_layer > 0 &&
+            std::ranges::count_if(asked, [&](const auto& each) { return means(each, soil); }) > 1)
+            faults.push_back({"liquefied", "region " + soil.name + " has two residual strengths",
+                              "give one entry for it"});
+    check_drained(soils, materials, faults,
+                  [&](const Soil& soil) { return request_of(soil, asked) != nullptr; });
+    return faults;
+}
+
+void add_liquefaction(const std::vector<LiquefiedRequest>& asked, const std::vector<Soil>& soils,
+                      const Lines& lines, Document& document) {
+    json& scene = document.scene;
+    const json given = scene.at("materials");
+    json stays = json::array(), undrained = json::array();
+    std::set<std::string> told;
+    for (std::size_t i = 0; i < soils.size(); ++i) {
+        const LiquefiedRequest* request = request_of(soils[i], asked);
+        if (request == nullptr) continue;
+        const json made = liquefied_of(given.at(soils[i].material), *request);
+        std::string name = soils[i].material + "_liquefied";
+        while (scene["materials"].contains(name) && told.contains(name) &&
+               scene["materials"][name] != made)
+            name += "_b";
+        scene["materials"][name] = made;
+        scene["section"]["regions"][i]["material"] = name;
+        const Undrained peak = request->peak.value_or(Undrained{option("peak_ratio").value, false});
+        json entry{{"region", soils[i].name}};
+        entry[peak.in_kPa ? "strength_kPa" : "coefficient_kPa"] =
+            peak.in_kPa ? peak.value : peak.value * mechanics::standard_atmosphere / 1e3;
+        undrained.push_back(entry);
+        if (!told.insert(name).second) continue;
+        stays.push_back(assigned("/materials/" + name + "/strength/peak", profile_of(peak)));
+        document.remarks.push_back(
+            name + ": residual strength " + text_of(request->residual) + " (" + request->source +
+            "), peak " + text_of(peak) +
+            (request->peak ? "" : ", as in \"breach new\": give your own between the two"));
+    }
+    std::vector<const Soil*> from_top;
+    for (const Soil& each : soils)
+        if (request_of(each, asked) != nullptr) from_top.push_back(&each);
+    std::ranges::stable_sort(from_top, {}, &Soil::depth_layer);
+    for (const Soil* each : from_top)
+        scene["lem"]["liquefaction"].push_back({{"region", each->name}});
+    scene["title"] = scene.at("name").get<std::string>() + ", liquefied at rest";
+    const double toe = document.slope->toe.x();
+    earthquake::Json dam = scene;
+    templates::add_gauges(dam["mpm"], toe, document.slope->fall(), dam["mpm"]["domain_x"][1]);
+    templates::reduce_friction_of_wet_fill(dam, "_wet");
+    scene = json(dam);
+    // The materials as given: a later import of the drawing starts from them.
+    for (const auto& [name, material] : given.items())
+        if (!scene["materials"].contains(name)) scene["materials"][name] = material;
+    stays = joined(stays, templates::overrides_of_standing(dam["materials"]));
+    stays.push_back(assigned("/lem/undrained", undrained));
+
+    json& study = document.study = {{"format", "breachline-study/1"},
+                                    {"name", scene.at("name")},
+                                    {"title", scene.at("title")},
+                                    {"variants", json::array()}};
+    const auto add = [&](const std::string& name, const json& water) {
+        study["variants"].push_back({{"name", "liquefied" + name}, {"overrides", water}});
+        study["variants"].push_back(
+            {{"name", "undrained_peak" + name}, {"overrides", joined(water, stays)}});
+    };
+    const std::vector<Vec2> ground = ground_of(soils);
+    const double crest = document.slope->crest.x();
+    if (!has_pond(lines.phreatic, ground, crest)) {
+        add("", json::array());
+        document.remarks.push_back(
+            "no variants with and without a pond: the phreatic line is nowhere above the ground "
+            "behind the crest");
+        return;
+    }
+    // With the water's pressure friction is on the effective stress: it is not reduced.
+    json pond{assigned("/mpm/water", {{"line", points_of(lines.phreatic)}})};
+    for (std::size_t i = 0; i < soils.size(); ++i) {
+        const std::string name = scene["section"]["regions"][i]["material"];
+        if (!name.ends_with("_wet") || name == soils[i].material) continue;
+        pond.push_back(
+            assigned("/materials/" + name + "/law", given.at(soils[i].material).at("law")));
+    }
+    add("", pond);
+    add("_no_pond",
+        {assigned("/lem/water/line", points_of(without_pond(lines.phreatic, ground, crest)))});
+}
+
+}  // namespace breach::importing
