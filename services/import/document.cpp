@@ -47,7 +47,8 @@ json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell
     return names;
 }
 
-/// Levels are multiples of the cell size, two cells beyond soil and terrain.
+/// Levels are whole cells away from the toe, two cells beyond soil and terrain: firm ground that is
+/// level with the toe then ends at a line of the grid.
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
     geometry::Outlines all = outlines_of(soils);
@@ -57,7 +58,8 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     // 1e-9 of a cell: a level that is a multiple up to rounding must not gain another cell.
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
-    const double floor = down(box.low.y() - 2.0 * cell);
+    const double floor = rounded(toe.y() + down(box.low.y() - 2.0 * cell - toe.y()));
+    const double top = rounded(toe.y() + up(box.high.y() + 2.0 * cell - toe.y()));
     // The wall touches the section's upstream end: soil would flow into a gap.
     const bool goes_on = box.low.x() < section_end - 2.0 * cell;
     const double left = goes_on ? down(box.low.x()) : rounded(section_end);
@@ -65,7 +67,7 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     const json friction{{{"from", domain_x[0]}, {"to", domain_x[1]}, {"coefficient", 0.5}}};
     json mpm{{"cell_size", cell},
              {"domain_x", domain_x},
-             {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
+             {"domain_y", {floor, top}},
              {"floor", {{"level", floor}, {"friction", friction}}},
              {"terrain", line_as_json(terrain)},
              {"fill_points", 4},

@@ -263,10 +263,17 @@ void add_liquefaction(const std::vector<LiquefiedRequest>& asked, const std::vec
     std::ranges::stable_sort(from_top, {}, &Soil::depth_layer);
     for (const Soil* each : from_top)
         scene["lem"]["liquefaction"].push_back({{"region", each->name}});
+    const double fall = document.slope->fall();
+    const double depth = earthquake::millimetres(0.25 * fall);
+    scene["lem"]["search"]["minimum_depth"] = depth;
+    document.guessed.push_back(
+        {{"pointer", "/lem/search/minimum_depth"},
+         {"value", depth},
+         {"from", "a quarter of the height: a slip in the face is no breach"}});
     scene["title"] = scene.at("name").get<std::string>() + ", liquefied at rest";
     const double toe = document.slope->toe.x();
     earthquake::Json dam = scene;
-    templates::add_gauges(dam["mpm"], toe, document.slope->fall(), dam["mpm"]["domain_x"][1]);
+    templates::add_gauges(dam["mpm"], toe, fall, dam["mpm"]["domain_x"][1]);
     templates::reduce_friction_of_wet_fill(dam, "_wet");
     scene = json(dam);
     // The materials as given: a later import of the drawing starts from them.

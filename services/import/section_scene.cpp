@@ -163,8 +163,12 @@ void write_scene(const Section& section, Notes& notes) {
         }
     }
     for (std::string& each : document.remarks) notes.remark(std::move(each));
+    // Guessed entries are listed as such; what a check thinks of them is shown with the scene.
     for (const fault::Flag& each : read.scene.warnings)
-        notes.remark(each.pointer + ": " + each.message);
+        if (std::ranges::none_of(document.guessed, [&](const json& guess) {
+                return guess.at("pointer") == each.pointer;
+            }))
+            notes.remark(each.pointer + ": " + each.message);
     notes.result.report["guessed"] = document.guessed;
     if (document.slope)
         notes.result.report["slope"] = {{"crest", as_json(document.slope->crest)},
