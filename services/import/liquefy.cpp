@@ -174,7 +174,7 @@ std::optional<LiquefiedRequest> liquefied_request_from(const std::string& entry,
         next();
     }
     request.source = trimmed(rest);
-    if (request.source.empty()) return refuse("does not say where its strength is from");
+    if (request.source.empty()) return refuse("names no source of its strength");
     if (!is_sound(request.residual, shown, "residual_ratio", faults) ||
         (request.peak && !is_sound(*request.peak, shown, "peak_ratio", faults)))
         return std::nullopt;
