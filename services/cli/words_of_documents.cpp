@@ -114,8 +114,8 @@ void add_import(Program& program) {
     word.add_option(
             "--liquefied", options.liquefied,
             "REGION=0.08,SOURCE: liquefied at rest below the phreatic line, with this share "
-            "of sigma'_v0 as residual strength (or 4kPa) and its source; a peak may stand "
-            "between: REGION=0.08,0.27,SOURCE; repeatable")
+            "of sigma'_v0 as residual strength (or 4kPa) and its source; with the peak: "
+            "REGION=0.08,0.27,SOURCE; repeatable")
         ->allow_extra_args(false);
     word.add_flag("--with-fem", options.with_fem, help_of_dam("with_fem"));
     word.add_option("--pga", options.pga, help_of_dam("pga"));

@@ -26,7 +26,7 @@ using nlohmann::json;
 namespace {
 
 constexpr const char* form =
-    "REGION=0.08,SOURCE (share of sigma'_v0) or REGION=4kPa,SOURCE; a peak may stand between, as "
+    "REGION=0.08,SOURCE (share of sigma'_v0) or REGION=4kPa,SOURCE; with the peak: "
     "REGION=0.08,0.27,SOURCE";
 
 /// Limits and usual values are those of the templates.
