@@ -117,7 +117,8 @@ void add_import(Program& program) {
             "of sigma'_v0 as residual strength (or 4kPa) and its source; with the peak: "
             "REGION=0.08,0.27,SOURCE; repeatable")
         ->allow_extra_args(false);
-    word.add_flag("--with-fem", options.with_fem, help_of_dam("with_fem"));
+    word.add_flag("--with-fem", options.with_fem,
+                  "shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout)");
     word.add_option("--pga", options.pga, help_of_dam("pga"));
     word.add_option("--shaking", options.shaking, help_of_dam("shaking"));
     word.add_flag("--force", options.force,

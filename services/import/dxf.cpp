@@ -187,8 +187,8 @@ class DxfReader {
         count(bare_[layer], record);
     }
 
-    /// A layer of text that bears the name of a soil labels it. One named like the phreatic line is
-    /// refused: the dam would be dry.
+    /// Text on a layer named like a soil is its label. A layer named like the phreatic line is
+    /// refused, because the dam would be dry.
     bool is_left_out(const std::string& layer, const Meaning& meaning) const {
         return !more_than_text_.contains(layer) && !meaning.told && meaning.role != Role::phreatic;
     }
