@@ -85,9 +85,8 @@ json profile_of(const Undrained& strength) {
 json liquefied_of(const json& own, const LiquefiedRequest& request) {
     const json& law = own.at("law");
     json made = earthquake::undrained(earthquake::tailings, 0.0,
-                                      "liquefied: residual strength " + text_of(request.residual) +
-                                          ", source: " + request.source +
-                                          "; limit_strength is drained, before it liquefies");
+                                      "residual strength " + text_of(request.residual) + ": " + request.source +
+            "; limit_strength is drained, before it liquefies");
     made["density"] = own.at("density");
     made["limit_strength"] = own.value(
         "limit_strength", json{{"c_kPa", law.at("c_kPa")}, {"phi_deg", law.at("phi_deg")}});

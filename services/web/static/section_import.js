@@ -31,7 +31,7 @@ const is_whole = ({ density, law, strength }) => density > 0 && (law?.type !== "
 function at_rest(soils) {
     const shaken = Object.keys(soils).filter((name) => soils[`${name}_runout`]);
     const added = shaken.length ? ["liquefied", ...shaken.map((name) => `${name}_runout`)] : [];
-    const is_made = ({ notes = [] }) => notes.some((note) => /^liquefied: residual|\(1 - r_u\)/.test(note));
+    const is_made = ({ notes = [] }) => notes.some((note) => /limit_strength is drained, before it liquefies$|\(1 - r_u\)/.test(note));
     return Object.fromEntries(Object.entries(soils).filter(([name, soil]) => !added.includes(name) && !is_made(soil)).map(([name, soil]) => [name, soils[`${name}_runout`] ?? soil]));
 }
 
