@@ -29,5 +29,6 @@ Document document_of(const std::string& name, const nlohmann::json& given,
                      const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);
 
 nlohmann::json as_json(const Vec2& place);
+nlohmann::json as_json(const std::vector<Vec2>& line);
 
 }  // namespace breach::importing

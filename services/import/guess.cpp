@@ -136,8 +136,7 @@ Terrain guessed_terrain(const std::vector<Soil>& soils, const std::vector<Vec2>&
     from += fall > 0.0 ? "that goes on falling by " + words::text_of(100.0 * fall, 2) +
                              " %, as it does from the toe on"
                        : "at the level there";
-    std::vector<Vec2> line{{box.low.x() - h, base.front().y()}};
-    line.insert(line.end(), base.begin(), base.end());
+    std::vector<Vec2> line = base;
     line.emplace_back(end + 0.2 * h, base.back().y());
     const auto natural =
         std::ranges::find_if(ground, [&](const Vec2& each) { return each.x() > end + 0.3 * h; });

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <set>
 
-#include "core/mechanics/atmosphere.hpp"
 #include "core/words/list.hpp"
 #include "core/words/number.hpp"
 #include "services/earthquake/soils.hpp"
@@ -81,53 +80,52 @@ json profile_of(const Undrained& strength) {
     return {{"type", "undrained_ratio"}, {"ratio", strength.value}, {"minimum_kPa", 1}};
 }
 
+Undrained peak_of(const LiquefiedRequest& request) {
+    return request.peak.value_or(Undrained{option("peak_ratio").value, false});
+}
+
+/// "residual strength 0.08 sigma'_v0, peak 0.27 sigma'_v0 (as in "breach new"): CPTu 2024"
+std::string strengths_of(const LiquefiedRequest& request) {
+    return "residual strength " + text_of(request.residual) + ", peak " +
+           text_of(peak_of(request)) + (request.peak ? "" : " (as in \"breach new\")") + ": " +
+           request.source;
+}
+
 /// The soil's own strength stays that of the stability analysis before it liquefies.
 json liquefied_of(const json& own, const LiquefiedRequest& request) {
     const json& law = own.at("law");
-    json made = earthquake::undrained(earthquake::tailings, 0.0,
-                                      "residual strength " + text_of(request.residual) + ": " + request.source +
-            "; limit_strength is drained, before it liquefies");
+    json made = earthquake::undrained(
+        earthquake::tailings, 0.0,
+        strengths_of(request) + "; limit_strength is drained, before it liquefies");
     made["density"] = own.at("density");
     made["limit_strength"] = own.value(
         "limit_strength", json{{"c_kPa", law.at("c_kPa")}, {"phi_deg", law.at("phi_deg")}});
-    made["law"]["E_MPa"] = law.at("E_MPa");
-    made["law"].erase("c_kPa");
-    made["law"].erase("phi_deg");
-    made["strength"] = {{"peak", profile_of(request.residual)},
-                        {"residual", profile_of(request.residual)}};
+    made["law"] = {{"type", "mohr_coulomb"}, {"E_MPa", law.at("E_MPa")}, {"nu", made["law"]["nu"]}};
+    made["strength"]["peak"] = made["strength"]["residual"] = profile_of(request.residual);
     return made;
 }
 
-/// The phreatic line without what stands above the ground left of `until`.
+/// The phreatic line without what is above the ground left of `until`.
 std::vector<Vec2> without_pond(const std::vector<Vec2>& line, const std::vector<Vec2>& ground,
                                double until) {
     std::set<double> xs{until};
     for (const auto* each : {&line, &ground})
         for (const Vec2& point : *each) xs.insert(point.x());
     const auto above = [&](double x) {
-        return geometry::level_at(line, x) - geometry::level_at(ground, x);
+        const bool is_behind = x >= ground.front().x() && x <= until;
+        return is_behind ? geometry::level_at(line, x) - geometry::level_at(ground, x) : 0.0;
     };
     std::vector<Vec2> lowered;
-    for (auto at = xs.begin(); at != xs.end(); ++at) {
-        if (at != xs.begin()) {
-            const double before = *std::prev(at), a = above(before), b = above(*at);
-            if (*at <= until && a * b < 0.0) {
-                const double x = before + (*at - before) * a / (a - b);
-                lowered.emplace_back(x, geometry::level_at(ground, x));
-            }
-        }
-        const double level = geometry::level_at(line, *at);
-        const bool is_behind = *at <= until && *at >= ground.front().x();
-        lowered.emplace_back(*at, is_behind ? level - std::max(above(*at), 0.0) : level);
+    const auto add = [&](double x) {
+        lowered.emplace_back(x, geometry::level_at(line, x) - std::max(above(x), 0.0));
+    };
+    double before = *xs.begin();
+    for (const double x : xs) {
+        const double a = above(before), b = above(x);
+        if (a * b < 0.0) add(before + (x - before) * a / (a - b));  // the pond's edge
+        add(before = x);
     }
     return lowered;
-}
-
-bool has_pond(const std::vector<Vec2>& line, const std::vector<Vec2>& ground, double until) {
-    constexpr double least = 0.1;  // m: less is a line that was drawn along the ground
-    return std::ranges::any_of(ground, [&](const Vec2& each) {
-        return each.x() <= until && geometry::level_at(line, each.x()) - each.y() > least;
-    });
 }
 
 std::string assigned(const std::string& pointer, const json& value) {
@@ -139,10 +137,36 @@ json joined(json some, const json& more) {
     return some;
 }
 
-json points_of(const std::vector<Vec2>& line) {
-    json points = json::array();
-    for (const Vec2& each : line) points.push_back(as_json(each));
-    return points;
+/// Gives the wet parts their materials and liquefies them from the top down. Returns the overrides
+/// of a variant in which they have their peak strength.
+json take_strengths(const std::vector<LiquefiedRequest>& asked, const std::vector<Soil>& soils,
+                    Document& document) {
+    json& scene = document.scene;
+    const json given = scene.at("materials");
+    json made = json::object(), peaks = json::array(), undrained = json::array();
+    std::vector<const Soil*> wet;
+    for (std::size_t i = 0; i < soils.size(); ++i) {
+        const LiquefiedRequest* request = request_of(soils[i], asked);
+        if (request == nullptr) continue;
+        wet.push_back(&soils[i]);
+        const json material = liquefied_of(given.at(soils[i].material), *request);
+        std::string name = soils[i].material + "_liquefied";
+        while (made.contains(name) && made[name] != material) name += "_b";
+        scene["section"]["regions"][i]["material"] = name;
+        const Undrained peak = peak_of(*request);
+        undrained.push_back({{"region", soils[i].name}});
+        undrained.back()[peak.in_kPa ? "strength_kPa" : "coefficient_kPa"] =
+            peak.value * (peak.in_kPa ? 1.0 : earthquake::atmosphere);
+        if (made.contains(name)) continue;
+        made[name] = material;
+        peaks.push_back(assigned("/materials/" + name + "/strength/peak", profile_of(peak)));
+        document.remarks.push_back(name + ": " + strengths_of(*request));
+    }
+    scene["materials"].update(made);
+    peaks.push_back(assigned("/lem/undrained", undrained));
+    std::ranges::stable_sort(wet, {}, &Soil::depth_layer);
+    for (const Soil* each : wet) scene["lem"]["liquefaction"].push_back({{"region", each->name}});
+    return peaks;
 }
 
 }  // namespace
@@ -177,7 +201,7 @@ std::optional<LiquefiedRequest> liquefied_request_from(const std::string& entry,
     if (!is_sound(request.residual, shown, "residual_ratio", faults) ||
         (request.peak && !is_sound(*request.peak, shown, "peak_ratio", faults)))
         return std::nullopt;
-    const Undrained peak = request.peak.value_or(Undrained{option("peak_ratio").value, false});
+    const Undrained peak = peak_of(request);
     if (peak.in_kPa == request.residual.in_kPa && peak.value < request.residual.value)
         return refuse("has a peak of " + text_of(peak) + ", below the residual strength");
     return request;
@@ -230,69 +254,41 @@ std::vector<Fault> faults_of_liquefying(const std::vector<LiquefiedRequest>& ask
 
 void add_liquefaction(const std::vector<LiquefiedRequest>& asked, const std::vector<Soil>& soils,
                       const Lines& lines, Document& document) {
-    json& scene = document.scene;
-    const json given = scene.at("materials");
-    json stays = json::array(), undrained = json::array();
-    std::set<std::string> told;
-    for (std::size_t i = 0; i < soils.size(); ++i) {
-        const LiquefiedRequest* request = request_of(soils[i], asked);
-        if (request == nullptr) continue;
-        const json made = liquefied_of(given.at(soils[i].material), *request);
-        std::string name = soils[i].material + "_liquefied";
-        while (scene["materials"].contains(name) && told.contains(name) &&
-               scene["materials"][name] != made)
-            name += "_b";
-        scene["materials"][name] = made;
-        scene["section"]["regions"][i]["material"] = name;
-        const Undrained peak = request->peak.value_or(Undrained{option("peak_ratio").value, false});
-        json entry{{"region", soils[i].name}};
-        entry[peak.in_kPa ? "strength_kPa" : "coefficient_kPa"] =
-            peak.in_kPa ? peak.value : peak.value * mechanics::standard_atmosphere / 1e3;
-        undrained.push_back(entry);
-        if (!told.insert(name).second) continue;
-        stays.push_back(assigned("/materials/" + name + "/strength/peak", profile_of(peak)));
-        document.remarks.push_back(
-            name + ": residual strength " + text_of(request->residual) + " (" + request->source +
-            "), peak " + text_of(peak) +
-            (request->peak ? "" : ", as in \"breach new\": give your own between the two"));
-    }
-    std::vector<const Soil*> from_top;
-    for (const Soil& each : soils)
-        if (request_of(each, asked) != nullptr) from_top.push_back(&each);
-    std::ranges::stable_sort(from_top, {}, &Soil::depth_layer);
-    for (const Soil* each : from_top)
-        scene["lem"]["liquefaction"].push_back({{"region", each->name}});
-    const double fall = document.slope->fall();
-    const double depth = earthquake::millimetres(0.25 * fall);
-    scene["lem"]["search"]["minimum_depth"] = depth;
+    const json given = document.scene.at("materials");
+    const json peaks = take_strengths(asked, soils, document);
+    const double depth = earthquake::millimetres(0.25 * document.slope->fall());
+    document.scene["lem"]["search"]["minimum_depth"] = depth;
     document.guessed.push_back(
         {{"pointer", "/lem/search/minimum_depth"},
          {"value", depth},
          {"from", "a quarter of the height: a slip in the face is no breach"}});
-    scene["title"] = scene.at("name").get<std::string>() + ", liquefied at rest";
-    const double toe = document.slope->toe.x();
-    earthquake::Json dam = scene;
-    templates::add_gauges(dam["mpm"], toe, fall, dam["mpm"]["domain_x"][1]);
+    // The copy has an order of entries, as the templates' functions need.
+    earthquake::Json dam = document.scene;
+    templates::add_gauges(dam["mpm"], document.slope->toe.x(), document.slope->fall(),
+                          dam["mpm"]["domain_x"][1]);
     templates::reduce_friction_of_wet_fill(dam, "_wet");
-    scene = json(dam);
+    json& scene = document.scene = json(dam);
     // The materials as given: a later import of the drawing starts from them.
     for (const auto& [name, material] : given.items())
         if (!scene["materials"].contains(name)) scene["materials"][name] = material;
-    stays = joined(stays, templates::overrides_of_standing(dam["materials"]));
-    stays.push_back(assigned("/lem/undrained", undrained));
-
-    json& study = document.study = {{"format", "breachline-study/1"},
-                                    {"name", scene.at("name")},
-                                    {"title", scene.at("title")},
-                                    {"variants", json::array()}};
+    scene["title"] = scene.at("name").get<std::string>() + ", liquefied at rest";
+    document.study = {{"format", "breachline-study/1"},
+                      {"name", scene.at("name")},
+                      {"title", scene.at("title")},
+                      {"variants", json::array()}};
+    const json stands = joined(peaks, templates::overrides_of_standing(dam["materials"]));
     const auto add = [&](const std::string& name, const json& water) {
-        study["variants"].push_back({{"name", "liquefied" + name}, {"overrides", water}});
-        study["variants"].push_back(
-            {{"name", "undrained_peak" + name}, {"overrides", joined(water, stays)}});
+        for (const auto& [state, strength] :
+             {std::pair("liquefied", json::array()), std::pair("undrained_peak", stands)})
+            document.study["variants"].push_back(
+                {{"name", state + name}, {"overrides", joined(water, strength)}});
     };
-    const std::vector<Vec2> ground = ground_of(soils);
-    const double crest = document.slope->crest.x();
-    if (!has_pond(lines.phreatic, ground, crest)) {
+    const std::vector<Vec2> lowered =
+        without_pond(lines.phreatic, ground_of(soils), document.slope->crest.x());
+    constexpr double least = 0.1;  // m: less is a line that is drawn along the ground
+    if (std::ranges::none_of(lowered, [&](const Vec2& each) {
+            return geometry::level_at(lines.phreatic, each.x()) - each.y() > least;
+        })) {
         add("", json::array());
         document.remarks.push_back(
             "no variants with and without a pond: the phreatic line is nowhere above the ground "
@@ -300,16 +296,15 @@ void add_liquefaction(const std::vector<LiquefiedRequest>& asked, const std::vec
         return;
     }
     // With the water's pressure friction is on the effective stress: it is not reduced.
-    json pond{assigned("/mpm/water", {{"line", points_of(lines.phreatic)}})};
+    json pond{assigned("/mpm/water", {{"line", as_json(lines.phreatic)}})};
     for (std::size_t i = 0; i < soils.size(); ++i) {
         const std::string name = scene["section"]["regions"][i]["material"];
-        if (!name.ends_with("_wet") || name == soils[i].material) continue;
-        pond.push_back(
-            assigned("/materials/" + name + "/law", given.at(soils[i].material).at("law")));
+        if (name.ends_with("_wet") && name != soils[i].material)
+            pond.push_back(
+                assigned("/materials/" + name + "/law", given.at(soils[i].material).at("law")));
     }
     add("", pond);
-    add("_no_pond",
-        {assigned("/lem/water/line", points_of(without_pond(lines.phreatic, ground, crest)))});
+    add("_no_pond", {assigned("/lem/water/line", as_json(lowered))});
 }
 
 }  // namespace breach::importing

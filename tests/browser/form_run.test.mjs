@@ -168,7 +168,7 @@ test("a drawn dam is asked for its residual strengths, and becomes a study of st
     await until("no source", async () => /names no source/.test(await row_of(strengths).locator(".field-faults").textContent()));
     await strengths.fill("tailings=0.08, CPTu 2024");
     await until("the study", async () => (await value()).variants?.length === 2);
-    assert.match(await page.textContent("#options-note"), /residual strength 0.08 sigma'_v0 \(CPTu 2024\)/);
+    assert.match(await page.textContent("#options-note"), /residual strength 0.08 sigma'_v0, peak 0.27 sigma'_v0 .*: CPTu 2024/);
     assert.ok(await page.getByLabel(/How far does it run, liquefied at rest/).isChecked());
     await strengths.fill("tailings=0.1, CPTu 2024");
     const ratio = async () => (await value()).scene.materials.tailings_liquefied.strength.peak.ratio;

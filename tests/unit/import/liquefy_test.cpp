@@ -60,11 +60,12 @@ TEST(LiquefiedImport, OnlyTheWetPartHasTheResidualStrengthAndKeepsItsDrainedOneB
         json::parse(R"({"type": "undrained_ratio", "ratio": 0.08, "minimum_kPa": 1})");
     EXPECT_EQ(soil.at("strength").at("residual"), ratio);
     EXPECT_EQ(soil.at("limit_strength"), json::parse(R"({"c_kPa": 2.0, "phi_deg": 30.0})"));
-    EXPECT_NE(soil.at("notes").dump().find("residual strength 0.08 sigma'_v0: CPTu 2024, table 3"), std::string::npos);
+    EXPECT_NE(soil.at("notes").dump().find("(as in \\\"breach new\\\"): CPTu 2024, table 3"),
+              std::string::npos);
     EXPECT_EQ(made.scene.at("lem").at("liquefaction"),
               json::parse(R"([{"region": "TAILINGS_below"}])"));
     EXPECT_EQ(made.study.at("variants").size(), 2u);
-    EXPECT_NE(remarks_of(made).find("peak 0.27 sigma'_v0, as in \\\"breach new\\\""),
+    EXPECT_NE(remarks_of(made).find("peak 0.27 sigma'_v0 (as in \\\"breach new\\\")"),
               std::string::npos);
 }
 
