@@ -3,8 +3,9 @@
 // analysis liquefies them one after the other. A user must give each residual strength with its
 // source: nothing else decides the runout as much.
 //
-// A pond is the phreatic line above the ground behind the crest. The scene is the dam without its
-// water in the runout; variants add the pond as drawn.
+// A pond is the phreatic line above the ground behind the crest; variants are without it. It acts by
+// its weight in the stability analysis and by its pore pressure in both. The runout has no
+// /mpm/water: water that stays full when its dam has gone would hold the scarp back.
 #include "services/import/liquefy.hpp"
 
 #include <algorithm>
@@ -169,6 +170,26 @@ json take_strengths(const std::vector<LiquefiedRequest>& asked, const std::vecto
     return peaks;
 }
 
+/// As the templates search: a liquefied slope fails from farther behind than one that is sound, and
+/// through its face. left: end of the section [m].
+void search_all_of(const Slope& slope, double left, Document& document) {
+    json& search = document.scene["lem"]["search"];
+    const double H = slope.fall(), face = slope.toe.x() - slope.crest.x();
+    const auto at = [&](double x) { return earthquake::millimetres(x); };
+    const double back = std::min(search["entry"][0].get<double>(), slope.crest.x() - 3.0 * H);
+    search["entry"] = {std::max(left, at(back)), at(slope.crest.x() + 0.75 * face)};
+    search["exit"][0] = at(slope.crest.x() + 0.25 * face);
+    search["minimum_depth"] = at(0.25 * H);
+    std::erase_if(document.guessed.get_ref<json::array_t&>(), [](const json& each) {
+        return each.at("pointer").get<std::string>().starts_with("/lem/search");
+    });
+    document.guessed.push_back({{"pointer", "/lem/search"},
+                                {"value", search},
+                                {"from",
+                                 "the ground, as in \"breach new\"; a slip in the face "
+                                 "shallower than a quarter of the height is no breach"}});
+}
+
 }  // namespace
 
 std::optional<LiquefiedRequest> liquefied_request_from(const std::string& entry,
@@ -256,17 +277,17 @@ void add_liquefaction(const std::vector<LiquefiedRequest>& asked, const std::vec
                       const Lines& lines, Document& document) {
     const json given = document.scene.at("materials");
     const json peaks = take_strengths(asked, soils, document);
-    const double depth = earthquake::millimetres(0.25 * document.slope->fall());
-    document.scene["lem"]["search"]["minimum_depth"] = depth;
-    document.guessed.push_back(
-        {{"pointer", "/lem/search/minimum_depth"},
-         {"value", depth},
-         {"from", "a quarter of the height: a slip in the face is no breach"}});
-    // The copy has an order of entries, as the templates' functions need.
+    search_all_of(*document.slope, ground_of(soils).front().x(), document);
+    // Copies, because the templates' functions need the order of entries.
     earthquake::Json dam = document.scene;
     templates::add_gauges(dam["mpm"], document.slope->toe.x(), document.slope->fall(),
                           dam["mpm"]["domain_x"][1]);
-    templates::reduce_friction_of_wet_fill(dam, "_wet");
+    const std::vector<Vec2> lowered =
+        without_pond(lines.phreatic, ground_of(soils), document.slope->crest.x());
+    earthquake::Json dry = dam;
+    dry["lem"]["water"]["line"] = as_json(lowered);
+    for (earthquake::Json* each : {&dam, &dry})
+        templates::reduce_friction_of_wet_fill(*each, "_wet");
     json& scene = document.scene = json(dam);
     // The materials as given: a later import of the drawing starts from them.
     for (const auto& [name, material] : given.items())
@@ -283,28 +304,27 @@ void add_liquefaction(const std::vector<LiquefiedRequest>& asked, const std::vec
             document.study["variants"].push_back(
                 {{"name", state + name}, {"overrides", joined(water, strength)}});
     };
-    const std::vector<Vec2> lowered =
-        without_pond(lines.phreatic, ground_of(soils), document.slope->crest.x());
+    add("", json::array());
     constexpr double least = 0.1;  // m: less is a line that is drawn along the ground
     if (std::ranges::none_of(lowered, [&](const Vec2& each) {
             return geometry::level_at(lines.phreatic, each.x()) - each.y() > least;
         })) {
-        add("", json::array());
         document.remarks.push_back(
-            "no variants with and without a pond: the phreatic line is nowhere above the ground "
-            "behind the crest");
+            "no variants without a pond: the phreatic line is nowhere above the ground behind the "
+            "crest");
         return;
     }
-    // With the water's pressure friction is on the effective stress: it is not reduced.
-    json pond{assigned("/mpm/water", {{"line", as_json(lines.phreatic)}})};
+    json drained{assigned("/lem/water/line", as_json(lowered))};
     for (std::size_t i = 0; i < soils.size(); ++i) {
-        const std::string name = scene["section"]["regions"][i]["material"];
-        if (name.ends_with("_wet") && name != soils[i].material)
-            pond.push_back(
-                assigned("/materials/" + name + "/law", given.at(soils[i].material).at("law")));
+        const auto material_in = [&](const earthquake::Json& of) {
+            return of.at("section").at("regions")[i].at("material").get<std::string>();
+        };
+        const std::string name = material_in(dam);
+        const json law = dry.at("materials").at(material_in(dry)).at("law");
+        if (law != scene["materials"][name]["law"])
+            drained.push_back(assigned("/materials/" + name + "/law", law));
     }
-    add("", pond);
-    add("_no_pond", {assigned("/lem/water/line", as_json(lowered))});
+    add("_no_pond", drained);
 }
 
 }  // namespace breach::importing
