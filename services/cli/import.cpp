@@ -61,13 +61,14 @@ bool is_confirmed(const importing::Imported& imported, const Console& console) {
     return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-/// Study and motion beside the scene, with the file names of `breach new`.
+/// Study, and a motion if there is one, beside the scene, with the file names of `breach new`.
 /// The study names the scene by its file name alone, so that the folder can be moved.
 Files beside(const std::filesystem::path& scene, importing::Imported& imported) {
-    if (imported.motion.empty()) return {};
+    if (imported.study.is_null()) return {};
     imported.study["scene"] = scene.filename().string();
-    Files files{{scene.parent_path() / "study.json", imported.study.dump(1) + "\n"},
-                {scene.parent_path() / earthquake::motion_file, imported.motion}};
+    Files files{{scene.parent_path() / "study.json", imported.study.dump(1) + "\n"}};
+    if (!imported.motion.empty())
+        files[scene.parent_path() / earthquake::motion_file] = imported.motion;
     if (files.contains(scene))
         throw fault::BadInput("breach import",
                               {{"--output", "is the name of the " + scene.stem().string(),
@@ -91,7 +92,8 @@ ExitCode import_drawing(const ImportOptions& options, const Console& console) {
         .tolerance = options.tolerance,
         .flatten = options.flatten,
         .name = options.name,
-        .confirmed = options.confirmed};
+        .confirmed = options.confirmed,
+        .liquefied = options.liquefied};
     if (options.with_fem) {
         auto& motion = asked.motion.emplace();
         motion.pga = options.pga.value_or(motion.pga);

@@ -15,12 +15,13 @@ struct ImportOptions {
     std::filesystem::path drawing, materials, output;
     std::filesystem::path picture = {};  ///< empty: none
     std::filesystem::path phreatic = {}, terrain = {}, ground = {};
-    std::vector<std::string> map = {}, layers = {};
+    std::vector<std::string> map = {}, layers = {}, liquefied = {};
     std::string unit = "", name = "";
     double tolerance = 0.05;
     std::optional<double> flatten = {};
     bool confirmed = false;  ///< --yes
-    bool with_fem = false;   ///< study.json and motion.csv are written beside the scene
+    bool with_fem = false;   ///< study.json and motion.csv are written beside the scene; with
+                             ///< liquefied the study alone
     std::optional<double> pga = {}, shaking = {};  ///< of the synthetic motion [g, s]
     bool force = false;                            ///< overwrite existing files
 };

@@ -111,11 +111,18 @@ void add_import(Program& program) {
     word.add_option("--flatten", options.flatten,
                     "arcs become chords that are off by at most this [m]");
     word.add_option("--name", options.name, "of the scene; else the drawing's");
-    word.add_flag("--with-fem", options.with_fem, help_of_dam("with_fem"));
+    word.add_option(
+            "--liquefied", options.liquefied,
+            "REGION=0.08,SOURCE: liquefied at rest below the phreatic line, with this share "
+            "of sigma'_v0 as residual strength (or 4kPa) and its source; with the peak: "
+            "REGION=0.08,0.27,SOURCE; repeatable")
+        ->allow_extra_args(false);
+    word.add_flag("--with-fem", options.with_fem,
+                  "shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout)");
     word.add_option("--pga", options.pga, help_of_dam("pga"));
     word.add_option("--shaking", options.shaking, help_of_dam("shaking"));
     word.add_flag("--force", options.force,
-                  "with --with-fem: write over study.json and motion.csv beside the scene");
+                  "with --liquefied or --with-fem: write over the files beside the scene");
     word.add_flag("--yes", options.confirmed, "sizes that look like a slip of the unit are meant");
 }
 

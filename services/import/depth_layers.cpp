@@ -24,9 +24,11 @@ std::string short_text(double depth) {
     return digits;
 }
 
-/// "_above", "_0_5", "_5_10", "_below_10"; the number of a part is Soil::depth_layer.
+/// "_above", "_0_5", "_5_10", "_below_10"; "_below" without depths. The number of a part is
+/// Soil::depth_layer.
 std::string part_name(const LayerRequest& request, std::size_t part) {
     if (part == 0) return "_above";
+    if (request.depths.empty()) return "_below";
     if (part > request.depths.size()) return "_below_" + short_text(request.depths.back());
     const double from = part == 1 ? 0.0 : request.depths[part - 2];
     return "_" + short_text(from) + "_" + short_text(request.depths[part - 1]);
@@ -145,6 +147,7 @@ void cut_region(Healed& healed, std::size_t target, const LayerRequest& request,
         soils.push_back(whole);
         soils.back().name += part_name(request, part);
         soils.back().depth_layer = static_cast<int>(part);
+        soils.back().cut_from = whole.name;
     }
     std::vector<Polygon> rings;
     for (std::size_t s = 0; s < first; ++s)

@@ -9,7 +9,8 @@ namespace breach::importing {
 
 struct LayerRequest {
     std::string region;          ///< a region's name, or the layer shared by several regions
-    std::vector<double> depths;  ///< ascending, measured vertically below the line [m]
+    std::vector<double> depths;  ///< ascending, measured vertically below the line [m]; none: the
+                                 ///< region is cut along the line alone
 };
 
 /// "tailings=5,10,15"; any other form adds a fault to `faults`.

@@ -17,17 +17,11 @@ namespace {
 /// Same rounding for all regions: neighbours must share their points exactly.
 double rounded(double value) { return std::round(1e6 * value) / 1e6; }
 
-json line_as_json(const std::vector<Vec2>& line) {
-    json list = json::array();
-    for (const Vec2& each : line) list.push_back(importing::as_json(each));
-    return list;
-}
-
 /// A scene's polygon repeats its first point; rings here do not.
 json section_of(const std::vector<Soil>& soils, double element_size) {
     json regions = json::array();
     for (const Soil& each : soils) {
-        json polygon = line_as_json(each.ring);
+        json polygon = as_json(each.ring);
         polygon.push_back(polygon.front());
         regions.push_back({{"name", each.name},
                            {"material", each.material},
@@ -47,7 +41,8 @@ json mobile_regions(const std::vector<Soil>& soils, const Vec2& toe, double cell
     return names;
 }
 
-/// Levels are multiples of the cell size, two cells beyond soil and terrain.
+/// Levels are whole cells away from the toe, two cells beyond soil and terrain: firm ground that is
+/// level with the toe then ends at a line of the grid.
 json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, const Vec2& toe,
             double cell) {
     geometry::Outlines all = outlines_of(soils);
@@ -57,22 +52,18 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     // 1e-9 of a cell: a level that is a multiple up to rounding must not gain another cell.
     const auto down = [&](double v) { return rounded(std::floor(v / cell + 1e-9) * cell); };
     const auto up = [&](double v) { return rounded(std::ceil(v / cell - 1e-9) * cell); };
-    const double floor = down(box.low.y() - 2.0 * cell);
+    const double floor = rounded(toe.y() + down(box.low.y() - 2.0 * cell - toe.y()));
+    const double top = rounded(toe.y() + up(box.high.y() + 2.0 * cell - toe.y()));
     // The wall touches the section's upstream end: soil would flow into a gap.
     const bool goes_on = box.low.x() < section_end - 2.0 * cell;
     const double left = goes_on ? down(box.low.x()) : rounded(section_end);
     const json domain_x{left, rounded(left + up(box.high.x() - left))};
     const json friction{{{"from", domain_x[0]}, {"to", domain_x[1]}, {"coefficient", 0.5}}};
-    json mpm{{"cell_size", cell},
-             {"domain_x", domain_x},
-             {"domain_y", {floor, up(box.high.y() + 2.0 * cell)}},
-             {"floor", {{"level", floor}, {"friction", friction}}},
-             {"terrain", line_as_json(terrain)},
-             {"fill_points", 4},
-             {"fill_stress", "overburden"},
-             {"overlap_correction", {{"rate", 5}}},
-             {"duration", "until_rest"},
-             {"runout", {{"toe", importing::as_json(toe)}}}};
+    json mpm{{"cell_size", cell},           {"domain_x", domain_x},
+             {"domain_y", {floor, top}},    {"floor", {{"level", floor}, {"friction", friction}}},
+             {"terrain", as_json(terrain)}, {"fill_points", 4},
+             {"fill_stress", "overburden"}, {"overlap_correction", {{"rate", 5}}},
+             {"duration", "until_rest"},    {"runout", {{"toe", importing::as_json(toe)}}}};
     const json mobile = mobile_regions(soils, toe, cell);
     if (!mobile.empty() && mobile.size() < soils.size()) mpm["runout"]["regions"] = mobile;
     return mpm;
@@ -81,6 +72,12 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
 }  // namespace
 
 json as_json(const Vec2& place) { return {rounded(place.x()), rounded(place.y())}; }
+
+json as_json(const std::vector<Vec2>& line) {
+    json list = json::array();
+    for (const Vec2& each : line) list.push_back(as_json(each));
+    return list;
+}
 
 /// Users may give a whole scene for its materials.
 const json& materials_in(const json& document) {
@@ -123,7 +120,7 @@ Document document_of(const std::string& name, const json& given, const std::vect
         guess("/lem/search/entry", ranges.entry, from);
         guess("/lem/search/exit", ranges.exit, from);
         if (!lines.phreatic.empty())
-            document.scene["lem"]["water"]["line"] = line_as_json(lines.phreatic);
+            document.scene["lem"]["water"]["line"] = as_json(lines.phreatic);
     } else {
         document.remarks.push_back(
             std::string("the ground has no slope to search: the scene has no /lem") +

@@ -14,7 +14,8 @@ struct Lines {
 
 struct Document {
     nlohmann::json scene;
-    nlohmann::json guessed;  ///< [{pointer, value, from}]
+    nlohmann::json study = nullptr;  ///< of static liquefaction, without the scene; else null
+    nlohmann::json guessed;          ///< [{pointer, value, from}]
     std::vector<std::string> remarks;
     std::optional<Slope> slope;
 };
@@ -28,5 +29,6 @@ Document document_of(const std::string& name, const nlohmann::json& given,
                      const std::vector<Soil>& soils, const Lines& lines, double share = 1.0);
 
 nlohmann::json as_json(const Vec2& place);
+nlohmann::json as_json(const std::vector<Vec2>& line);
 
 }  // namespace breach::importing

@@ -174,19 +174,35 @@ class DxfReader {
         area ? outlines_.take_area(record, layer) : outlines_.take_shape(record, layer);
     }
 
-    /// Writing on a layer with a meaning is remembered: if nothing else is drawn there, the layer
-    /// was probably meant for an outline.
+    /// What is passed over on a layer with a meaning is remembered: if nothing else is drawn there,
+    /// the layer was probably meant for an outline.
     void pass_over(const Record& record, const std::string& layer, const Meaning& meaning) {
         ++passed_over_[std::string(record.type)];
-        if (meaning.role == Role::unknown || meaning.role == Role::none) return;
+        if (meaning.role == Role::unknown) return;
+        if (meaning.role == Role::none) {
+            drawing_.layers.insert(layer);  // the user may map a layer of text to none
+            return;
+        }
+        if (record.type != "TEXT" && record.type != "MTEXT") more_than_text_.insert(layer);
         count(bare_[layer], record);
+    }
+
+    /// Text on a layer named like a soil is its label. A layer named like the phreatic line is
+    /// refused, because the dam would be dry.
+    bool is_left_out(const std::string& layer, const Meaning& meaning) const {
+        return !more_than_text_.contains(layer) && !meaning.told && meaning.role != Role::phreatic;
     }
 
     /// A layer with a meaning, and nothing on it that could have it.
     void refuse_bare_layers() {
         for (const auto& [layer, bare] : bare_) {
             if (drawn_.contains(lower(layer))) continue;
-            const bool soil = layers_.meaning_of(layer).role == Role::soil;
+            const Meaning meaning = layers_.meaning_of(layer);
+            if (is_left_out(layer, meaning)) {
+                drawing_.remarks.push_back("layer " + layer + " has only text: it was left out");
+                continue;
+            }
+            const bool soil = meaning.role == Role::soil;
             drawing_.layers.insert(layer);
             drawing_.faults.push_back(
                 {at_line(bare.origin.line),
@@ -252,6 +268,7 @@ class DxfReader {
     std::map<std::string, std::size_t> hidden_entities_;
     std::map<std::string, std::size_t> passed_over_;
     std::map<std::string, UnknownLayer> bare_;  ///< layers with a meaning: what was passed over
+    std::set<std::string> more_than_text_;      ///< those of them with other entities
     std::set<std::string> drawn_;               ///< lower-case layers of all other entities
     std::string block_;
     std::set<std::string> meaningful_blocks_;

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/polyline.hpp"
+#include "core/words/number.hpp"
+
 namespace breach::importing {
 
 namespace {
@@ -60,6 +63,30 @@ double rounded(double x, double length) {
     return std::round(x / step) * step;
 }
 
+std::vector<Soil> turned(std::vector<Soil> soils) {
+    for (Soil& each : soils)
+        for (Vec2& place : each.ring) place.y() = -place.y();
+    return soils;
+}
+
+/// Without the points that lie within `off` of the straight line between those kept.
+std::vector<Vec2> cornered(const std::vector<Vec2>& line, double off) {
+    std::vector<Vec2> corners;
+    std::size_t from = 0;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const bool is_end = i == 0 || i + 1 == line.size();
+        const auto strays = [&](const Vec2& each) {
+            return geometry::distance_to_segment(each, line[from], line[i + 1]) > off;
+        };
+        if (!is_end && std::none_of(line.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                                    line.begin() + static_cast<std::ptrdiff_t>(i) + 1, strays))
+            continue;
+        corners.push_back(line[i]);
+        from = i;
+    }
+    return corners;
+}
+
 }  // namespace
 
 geometry::Outlines outlines_of(const std::vector<Soil>& soils) {
@@ -70,13 +97,54 @@ geometry::Box box_of(const std::vector<Soil>& soils) {
     return geometry::extent(outlines_of(soils));
 }
 
-/// Pieces in one line: stretches without soil are straight between their ends.
+/// Pieces in one line: stretches without soil are straight between their ends. A border that
+/// reaches the face from inside is no corner of the ground: a crest would move to it.
 std::vector<Vec2> ground_of(const std::vector<Soil>& soils) {
     constexpr double everywhere = std::numeric_limits<double>::infinity();
+    constexpr double straight = 1e-3;  // m
     std::vector<Vec2> ground;
     for (const auto& piece : geometry::ground_between(outlines_of(soils), -everywhere, everywhere))
         ground.insert(ground.end(), piece.begin(), piece.end());
-    return ground;
+    return cornered(ground, straight);
+}
+
+/// Beyond what is drawn the ground goes on falling as it does from the toe on, because level ground
+/// would stop the soil too early. A rise stops it, so it ends where the drawing does.
+Terrain guessed_terrain(const std::vector<Soil>& soils, const std::vector<Vec2>& drawn) {
+    constexpr double heights = 10.0;  // beyond the toe, as in "breach new"
+    constexpr double steepest = 0.2;
+    std::vector<Vec2> ground = ground_of(soils);
+    const Slope slope = *slope_of(ground);
+    const geometry::Box box = box_of(soils);
+    const double h = element_size_for(slope.fall()), end = box.high.x();
+    std::vector<Vec2> base = ground_of(turned(soils));
+    for (Vec2& each : base) each.y() = -each.y();
+    std::string from = "no terrain is drawn: the section's lower edge, then ";
+    const bool is_drawn = !drawn.empty() && drawn.back().x() > end + h;
+    if (is_drawn) {
+        ground.emplace_back(end + 0.4 * h, geometry::level_at(drawn, end + 0.4 * h));
+        for (const Vec2& each : drawn)
+            if (each.x() > end + 0.4 * h) ground.push_back(each);
+        from += "the drawn ground line, and beyond it ground ";
+    } else {
+        ground.emplace_back(end + 0.4 * h, ground.back().y());
+        from += "from its right end on ground ";
+    }
+    const Vec2 beyond = ground.back() - slope.toe;
+    const double fall =
+        beyond.x() < slope.fall() ? 0.0 : std::clamp(-beyond.y() / beyond.x(), 0.0, steepest);
+    from += fall > 0.0 ? "that goes on falling by " + words::text_of(100.0 * fall, 2) +
+                             " %, as it does from the toe on"
+                       : "at the level there";
+    std::vector<Vec2> line = base;
+    line.emplace_back(end + 0.2 * h, base.back().y());
+    const auto natural =
+        std::ranges::find_if(ground, [&](const Vec2& each) { return each.x() > end + 0.3 * h; });
+    line.insert(line.end(), natural, ground.end());
+    const double right = std::max(slope.toe.x() + heights * slope.fall(), end + 4.0 * h);
+    const Vec2 last = line.back();
+    if (right > last.x()) line.emplace_back(right, last.y() - fall * (right - last.x()));
+    return {cornered(line, 1e-6), from};
 }
 
 /// Between all neighbouring corners, in the middle: there the order of the strata is the same
@@ -101,11 +169,8 @@ std::optional<Void> highest_void(const std::vector<Soil>& soils, double toleranc
 
 /// Turned upside down, the section would have a slope that it has not as drawn.
 bool looks_upside_down(const std::vector<Soil>& soils) {
-    std::vector<Soil> turned = soils;
-    for (Soil& each : turned)
-        for (Vec2& place : each.ring) place.y() = -place.y();
     if (slope_of(ground_of(soils))) return false;
-    const auto slope = slope_of(ground_of(turned));
+    const auto slope = slope_of(ground_of(turned(soils)));
     constexpr double face = 0.1;  // flatter bases are not the face of a dam
     return slope && slope->fall() > face * std::abs(slope->toe.x() - slope->crest.x());
 }

@@ -46,6 +46,15 @@ struct Ranges {
 /// beyond the toe.
 Ranges ranges_of(const Slope& slope, const std::vector<Vec2>& ground);
 
+/// Rigid ground of a runout where none is drawn: the section's lower edge, then the natural ground.
+struct Terrain {
+    std::vector<Vec2> line;  ///< from left to right, to ten falls of the slope beyond the toe [m]
+    std::string from;        ///< how it was chosen, for the report
+};
+/// `drawn`: the ground line, which counts beyond the section's right end; empty: none. Needs a
+/// ground with a slope to the right.
+Terrain guessed_terrain(const std::vector<Soil>& soils, const std::vector<Vec2>& drawn);
+
 /// About a fifteenth of the fall, rounded to 1, 2 or 5 times a power of ten [m].
 double element_size_for(double height);
 /// A twentieth of the fall, rounded down to two digits [m]: the cells of "breach new".

@@ -16,7 +16,8 @@ struct Soil {
     std::string material;
     Polygon ring;
     Origin origin;
-    int depth_layer = 0;  ///< below the phreatic line, from 1; 0: none
+    int depth_layer = 0;        ///< below the phreatic line, from 1; 0: none
+    std::string cut_from = "";  ///< region as drawn, whose part this is; empty: whole
 };
 
 /// One correction.

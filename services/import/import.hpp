@@ -33,11 +33,13 @@ struct Request {
     std::string name = "";               ///< of the scene; empty: the file's name
     bool confirmed = false;              ///< sizes that look like a wrong unit are intended
     std::optional<earthquake::Motion> motion = {};  ///< shakes the section; none: no FEM
+    /// "REGION=0.08,SOURCE": liquefied at rest below the phreatic line; see liquefy.hpp
+    std::vector<std::string> liquefied = {};
 };
 
 struct Imported {
     nlohmann::json scene;  ///< null when there are faults; names its motion "motion.csv"
-    nlohmann::json study;  ///< for a scene with a motion, without that scene; else null
+    nlohmann::json study;  ///< with a motion or liquefied soil, without the scene; else null
     std::string motion;    ///< text of motion.csv; empty: none
     /// unit, unit_from ("asked", "drawing", "header", "default"), size [length, height, m],
     /// tolerance, healed, areas, guessed, remarks; slope {crest, toe} if there is one; other_units

@@ -37,12 +37,12 @@ double thinnest_of(const std::vector<LayerRequest>& layers) {
 Document made(const Section& section, const Request& request, double share) {
     Document document =
         document_of(scene_name(request), request.materials, section.soils, section.lines, share);
-    if (section.guesses_terrain)
+    if (!section.terrain_from.empty())
         document.guessed.push_back({{"pointer", "/mpm/terrain"},
                                     {"value", document.scene["mpm"]["terrain"]},
-                                    {"from",
-                                     "the section's base, then the ground's level at "
-                                     "its right end"}});
+                                    {"from", section.terrain_from}});
+    if (!section.liquefied.empty())
+        add_liquefaction(section.liquefied, section.soils, section.lines, document);
     if (request.motion)
         add_earthquake({*request.motion, thinnest_of(section.layers)}, section.soils, section.lines,
                        document);
@@ -120,7 +120,7 @@ std::string scene_name(const Request& request) {
     return name;
 }
 
-bool can_be_shaken(Section& section, Notes& notes) {
+bool can_fail(Section& section, Notes& notes) {
     const Request& request = notes.request;
     const std::vector<Soil>& soils = section.soils;
     // Materials first: later steps need their entries.
@@ -128,10 +128,18 @@ bool can_be_shaken(Section& section, Notes& notes) {
     bare.scene.erase("lem");
     notes.result.faults = seen_from_drawing(checked(bare.scene, request).faults, soils);
     if (!notes.are_clean()) return false;
-    notes.result.faults = faults_of_shaking(soils, section.lines, materials_in(request.materials));
+    const json& materials = materials_in(request.materials);
+    notes.result.faults =
+        request.motion ? faults_of_shaking(soils, section.lines, materials)
+                       : faults_of_liquefying(section.liquefied, soils, section.lines, materials);
     if (!notes.are_clean()) return false;
-    section.guesses_terrain = section.lines.terrain.empty();
-    if (section.guesses_terrain) section.lines.terrain = guessed_terrain(soils);
+    if (section.lines.terrain.empty()) {
+        Terrain terrain = guessed_terrain(soils, section.lines.ground);
+        section.lines.terrain = std::move(terrain.line);
+        section.terrain_from = std::move(terrain.from);
+    } else {
+        notes.remark("the runout's terrain is the line that is drawn for it");
+    }
     return true;
 }
 
@@ -155,8 +163,12 @@ void write_scene(const Section& section, Notes& notes) {
         }
     }
     for (std::string& each : document.remarks) notes.remark(std::move(each));
+    // Guessed entries are listed as such; what a check thinks of them is shown with the scene.
     for (const fault::Flag& each : read.scene.warnings)
-        notes.remark(each.pointer + ": " + each.message);
+        if (std::ranges::none_of(document.guessed, [&](const json& guess) {
+                return guess.at("pointer") == each.pointer;
+            }))
+            notes.remark(each.pointer + ": " + each.message);
     notes.result.report["guessed"] = document.guessed;
     if (document.slope)
         notes.result.report["slope"] = {{"crest", as_json(document.slope->crest)},
@@ -165,6 +177,7 @@ void write_scene(const Section& section, Notes& notes) {
     check_shape(section.soils, document.slope, notes);
     notes.add(notes.result.to_confirm);
     notes.result.scene = std::move(document.scene);
+    notes.result.study = std::move(document.study);
     if (request.motion) {
         notes.result.study = {{"format", "breachline-study/1"}, {"name", scene_name(request)}};
         notes.result.study.update(json(earthquake::transfers_of(*request.motion)));

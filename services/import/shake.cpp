@@ -31,42 +31,19 @@ bool is_upright(const std::vector<Soil>& soils, double x) {
 
 // ------------------------------------------------------------ what the FEM cannot do
 
-void check_slope(const std::optional<Slope>& slope, std::vector<Fault>& faults) {
-    if (!slope)
-        faults.push_back({"drawing", "the ground has no slope that an earthquake could bring down",
-                          "draw the dam's face, or leave --with-fem out"});
-    else if (slope->toe.x() < slope->crest.x())
-        faults.push_back({"drawing",
-                          "the slope falls to the left, from its crest " + text(slope->crest) +
-                              " to its toe " + text(slope->toe) +
-                              ": a runout is measured to the right",
-                          "mirror the drawing: give -x for x"});
-}
-
 /// Only layers can liquefy, so that a section without any would shake for nothing.
 void check_layers(const std::vector<Soil>& soils, const Lines& lines, const json& materials,
                   std::vector<Fault>& faults) {
-    if (lines.phreatic.empty()) {
-        faults.push_back({"phreatic", "is missing: soil below the phreatic line can liquefy",
-                          "draw it on a layer PHREATIC, or give it as a file"});
-        return;
-    }
+    if (!has_phreatic(lines, faults)) return;
     if (std::ranges::none_of(soils, [](const Soil& each) { return each.depth_layer > 0; }))
         faults.push_back(
             {"layers", "no region is cut in layers below the phreatic line, so none can liquefy",
              "name the tailings and depths, as --layers REGION=5,10; the regions are " +
                  words::list_of(soils, &Soil::name)});
-    std::set<std::string> reported;
-    for (const Soil& each : soils) {
-        const json& material = materials.at(each.material);
-        if (each.depth_layer == 0 || is_drained(material) ||
-            material.at("law").at("type") == "pm4sand" || !reported.insert(each.material).second)
-            continue;
-        faults.push_back({"/materials/" + each.material,
-                          "is not drained soil, and region " + each.name + " is to liquefy",
-                          "give a mohr_coulomb law with its drained c_kPa and phi_deg above 0; the "
-                          "transfer gives liquefied soil its residual strength"});
-    }
+    check_drained(soils, materials, faults, [&](const Soil& each) {
+        return each.depth_layer > 0 &&
+               materials.at(each.material).at("law").at("type") != "pm4sand";
+    });
 }
 
 /// The lower edge must be level, like the rock below it.
@@ -195,6 +172,40 @@ void make_room(double left, Document& document) {
 
 }  // namespace
 
+void check_slope(const std::optional<Slope>& slope, const std::string& option,
+                 std::vector<Fault>& faults) {
+    if (!slope)
+        faults.push_back({"drawing", "the ground has no slope that could fail",
+                          "draw the dam's face, or leave " + option + " out"});
+    else if (slope->toe.x() < slope->crest.x())
+        faults.push_back({"drawing",
+                          "the slope falls to the left, from its crest " + text(slope->crest) +
+                              " to its toe " + text(slope->toe) +
+                              ": a runout is measured to the right",
+                          "mirror the drawing: give -x for x"});
+}
+
+bool has_phreatic(const Lines& lines, std::vector<Fault>& faults) {
+    if (!lines.phreatic.empty()) return true;
+    faults.push_back({"phreatic", "is missing: soil below the phreatic line can liquefy",
+                      "draw it on a layer PHREATIC, or give it as a file"});
+    return false;
+}
+
+void check_drained(const std::vector<Soil>& soils, const json& materials,
+                   std::vector<Fault>& faults, const std::function<bool(const Soil&)>& liquefies) {
+    std::set<std::string> reported;
+    for (const Soil& each : soils) {
+        if (!liquefies(each) || is_drained(materials.at(each.material)) ||
+            !reported.insert(each.material).second)
+            continue;
+        faults.push_back({"/materials/" + each.material,
+                          "is not drained soil, and region " + each.name + " is to liquefy",
+                          "give a mohr_coulomb law with its drained c_kPa and phi_deg above 0; "
+                          "liquefied soil gets its residual strength beside it"});
+    }
+}
+
 std::vector<Change> straightened(std::vector<Soil>& soils, double tolerance) {
     std::vector<Change> changes;
     if (soils.empty()) return changes;
@@ -216,23 +227,12 @@ std::vector<Change> straightened(std::vector<Soil>& soils, double tolerance) {
 std::vector<Fault> faults_of_shaking(const std::vector<Soil>& soils, const Lines& lines,
                                      const json& materials) {
     std::vector<Fault> faults;
-    check_slope(slope_of(ground_of(soils)), faults);
+    check_slope(slope_of(ground_of(soils)), "--with-fem", faults);
     check_layers(soils, lines, materials, faults);
     check_base(soils, faults);
     check_side(soils, box_of(soils).low.x(), "left", faults);
     check_side(soils, box_of(soils).high.x(), "right", faults);
     return faults;
-}
-
-std::vector<Vec2> guessed_terrain(const std::vector<Soil>& soils) {
-    constexpr double heights = 10.0;  // beyond the toe, as in "breach new"
-    const std::vector<Vec2> ground = ground_of(soils);
-    const Slope slope = *slope_of(ground);
-    const geometry::Box box = box_of(soils);
-    const double h = element_size_for(slope.fall());
-    const double right = std::max(slope.toe.x() + heights * slope.fall(), box.high.x() + 4.0 * h);
-    return earthquake::terrain_of(box.low.x(), box.low.y(), box.high.x(), right, h,
-                                  [&](double) { return ground.back().y(); });
 }
 
 void add_earthquake(const Earthquake& asked, const std::vector<Soil>& soils, const Lines& lines,

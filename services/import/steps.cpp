@@ -54,9 +54,9 @@ bool is_between(const char* option, double value, double least, double most,
     return false;
 }
 
-/// Adds the depth layers that are asked for.
+/// Adds the depth layers and the liquefied regions that are asked for.
 /// All options are checked before the drawing is read: a user corrects them in one go.
-bool check_request(std::vector<LayerRequest>& layers, Notes& notes) {
+bool check_request(Section& section, Notes& notes) {
     const Request& request = notes.request;
     const json& materials = materials_in(request.materials);
     bool sound = true;
@@ -89,7 +89,13 @@ bool check_request(std::vector<LayerRequest>& layers, Notes& notes) {
     }
     for (const std::string& each : request.layers)
         if (auto wanted = layer_request_from(each, notes.result.faults))
-            layers.push_back(std::move(*wanted));
+            section.layers.push_back(std::move(*wanted));
+    for (const std::string& each : request.liquefied)
+        if (auto wanted = liquefied_request_from(each, notes.result.faults))
+            section.liquefied.push_back(std::move(*wanted));
+    if (request.motion && !request.liquefied.empty())
+        notes.refuse("liquefied", "is given with an earthquake, whose FEM finds what liquefies",
+                     "leave out --with-fem, or --liquefied");
     return sound;
 }
 
@@ -238,11 +244,17 @@ void fit(std::vector<Soil>& soils, Section section, Notes& notes) {
         notes.add(healed.changes);
     }
     if (!notes.are_clean()) return;
+    if (!section.lines.phreatic.empty()) {
+        healed = with_liquefied_parts(std::move(healed.soils), section.liquefied,
+                                      section.lines.phreatic, tolerance);
+        notes.add(healed.faults);
+        notes.add(healed.changes);
+        if (!notes.are_clean()) return;
+    }
     section.soils = std::move(healed.soils);
     if (!request.motion)
         choose_materials(section.soils, drawn, names_in(materials_in(request.materials)), notes);
-    else if (!can_be_shaken(section, notes))
-        return;
+    if ((request.motion || !section.liquefied.empty()) && !can_fail(section, notes)) return;
     tell_size(section.soils, notes);
     tell_areas(section.soils, drawn, notes);
     write_scene(section, notes);
@@ -290,7 +302,7 @@ Imported import_section(const Request& request) {
     const LayerMap map(request.map, names_in(materials_in(request.materials)), notes.result.faults);
     Sorted found;
     Section section;
-    if (check_request(section.layers, notes)) {
+    if (check_request(section, notes)) {
         if (auto drawing = read_drawing(map, notes)) {
             found = sorted(*drawing, map, notes);
             if (is_turned(found.soils, notes)) {  // the faults of lines would mislead

@@ -6,6 +6,7 @@
 #include "services/import/document.hpp"
 #include "services/import/import.hpp"
 #include "services/import/layer_map.hpp"
+#include "services/import/liquefy.hpp"
 
 namespace breach::importing {
 
@@ -44,10 +45,12 @@ struct Section {
     std::vector<Soil> soils;
     Lines lines;
     std::vector<LayerRequest> layers;
-    bool guesses_terrain = false;  ///< set by can_be_shaken
+    std::vector<LiquefiedRequest> liquefied;
+    std::string terrain_from = "";  ///< why the terrain is as it is; set by can_fail
 };
-/// Adds the faults for which the FEM cannot shake the section. Guesses the terrain if it has none.
-bool can_be_shaken(Section& section, Notes& notes);
+/// Adds the faults for which the section can neither be shaken nor liquefy, as requested. Guesses
+/// the terrain if it has none.
+bool can_fail(Section& section, Notes& notes);
 /// Fills scene, study, motion and sketch of the result.
 void write_scene(const Section& section, Notes& notes);
 

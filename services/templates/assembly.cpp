@@ -392,15 +392,31 @@ Json runout_of(const Context& all) {
         // Foundation and clay lie beyond the toe from the start: they must not count as runout.
         if (each.material != "foundation" && each.material != "clay") mobile.push_back(each.name);
     mpm["runout"] = {{"toe", {0, 0}}, {"regions", mobile}};
-    mpm["gauges"] = {{{"name", "toe"}, {"x", 0}}};
-    for (const auto& [name, heights] :
-         {std::pair("one_height", 1.0), std::pair("three_heights", 3.0)})
-        if (heights * H < right) mpm["gauges"].push_back({{"name", name}, {"x", heights * H}});
-    mpm["sections"] = {{{"name", "toe"}, {"x", 0}}};
+    add_gauges(mpm, 0.0, H, right);
     return mpm;
 }
 
 }  // namespace
+
+void add_gauges(Json& mpm, double toe, double height, double right) {
+    mpm["gauges"] = {{{"name", "toe"}, {"x", toe}}};
+    for (const auto& [name, heights] :
+         {std::pair("one_height", 1.0), std::pair("three_heights", 3.0)})
+        if (const double x = toe + heights * height; x < right)
+            mpm["gauges"].push_back({{"name", name}, {"x", x}});
+    mpm["sections"] = {{{"name", "toe"}, {"x", toe}}};
+}
+
+Json overrides_of_standing(const Json& materials) {
+    Json overrides = Json::array();
+    // Only in the variant that stands and would sway: a flow must not be damped.
+    for (const auto& [name, material] : materials.items())
+        overrides.push_back("/materials/" + name + "/viscosity=" + words::text_of(damping));
+    // A stable dam releases hardly any energy to compare its oscillation with.
+    overrides.push_back("/mpm/rest_kinetic_share=0.05");
+    overrides.push_back("/mpm/rest_speed=0.2");
+    return overrides;
+}
 
 earthquake::Motion motion_in(const Values& values) { return {values["pga"], values["shaking"]}; }
 
@@ -465,12 +481,8 @@ Json study_of(const Values& values, const Json& scene) {
         undrained_regions.push_back({{"region", each.at("name")}, {"strength_kPa", peak}});
     }
     if (overrides.empty()) return study;
-    // Only in the variant that stands and would sway: a flow must not be damped.
-    for (const auto& [name, material] : scene.at("materials").items())
-        overrides.push_back("/materials/" + name + "/viscosity=" + words::text_of(damping));
-    // A stable dam releases hardly any energy to compare its oscillation with.
-    overrides.push_back("/mpm/rest_kinetic_share=0.05");
-    overrides.push_back("/mpm/rest_speed=0.2");
+    for (Json& each : overrides_of_standing(scene.at("materials")))
+        overrides.push_back(std::move(each));
     overrides.push_back("/lem/undrained=" + undrained_regions.dump());
     study["variants"] = {{{"name", "liquefied"}},
                          {{"name", "undrained_peak"}, {"overrides", overrides}}};

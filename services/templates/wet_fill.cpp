@@ -45,7 +45,7 @@ void drop_unused(Json& scene, const std::string& material) {
 
 }  // namespace
 
-void reduce_friction_of_wet_fill(Json& scene) {
+void reduce_friction_of_wet_fill(Json& scene, const std::string& suffix) {
     const scene::Reading reading = scene::read_text(scene.dump(), "scene", ".", {});
     // check_made() reports them next.
     if (!reading.faults.empty()) return;
@@ -54,14 +54,18 @@ void reduce_friction_of_wet_fill(Json& scene) {
     const scene::Ground ground(read);
     const auto& regions = read.section.regions;
     const std::vector<scene::Soil> soils = scene::soils_of(read);
-    const std::vector<std::size_t> liquefy =
-        read.transfer->liquefied ? read.transfer->liquefied->regions : std::vector<std::size_t>{};
+    const std::vector<std::size_t> liquefy = read.transfer && read.transfer->liquefied
+                                                 ? read.transfer->liquefied->regions
+                                                 : std::vector<std::size_t>{};
     for (std::size_t r = 0; r < regions.size(); ++r) {
         const std::string before = read.materials[soils[r].material].name;
         Json wet = scene["materials"][before];
         if (!is_drained(wet) || std::ranges::count(liquefy, r) > 0) continue;
         if (!scene::is_below_water(read.section, regions[r], read.lem->water->line)) continue;
         const double r_u = ground.r_u_at_base(r);
+        if (!wet.contains("limit_strength"))
+            wet["limit_strength"] = {{"c_kPa", wet["law"]["c_kPa"]},
+                                     {"phi_deg", wet["law"]["phi_deg"]}};
         Json& law = wet["law"];
         law["phi_deg"] = reduced(law["phi_deg"], r_u);
         if (law.contains("softening"))
@@ -74,7 +78,7 @@ void reduce_friction_of_wet_fill(Json& scene) {
             " (Bishop & Morgenstern 1960): material points carry no pore pressure; fill that "
             "dilates gets no credit for suction (Duncan, Wright & Brandon 2014)");
         // Of the region, not of the soil: r_u differs from place to place.
-        const std::string after = regions[r].name + (read.fem ? "_runout" : "");
+        const std::string after = regions[r].name + (read.fem ? "_runout" : suffix);
         scene["materials"][after] = wet;
         if (read.fem) {
             for (Json& each : scene["transfer"]["mapping"])

@@ -47,7 +47,7 @@ arrows = {
     "services/findings": {"core/fault", "core/motion", "core/phases", "core/statistics", "core/words"},
     "services/orchestrator": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/outflow", "services/templates", "core/check", "core/command", "core/criteria", "core/fault", "core/motion", "core/scene", "core/exchange", "core/phases", "core/statistics", "core/telemetry", "core/version", "core/words"},
     "services/cli": {"services/estimate", "services/findings", "services/drawing", "services/import", "services/templates", "core/check", "core/command", "core/fault", "core/motion", "core/phases", "core/scene", "core/exchange", "core/version", "core/words"},
-    "services/import": {"services/earthquake", "core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene", "core/words"},
+    "services/import": {"services/earthquake", "services/templates", "core/check", "core/fault", "core/geometry", "core/mechanics", "core/scene", "core/words"},
     "services/drawing": {"core/check", "core/command", "core/exchange", "core/fault", "core/geometry", "core/materials", "core/mechanics", "core/motion", "core/phases", "core/scene", "core/words"},
 }
 # folder -> its subfolders in order: each may include those before it; files of the folder itself come last.

@@ -148,6 +148,38 @@ test("a section drawn elsewhere becomes the scene's; what is wrong with the file
     await page.keyboard.press("Escape");
 });
 
+test("a drawn dam is asked for its residual strengths, and becomes a study of static liquefaction", async () => {
+    await page.goto(live.service.url);
+    await page.click("nav [data-opens=submit]");
+    const law = (c_kPa, phi_deg) => ({ density: 1900, law: { type: "mohr_coulomb", E_MPa: 20, nu: 0.3, c_kPa, phi_deg } });
+    await write_json(page, JSON.stringify({ format: "breachline-study/1", name: "mine",
+        scene: { format: "breachline-scene/1", name: "mine", materials: { ground: law(30, 36), dam: law(8, 34), tailings: law(1, 30) } } }));
+    const drawing = "region,x,y\nground,-60,-8\nground,50,-8\nground,50,0\nground,0,0\nground,-36,0\nground,-60,0\n\ndam,-36,0\ndam,0,0\ndam,-24,12\ndam,-28,12\n\n"
+        + "tailings,-60,0\ntailings,-36,0\ntailings,-28,12\ntailings,-60,11.5\n\nphreatic,-60,10\nphreatic,-28,9\nphreatic,0,0\nphreatic,50,0\n";
+    await page.setInputFiles("#study-file", { name: "dam.csv", mimeType: "text/csv", buffer: Buffer.from(drawing) });
+    await until("the dam", async () => (await value()).scene.section?.regions.length === 3);
+    await go_to_step(page, "Question");
+    await page.getByLabel(/How far does it run, liquefied at rest/).check();
+    const strengths = page.getByLabel("liquefied", { exact: true });
+    await until("what to enter", async () => /gives no residual strength.*REGION=0.08,SOURCE/s.test(await row_of(strengths).locator(".field-faults").textContent()));
+    assert.equal((await value()).scene.mpm, undefined, "the study is as it was");
+    await screenshot_at("form_liquefied");
+    await strengths.fill("tailings=0.08");
+    await until("no source", async () => /names no source/.test(await row_of(strengths).locator(".field-faults").textContent()));
+    await strengths.fill("tailings=0.08, CPTu 2024");
+    await until("the study", async () => (await value()).variants?.length === 2);
+    assert.match(await page.textContent("#options-note"), /residual strength 0.08 sigma'_v0, peak 0.27 sigma'_v0 .*: CPTu 2024/);
+    assert.ok(await page.getByLabel(/How far does it run, liquefied at rest/).isChecked());
+    await strengths.fill("tailings=0.1, CPTu 2024");
+    const ratio = async () => (await value()).scene.materials.tailings_liquefied.strength.peak.ratio;
+    await until("another strength", async () => (await ratio()) === 0.1);
+    assert.deepEqual((await value()).scene.materials.tailings, law(1, 30), "the soils are still those that were entered");
+    await page.getByLabel(/Does an earthquake bring it down/).check();
+    await until("asked for layers instead", async () => /no region is cut in layers/.test(await page.textContent("#drawing-faults")));
+    await page.getByLabel(/How far does it run, liquefied at rest/).check();
+    await page.keyboard.press("Escape");
+});
+
 test("nothing failed inside the page", () => {
     assert.deepEqual(live.browser.complaints, []);
     assert.deepEqual(live.browser.foreign, []);

@@ -156,9 +156,11 @@ test("a drawing dropped into an empty dialog leads to its soils; a drawing read 
     await go_to_step(page, "Question");
     assert.ok(await page.locator('#question label:has-text("earthquake") input').isChecked());
     await page.click('#question label:has-text("liquefied at rest") input');
+    await page.getByLabel("liquefied", { exact: true }).fill("TAILINGS=0.08, CPTu 2024");
     await until("no FEM", async () => (await scene()).fem === undefined);
-    assert.deepEqual(Object.keys((await scene()).materials).sort(), ["FOUNDATION", "RAISES", "STARTER", "TAILINGS"]);
+    assert.deepEqual(Object.keys((await scene()).materials).filter((name) => !/_wet$/.test(name)).sort(), ["FOUNDATION", "RAISES", "STARTER", "TAILINGS", "TAILINGS_liquefied"]);
     assert.equal((await scene()).materials.TAILINGS.law.type, "mohr_coulomb");
+    await sound("the section that liquefies");
 });
 
 test("a study file whose scene is a name asks for that file", async () => {

@@ -29,6 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if ((options & 16) != 0) request.phreatic = {"water.csv", "x,y\n0,3\n20,1\n"};
     if ((options & 32) != 0) request.tolerance = 0.5;
     if ((options & 64) != 0) request.motion.emplace();
+    if ((options & 128) != 0) request.liquefied = {"a=0.08,CPTu"};
     const importing::Imported imported = importing::import_section(request);
     fuzz::require(imported.scene.is_null() != imported.faults.empty(), "a scene or faults");
     importing::lines_of(imported.report, 5);

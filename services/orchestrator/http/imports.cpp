@@ -95,7 +95,8 @@ importing::Request request_from(const std::string& text) {
                                .tolerance = entries.number("tolerance").value_or(0.05),
                                .flatten = entries.number("flatten"),
                                .name = entries.text("name"),
-                               .confirmed = entries.flag("confirmed")};
+                               .confirmed = entries.flag("confirmed"),
+                               .liquefied = entries.texts("liquefied")};
     const auto pga = entries.number("pga"), shaking = entries.number("shaking");
     if (entries.flag("with_fem")) {
         // Its presence asks for a FEM; pga and shaking alone have no effect.
@@ -116,8 +117,8 @@ json imported(const std::string& body, const KeepMotion& keep_motion) {
     json answer{{"report", std::move(made.report)}};
     if (!made.motion.empty()) {
         made.scene["fem"]["motion"]["file"] = keep_motion(made.motion);
-        answer["study"] = std::move(made.study);
     }
+    if (!made.study.is_null()) answer["study"] = std::move(made.study);
     answer["scene"] = std::move(made.scene);
     return answer;
 }

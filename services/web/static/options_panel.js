@@ -95,7 +95,7 @@ export class OptionsPanel {
         }
     }
     tell(fault, members) {
-        const placed = (fault.faults ?? []).map((one) => [members.child(parts_of(one.pointer)[0]), one]);
+        const placed = (fault.faults ?? []).map((one) => [members.child(parts_of(one.pointer)[0] ?? one.pointer), one]);
         for (const [part, one] of placed) if (part) say_fault(part, one);
         const [first] = placed.find(([part]) => part) ?? [];
         if (this.source.failed) this.source.failed(fault);

@@ -4,7 +4,7 @@ import { by_id, element, set_text } from "./dom.js";
 const kinds = [
     { name: "stability", title: "Does it stand?", help: "stability: factor of safety (LEM)", needs: ["lem"], without: "needs a stability part: add it below" },
     { name: "static", title: "How far does it run, liquefied at rest?", help: "static liquefaction: factor of safety, then runout with residual strengths (LEM, MPM)", needs: ["mpm"],
-      without: "needs a runout part: draw the ground that it runs over on a layer named terrain, add the part below, or begin with a template" },
+      without: "needs a runout part: begin with a drawing or a template, or add it below" },
     { name: "seismic", title: "Does an earthquake bring it down?", help: "seismic: pore pressure and failure under a motion, then runout (FEM, transfer, MPM)", needs: ["fem", "transfer", "mpm"],
       without: "needs FEM, transfer and runout: begin with a template or a drawing, or add them below" },
 ];
@@ -18,7 +18,7 @@ function residual_strengths({ materials = {}, lem }) {
 }
 
 export class Question {
-    /// edit(change): replaces the study by change(study); template: {is_shaken(): true, false or null (no earthquake), make(is_shaken)}.
+    /// edit(change): replaces the study by change(study); template: {is_shaken(): true, false or null (no earthquake), can_liquefy(), make(is_shaken, wants_strengths)}.
     constructor(edit, template) {
         Object.assign(this, { edit, template, parked: null });
         this.rows = kinds.map((kind) => {
@@ -34,10 +34,11 @@ export class Question {
 
     show(study) {
         const scene = study?.scene ?? {};
+        this.runs_at_rest = [scene, this.parked?.scene].some((each) => each && kind_of(each) === "static");
         by_id("question").hidden = !scene.section;
         for (const { name, needs, help, without, radio, note } of this.rows) {
             const missing = needs.filter((part) => !scene[part] && !this.parked?.scene?.[part]);
-            const is_by_template = this.template.is_shaken() !== null && (name === "seismic" || missing.length === 0);
+            const is_by_template = this.template.is_shaken() !== null && (name === "seismic" || missing.length === 0 || (name === "static" && this.template.can_liquefy()));
             radio.checked = name === kind_of(scene);
             radio.disabled = !radio.checked && !is_by_template && (missing.length > 0 || (name === "static" && Boolean(scene.fem)));
             set_text(note, !radio.disabled ? help : missing.length ? without : "this scene's soils are those of its FEM");
@@ -50,10 +51,10 @@ export class Question {
             this.parked = {};
             return this.edit((study) => this.shaped(study));
         }
-        const { scene: parts, ...others } = this.parked ?? {};
+        const { scene: parts, ...others } = this.parked ?? {}, wants_strengths = name === "static" && !this.runs_at_rest;
         this.parked = null;
         this.edit((study) => ({ ...study, ...defined(others), scene: { ...study.scene, ...defined(parts ?? {}) } }));
-        this.template.make(name === "seismic");
+        this.template.make(name === "seismic", wants_strengths);
     }
 
     /// A generated study without the parts that the question does not need; they are kept.

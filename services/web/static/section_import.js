@@ -9,6 +9,7 @@ const properties = {
     unit: { type: "string", enum: units, description: "of the drawing; not set: what the drawing says, metres for CSV" },
     tolerance: { type: "number", unit: "m", exclusiveMinimum: 0, maximum: 10, default: 0.05, description: "what is nearer is meant to touch" },
     with_fem: { topic: "water", type: "boolean", default: false, description: "yes: shaken by a synthetic earthquake (PM4Sand, FEM, transfer, runout); the layers can liquefy" },
+    liquefied: { topic: "question", type: "string", description: "what liquefies at rest below the phreatic line, with its residual strength and source, with ; between: tailings=0.08, CPTu 2024 (share of sigma'_v0) or tailings=4kPa, CPTu 2024" },
     flatten: { type: "number", unit: "m", exclusiveMinimum: 0, maximum: 10, description: "arcs become chords that are off by at most this; not set: arcs are faults" },
 };
 const pieces = (text) => (text ?? "").split(";").map((each) => each.trim()).filter(Boolean);
@@ -26,19 +27,19 @@ function note_of({ unit, unit_from, size, healed = [], guessed = [], remarks = [
 const stand_in = { density: 1900, law: { type: "mohr_coulomb", E_MPa: 20, nu: 0.3, c_kPa: 1, phi_deg: 30 } };
 const is_whole = ({ density, law, strength }) => density > 0 && (law?.type !== "mohr_coulomb" || (law.E_MPa > 0 && law.nu >= 0 && (strength || (law.c_kPa >= 0 && law.phi_deg >= 0))));
 
-/// Soils before an earthquake was added: NAME_runout becomes NAME again.
+/// Soils before an earthquake was added, where NAME_runout becomes NAME again, or before they liquefied.
 function at_rest(soils) {
     const shaken = Object.keys(soils).filter((name) => soils[`${name}_runout`]);
-    if (shaken.length === 0) return soils;
-    const added = ["liquefied", ...shaken.map((name) => `${name}_runout`)];
-    return Object.fromEntries(Object.entries(soils).filter(([name]) => !added.includes(name)).map(([name, soil]) => [name, soils[`${name}_runout`] ?? soil]));
+    const added = shaken.length ? ["liquefied", ...shaken.map((name) => `${name}_runout`)] : [];
+    const is_made = ({ notes = [] }) => notes.some((note) => /limit_strength is drained, before it liquefies$|\(1 - r_u\)/.test(note));
+    return Object.fromEntries(Object.entries(soils).filter(([name, soil]) => !added.includes(name) && !is_made(soil)).map(([name, soil]) => [name, soils[`${name}_runout`] ?? soil]));
 }
 
-/// Placeholders would become sand with wrong values.
-function need_values(soils) {
+/// Placeholders would become soil with wrong values.
+function need_values(soils, option) {
     const missing = Object.keys(soils).filter((name) => !is_whole(soils[name]));
     if (missing.length)
-        throw Object.assign(new Error("soils without values"), { faults: [{ pointer: "/with_fem", cause: `needs whole soils; values are missing of ${missing.join(", ")}`, remedy: "fill them in at the step Soils" }] });
+        throw Object.assign(new Error("soils without values"), { faults: [{ pointer: `/${option}`, cause: `needs whole soils; values are missing of ${missing.join(", ")}`, remedy: "fill them in at the step Soils" }] });
 }
 
 export class SectionImport {
@@ -56,13 +57,14 @@ export class SectionImport {
             return with_fem ? own : at_rest(own);
         };
         // The service places the search of the stability analysis, which needs complete soils: placeholders replace those without values.
-        const asked = ({ map, layers, ...others }, own) => ({ drawing, file, map: pieces(map), layers: pieces(layers), ...others,
+        const asked = ({ map, layers, liquefied, ...others }, own) => ({ drawing, file, map: pieces(map), layers: pieces(layers), liquefied: pieces(liquefied), ...others,
             materials: Object.fromEntries(Object.entries(own).map(([name, soil]) => [name, is_whole(soil) ? soil : stand_in])) });
         this.panel.open({
             title: `Section of ${file}.`, properties: { ...properties, ...this.templates.entries("pga", "shaking") }, is_import: true, base: is_again ? this.panel.made : { scene: { section: study?.scene?.section } },
             make: async (values, signal) => {
                 let own = soils(values);
-                if (values.with_fem) need_values(own);
+                const fails = values.liquefied ? "liquefied" : values.with_fem ? "with_fem" : null;
+                if (fails) need_values(own, fails);
                 const is_empty = Object.keys(own).length === 0;
                 const found = await api.import_section(asked(values, is_empty ? { "no soil yet": stand_in } : own), signal).catch((fault) => {
                     const layers = (fault.faults ?? []).map(({ cause }) => cause.match(/^layer (.+) has no material/)?.[1]).filter(Boolean);
@@ -72,7 +74,7 @@ export class SectionImport {
                 });
                 if (is_empty) this.wants_soils();
                 const note = `${note_of(found.report)}${study?.scene?.section && !is_again ? "; it takes the place of the section that stood there" : ""}`;
-                const scene = values.with_fem ? found.scene : { ...found.scene, materials: own };
+                const scene = fails ? found.scene : { ...found.scene, materials: own };
                 return { study: { format: "breachline-study/1", name: scene.name, ...found.study, scene }, note };
             },
             failed: (fault) => this.show_faults(asked(this.panel.options.values, soils(this.panel.options.values)), fault),

@@ -58,7 +58,15 @@ export class Templates {
         const { source, options } = this.panel;
         return source?.properties.with_fem ? options.values.with_fem ?? false : null;
     }
-    make(is_shaken) {
+    /// Whether the shown options ask for residual strengths.
+    can_liquefy() { return Boolean(this.panel.source?.properties.liquefied); }
+    /// wants_strengths: begins the entry of residual strengths, which the service refuses until it is filled in.
+    make(is_shaken, wants_strengths) {
+        if (this.can_liquefy()) {
+            const { values } = this.panel.options;
+            if (is_shaken) delete values.liquefied;
+            else if (wants_strengths) values.liquefied ??= "REGION=STRENGTH, SOURCE";
+        }
         if (this.is_shaken() !== null) this.panel.options.set(["with_fem"], is_shaken);
         else if (this.panel.source) this.panel.make();
     }

@@ -188,7 +188,7 @@ TEST(Dxf, NoLayerWithAMeaningIsLeftOutInSilence) {
     };
     const std::string ellipse = edges({group(72, "3") + place(10, {3, 7}) + place(11, {1, 0})});
     const std::string open = edges({line_edge({3, 7}, {4, 0}), line_edge({4, 0}, {4, 4})});
-    for (const char* type : {"SPLINE", "REGION", "MLINE", "BODY", "INSERT", "TEXT", "POINT",
+    for (const char* type : {"SPLINE", "REGION", "MLINE", "BODY", "INSERT", "LEADER", "POINT",
                              "ACAD_PROXY_ENTITY", "3DSOLID", "ELLIPSE"}) {
         for (const std::string layer : {"CLAY", "PHREATIC", "ground"}) {
             const Drawing drawing = read(dxf(at(type, layer) + light("ROCK", square)));
@@ -212,6 +212,23 @@ TEST(Dxf, NoLayerWithAMeaningIsLeftOutInSilence) {
     EXPECT_EQ(test::told(water.faults), "");
     EXPECT_EQ(water.remarks, (std::vector<std::string>{"passed over: 1 HATCH"}));
     EXPECT_EQ(test::told(read(dxf(hatch("CLAY", {path(square)})), {}, {"CLAY=none"}).faults), "");
+}
+
+TEST(Dxf, ALayerOfTextIsLeftOutUnlessItIsNamedLikeTheWater) {
+    const auto text = [](const char* type, const std::string& layer) {
+        return group(0, type) + group(8, layer) + place(10, {3, 7});
+    };
+    const std::string rock = light("ROCK", square);
+    for (const char* type : {"TEXT", "MTEXT"}) {
+        const Drawing drawing = read(dxf(text(type, "CLAY") + text(type, "ground") + rock));
+        EXPECT_EQ(test::told(drawing.faults), "");
+        EXPECT_EQ(drawing.remarks[0], "layer CLAY has only text: it was left out");
+        EXPECT_EQ(read(dxf(text(type, "PHREATIC") + rock)).faults.size(), 1u);
+        const std::string mapped = dxf(text(type, "labels") + rock);
+        EXPECT_EQ(read(mapped, {}, {"labels=clay"}).faults.size(), 1u) << "the user wants soil";
+        EXPECT_TRUE(read(mapped, {}, {"labels=none"}).layers.contains("labels"))
+            << "it can be mapped to none";
+    }
 }
 
 TEST(Dxf, LayersWithoutMeaningAreReportedOnceAndFrozenOnesAreLeftOut) {

@@ -516,6 +516,20 @@ TEST(Import, CellsFitTheLayersThatItCutsItself) {
     EXPECT_EQ(cell("TAILINGS=0.3").at("allow_coarse_cells"), true);
 }
 
+TEST(Import, TheCrestStaysWhereItIsDrawnWhenLayersAreCutBelowIt) {
+    // The line crosses the dam's inner face half a metre downstream of the crest.
+    Request request =
+        test::request(dxf(light("CLAY", {{62, 0}, {80, 0}, {55, 12}, {50, 12}}) +
+                          light("TAILINGS", {{0, 0}, {62, 0}, {50, 12}, {0, 11}}) +
+                          light("PHREATIC", {{0, 10.5}, {55.5, 6.5}, {80, 0}}, false)));
+    for (const char* layers : {"", "TAILINGS=4"}) {
+        if (*layers) request.layers = {layers};
+        const Imported imported = import_section(request);
+        ASSERT_EQ(test::told(imported.faults), "");
+        EXPECT_EQ(imported.report.at("slope").at("crest"), json::parse("[55.0, 12.0]")) << layers;
+    }
+}
+
 TEST(Import, NamesOfMaterialsAndRegionsMatchInAnyCase) {
     Request request = test::request(dxf(light("TAILINGS", {{0, 0}, {20, 0}, {20, 8}, {0, 8}}) +
                                         light("CORE", {{20, 0}, {40, 0}, {20, 8}}) +

@@ -223,6 +223,10 @@ class Described(Api):
         self.assertIn("file:sha256/", made["scene"]["fem"]["motion"]["file"])
         post("/v1/cost", "/v1/cost", 200, {**made["study"], "scene": made["scene"]})
         self.assertIn("REGION=5,10", post("/v1/import", "/v1/import", 422, {**shaken, "layers": []}).decode())
+        at_rest = {**section, "phreatic": "x,y\n0,6\n40,0\n", "liquefied": ["clay=0.08,CPTu 2024"]}
+        made = json.loads(post("/v1/import", "/v1/import", 200, at_rest))
+        post("/v1/cost", "/v1/cost", 200, {**made["study"], "scene": made["scene"]})
+        self.assertIn("names no source", post("/v1/import", "/v1/import", 422, {**at_rest, "liquefied": ["clay=0.08"]}).decode())
         wrong = {**section, "drawing": section["drawing"] + "\nsand,0,8\nsand,9,8\nsand,9,9\n"}
         self.assertIn("(0, 8)", post("/v1/import", "/v1/import", 422, wrong).decode())
         self.assertIn(b'class="fault"', post("/v1/import", "/v1/import?picture=1", 200, wrong))
