@@ -3,6 +3,8 @@
 // progress would cost more than the phases' own writes.
 #include "services/orchestrator/dispatch/progress_board.hpp"
 
+#include <algorithm>
+
 namespace breach::orchestrator {
 
 void ProgressBoard::set(const std::string& task, Progress progress) {
@@ -28,6 +30,16 @@ double ProgressBoard::sum_of_run(const std::string& run) const {
          ++each)
         sum += each->second.fraction;
     return sum;
+}
+
+double ProgressBoard::never_back(const std::string& run, double progress) const {
+    const std::lock_guard lock(mutex_);
+    if (progress >= 1.0) {
+        told_.erase(run);
+        return progress;
+    }
+    double& told = told_[run];
+    return told = std::max(told, progress);
 }
 
 }  // namespace breach::orchestrator

@@ -106,7 +106,7 @@ json as_json(const Run& run, const Store& store, const ProgressBoard& board) {
             {"created", run.created},
             {"started", or_null(run.started)},
             {"finished", or_null(run.finished)},
-            {"progress", progress},
+            {"progress", board.never_back(run.id, progress)},
             {"tasks_total", run.tasks_total},
             {"tasks_done", run.tasks_done},
             {"tasks_failed", run.tasks_failed},

@@ -78,6 +78,14 @@ TEST_F(DispatchParts, CapacityHasRoomUntilCoresMemoryOrPhaseAreTaken) {
     EXPECT_FALSE(capacity.has_room_for(tasks[0])) << "350 MB are less than four times 100";
 }
 
+TEST_F(DispatchParts, ProgressIsNotToldLowerUntilTheRunIsOver) {
+    EXPECT_EQ(board_.never_back("run", 0.5), 0.5);
+    EXPECT_EQ(board_.never_back("run", 0.3), 0.5) << "a trigger added tasks";
+    EXPECT_EQ(board_.never_back("other", 0.3), 0.3);
+    EXPECT_EQ(board_.never_back("run", 1.0), 1.0);
+    EXPECT_EQ(board_.never_back("run", 0.2), 0.2) << "a retry";
+}
+
 TEST_F(DispatchParts, OneThatDoesNotFitHoldsBackThoseBehindIt) {
     submit({planned("lem_tool", 1), planned("fem_solver", 4), planned("mpm_solver", 1)});
     ReadyTasks ready(store_, data_, notifier_);
