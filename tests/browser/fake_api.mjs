@@ -423,7 +423,7 @@ export class FakeApi {
         }
         if (kind === "schema") return json(response, JSON.parse(await readFile(path.join(schema_folder, `${id}.schema.json`))));
         if (kind === "files") return this.answer_files(request, url, response);
-        if (kind === "cost") return json(response, { lines: ["All, with 8 runouts: 1 to 4 CPU min, 57 to 230 MB"] });
+        if (kind === "cost") return json(response, { lines: ["All, 8 mpm_solver: 2 CPU min (1.2 to 3.4), 120 MB"] });
         if (kind === "draw") return this.draw(request, response);
         if (kind === "scenes") return json(response, { plans: { fem_solver: "on        softening  the law of sand has it  (/materials/sand)\nleft out  gmsh       regions are blocks  (/section)\n" } });
         if (kind === "tasks") return this.serve_task(id, rest, url, response);

@@ -82,7 +82,7 @@ test("from nothing to a submitted dam of one's own with a clay layer, in at most
     await click('#question label:has-text("liquefied at rest") input');
     await click("#step-next");
     await type("title", "A dam of mine on clay");
-    await until("its cost", async () => /runouts: .* CPU/.test(await page.textContent("#cost-lines")));
+    await until("its cost", async () => /mpm_solver: .* CPU/.test(await page.textContent("#cost-lines")));
     await sound("nothing is wrong");
     assert.ok((await page.locator("#drawing-warnings li").count()) > 0, "coarse cells are warned of");
     assert.ok(await page.isHidden("#json"));

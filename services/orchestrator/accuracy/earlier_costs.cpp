@@ -34,8 +34,7 @@ Found earlier_of(const Store& store, const Task& task, const std::string& run_sc
     if (!reading.faults.empty()) return std::nullopt;
     for (const estimate::PhaseCost& each : estimate::cost_of(reading.scene))
         if (each.phase == task.phase)
-            return Earlier{task.phase, reading.scene.name,
-                           cpu->get<double>() / each.cpu_seconds,
+            return Earlier{task.phase, reading.scene.name, cpu->get<double>() / each.cpu_seconds,
                            bytes_of(store, task.id) / each.bytes};
     return std::nullopt;
 }

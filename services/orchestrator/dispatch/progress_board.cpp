@@ -35,11 +35,11 @@ double ProgressBoard::sum_of_run(const std::string& run) const {
 double ProgressBoard::never_back(const std::string& run, double progress) const {
     const std::lock_guard lock(mutex_);
     if (progress >= 1.0) {
-        told_.erase(run);
+        largest_.erase(run);
         return progress;
     }
-    double& told = told_[run];
-    return told = std::max(told, progress);
+    double& largest = largest_[run];
+    return largest = std::max(largest, progress);
 }
 
 }  // namespace breach::orchestrator
