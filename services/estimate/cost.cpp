@@ -291,7 +291,8 @@ std::vector<std::string> lines_of(const std::vector<PhaseCost>& costs, const Stu
     }
     if (costs.empty()) return {"Cost: the scene asks for no phase"};
     std::string sum = "All";
-    for (const auto& [phase, count] : all.tasks) sum += ", " + counted(count) + " " + phase;
+    if (std::ranges::any_of(all.tasks, [](const auto& each) { return each.second > 1.0; }))
+        for (const auto& [phase, count] : all.tasks) sum += ", " + counted(count) + " " + phase;
     sum += ": " + time_of(all.cpu_seconds, "CPU ");
     if (all.workers > 1)
         sum += ", " + time_of(wall_seconds(all), "") + " on " + std::to_string(all.workers) +

@@ -344,7 +344,7 @@ class Breach(unittest.TestCase):
         study.write_text(json.dumps({"name": "s", "scene": "dam.json", "transfer_times": [0.5, 1, 1.5, 2]}))
         done = call("http://127.0.0.1:9", "draw", study, "--output", picture)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("All, with 4 runouts: ", done.stdout)
+        self.assertIn("All, 1 fem_solver, 1 lem_tool, 4 mpm_solver, 4 transfer_tool: ", done.stdout)
         done = call("http://127.0.0.1:9", "draw", study, "--output", picture, "--set", "/fem/crest=[70,12]")
         self.assertEqual((done.returncode, done.stdout), (65, ""))
         self.assertIn("/scene/fem/crest: ", done.stderr)
