@@ -34,6 +34,7 @@ constexpr double bytes_per_point = 210;                   // of a whole state
 constexpr double bytes_per_framed_point = 20;             // of a frame with the usual fields
 constexpr double bytes_per_fem_line = 900, bytes_per_mpm_line = 250;  // of telemetry
 constexpr double bytes_beside = 5e4;                                  // result, scene, history
+
 /// Output of the stages and samples of /lem; sensitivities and polylines are negligible.
 double lem_bytes(const scene::Lem& lem) {
     constexpr double per_stage = 8e3, per_number = 13.0;
@@ -51,9 +52,9 @@ PhaseCost lem_cost(const scene::Scene& scene) {
     const double circles = searches.surfaces * searches.stages;
     return {phases::lem.program,
             {{"surfaces", circles + searches.polylines}},
-            (start_up + per_slice * searches.slices +
-             per_polyline_and_slice * searches.polylines * lem.slices),
-            (lem_bytes(lem)),
+            start_up + per_slice * searches.slices +
+                per_polyline_and_slice * searches.polylines * lem.slices,
+            lem_bytes(lem),
             ""};
 }
 
@@ -97,17 +98,17 @@ PhaseCost fem_cost(const scene::Scene& scene, const MeshCounts& mesh, bool count
             {{counted ? "elements" : "elements, about", mesh.elements},
              {"unknowns, about", unknowns},
              {"steps", steps.steps}},
-            (start_up + rate_of(scene, mesh) * mesh.elements * steps.steps),
-            (bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
-             bytes_per_fem_line * lines),
+            start_up + rate_of(scene, mesh) * mesh.elements * steps.steps,
+            bytes_beside + bytes_per_element * mesh.elements * (snapshots_of(fem) + 1.5) +
+                bytes_per_fem_line * lines,
             ""};
 }
 
 PhaseCost transfer_cost(double points) {
     return {phases::transfer.program,
             {{"points, about", points}},
-            (2.0 * start_up + per_transferred_point * points),
-            (0.5 * bytes_beside + bytes_per_point * points),
+            2.0 * start_up + per_transferred_point * points,
+            0.5 * bytes_beside + bytes_per_point * points,
             ""};
 }
 
@@ -123,8 +124,8 @@ PhaseCost mpm_cost(const scene::Scene& scene, double points) {
             {{"points, about", points},
              {"steps, about", steps},
              {mpm.until_rest ? "seconds until rest, about" : "seconds of flow", duration}},
-            (start_up + (per_step + per_point_step * points) * steps),
-            (bytes_beside + per_point * points + bytes_per_mpm_line * lines),
+            start_up + (per_step + per_point_step * points) * steps,
+            bytes_beside + per_point * points + bytes_per_mpm_line * lines,
             ""};
 }
 
@@ -135,8 +136,8 @@ std::string counted(double value) {
     return digits;
 }
 
-/// Two significant digits, with thousands separators: "5,500".
-/// Two digits: more would promise what the range denies.
+/// Two significant digits, with thousands separators: "5,500". More would promise what the range
+/// denies.
 std::string number(double value) {
     const double size = std::abs(value);
     const double unit = size > 0.0 ? std::pow(10.0, std::floor(std::log10(size)) - 1.0) : 1.0;

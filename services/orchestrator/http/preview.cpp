@@ -59,12 +59,15 @@ fault::BadInput refusal_of(const drawing::Draft& draft, const std::vector<fault:
 struct Judged {
     std::vector<fault::Fault> faults;
     std::vector<fault::Flag> warnings;
+    std::optional<Study> study = {};  ///< none: the document is a scene, or has faults
 };
 
 Judged judged(const Service& service, const json& document, const drawing::Draft& draft) {
     if (!is_study(draft)) return {{}, draft.scene.warnings};
     try {
-        return {{}, sent_study(document, service).warnings};
+        Study study = sent_study(document, service);
+        std::vector<fault::Flag> warnings = study.warnings;
+        return {{}, std::move(warnings), std::move(study)};
     } catch (const fault::BadInput& refused) {
         Judged found{refused.faults(), draft.scene.warnings};
         // The study repeats the faults of its scene; they are already on the drawing.
@@ -129,14 +132,17 @@ class CostsOfTasks {
     std::size_t turn_ = 0;
 };
 
-/// The tasks that a study without faults asks for; of an uncertainty study with all requested
-/// samples, where tasks that samples share count once.
-estimate::StudyCost study_cost_here(const Service& service, json document, const CostsHere& here) {
-    if (document.contains("uncertainty")) {
-        json& entry = document["uncertainty"];
-        if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
-    }
-    const Study study = sent_study(std::move(document), service);
+/// An uncertainty study with all requested samples, of which a submission draws the first.
+Study with_all_samples(const Service& service, json document, Study study) {
+    if (!document.contains("uncertainty")) return study;
+    json& entry = document["uncertainty"];
+    if (entry.is_object() && entry.contains("samples")) entry["drawn"] = entry["samples"];
+    return sent_study(std::move(document), service);
+}
+
+/// All tasks that a study asks for. Tasks that variants or samples share count once.
+estimate::StudyCost study_cost_here(const Service& service, const Study& study,
+                                    const CostsHere& here) {
     const TaskGraph graph = plan_tasks(study, service.numerics);
     CostsOfTasks costs(here, study);
     estimate::StudyCost all{.workers = static_cast<unsigned>(service.dispatcher.settings().slots)};
@@ -165,13 +171,18 @@ struct Forecast {
     json as_json() const { return estimate::as_json(phases, all); }
 };
 
+/// study: that of the document, if it is one.
 Forecast forecast(const Service& service, const json& document, const drawing::Draft& draft,
+                  std::optional<Study> study,
                   const std::optional<estimate::MeshCounts>& mesh = {}) {
     const CostsHere here(service);
     std::vector<estimate::PhaseCost> phases = here.of(draft.scene, mesh);
-    estimate::StudyCost all = is_study(draft) ? study_cost_here(service, document, here)
-                                              : estimate::study_cost_of(phases, document);
-    return {std::move(phases), std::move(all)};
+    if (!study) {
+        estimate::StudyCost all = estimate::study_cost_of(phases, document);
+        return {std::move(phases), std::move(all)};
+    }
+    const Study whole = with_all_samples(service, document, std::move(*study));
+    return {std::move(phases), study_cost_here(service, whole, here)};
 }
 
 drawing::DrawnMesh mesh_here(const Service& service, const drawing::Draft& draft) {
@@ -190,7 +201,7 @@ drawing::DrawnMesh mesh_here(const Service& service, const drawing::Draft& draft
 
 std::string picture_of(const Service& service, const std::string& body, MeshDrawn mesh) {
     const auto [document, draft] = sent(service, body);
-    auto [faults, warnings] = judged(service, document, draft);
+    auto [faults, warnings, study] = judged(service, document, draft);
     if (!drawing::can_be_drawn(draft)) throw refusal_of(draft, faults);
     drawing::Additions additions{.faults = std::move(faults), .warnings = std::move(warnings)};
     if (!draft.faults.empty()) return drawing::as_svg(draft, additions);  // it cannot be meshed
@@ -201,18 +212,19 @@ std::string picture_of(const Service& service, const std::string& body, MeshDraw
                   static_cast<double>(additions.mesh->nodes.size())};
     }
     if (additions.faults.empty())
-        additions.foot = forecast(service, document, draft, counts).lines();
+        additions.foot = forecast(service, document, draft, std::move(study), counts).lines();
     return drawing::as_svg(draft, additions);
 }
 
 /// In the order of a submission: what it would refuse has no cost.
 json cost_of(const Service& service, const std::string& body) {
     const auto [document, draft] = sent(service, body);
-    std::vector<fault::Flag> warnings = draft.scene.warnings;
-    if (is_study(draft)) warnings = sent_study(document, service).warnings;  // or throws its faults
+    std::optional<Study> study;
+    if (is_study(draft)) study = sent_study(document, service);  // or throws its faults
     if (!draft.faults.empty()) throw refusal_of(draft, {});
-    json cost = forecast(service, document, draft).as_json();
-    cost["warnings"] = fault::as_json(warnings);
+    const json warnings = fault::as_json(study ? study->warnings : draft.scene.warnings);
+    json cost = forecast(service, document, draft, std::move(study)).as_json();
+    cost["warnings"] = warnings;
     return cost;
 }
 
