@@ -134,7 +134,8 @@ process::PlanLine stiffness_line(const scene::Scene& scene) {
         return line(Use::on, "factor " + text_of(mpm.stiffness_scale) + " on every E");
     if (!mpm.wave_speed_limit) return line(Use::left_out, "soil has the scene's stiffness");
     const double fastest = scene::fastest_wave(scene, mpm);
-    const std::string limit = text_of(*mpm.wave_speed_limit) + " m/s, 10 times a free fall of " +
+    const std::string limit = text_of(*mpm.wave_speed_limit) + " m/s, " +
+                              text_of(scene::waves_per_fall) + " times a free fall of " +
                               text_of(scene::fall_speed(scene, mpm)) + " m/s";
     if (fastest < 0.999 * *mpm.wave_speed_limit)
         return line(Use::left_out, "no wave is faster than " + limit);

@@ -8,7 +8,7 @@
 namespace breach::mpm {
 
 /// Raise it when results change for the same input: the cache then reuses no older result.
-inline constexpr int numerics = 14;
+inline constexpr int numerics = 15;
 
 /// Features of this phase: used by the scene or not.
 process::Plan plan(const scene::Scene& scene);

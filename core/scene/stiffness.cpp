@@ -9,8 +9,6 @@ namespace breach::scene {
 
 namespace {
 
-constexpr double waves_per_flow = 10.0;
-
 /// Materials of points; ignores missing ones.
 std::vector<const Material*> materials_of_points(const Scene& scene) {
     std::vector<const Material*> materials;
@@ -34,11 +32,11 @@ double fall_speed(const Scene& scene, const Mpm& mpm) {
 
 std::optional<double> wave_speed_limit(const Scene& scene, const Mpm& mpm) {
     const auto yields = [](const Material* each) { return materials::traits(each->law).yields; };
-    const double flow = fall_speed(scene, mpm);
-    if (mpm.time_step || mpm.shaking == Shaking::goes_on || !(flow > 0.0) ||
+    const double fall = fall_speed(scene, mpm);
+    if (mpm.time_step || mpm.shaking == Shaking::goes_on || !(fall > 0.0) ||
         std::ranges::none_of(materials_of_points(scene), yields))
         return std::nullopt;
-    return waves_per_flow * flow;
+    return waves_per_fall * fall;
 }
 
 mechanics::Elasticity elasticity_in_runout(const Material& material, const Mpm& mpm) {

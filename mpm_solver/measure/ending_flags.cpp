@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 #include "core/words/remedy.hpp"
 
@@ -12,6 +13,8 @@ namespace {
 
 using fault::Flag;
 using fault::Severity;
+
+constexpr int points_per_cell_wanted = scene::points_across_cell * scene::points_across_cell;
 
 std::string three_digits(double value) { return words::text_of(value, 3); }
 
@@ -54,19 +57,19 @@ Flag thin_deposit(const Ending& ending) {
 
 bool has_few_points(const Ending& ending) {
     constexpr double almost = 0.9;  // cut cells and compression change the mean
-    return ending.points_per_cell < almost * usual_points_per_cell;
+    return ending.points_per_cell < almost * points_per_cell_wanted;
 }
 
 std::string with_more_points(const Ending& ending) {
-    return ending.filled ? words::set("/mpm/fill_points", std::sqrt(usual_points_per_cell))
-                         : words::set("/transfer/points_per_cell", usual_points_per_cell);
+    return ending.filled ? words::set("/mpm/fill_points", scene::points_across_cell)
+                         : words::set("/transfer/points_per_cell", points_per_cell_wanted);
 }
 
 Flag overlap(const Ending& ending) {
     const bool trusted = ending.overlap <= largest_overlap;
     std::string remedy;
-    if (ending.overlap_rate < usual_overlap_rate)
-        remedy = words::set("/mpm/overlap_correction/rate", usual_overlap_rate);
+    if (ending.overlap_rate < scene::usual_overlap_rate)
+        remedy = words::set("/mpm/overlap_correction/rate", scene::usual_overlap_rate);
     if (has_few_points(ending)) remedy += (remedy.empty() ? "" : " ") + with_more_points(ending);
     return {
         "overlap", trusted ? Severity::warning : Severity::questionable,
@@ -112,8 +115,9 @@ std::vector<Flag> flags_of_ending(const Ending& ending) {
     if (ending.softer && ending.mach > largest_mach)
         flags.push_back({"high_mach", Severity::warning,
                          "the flow reached Mach " + words::text_of(ending.mach, 2) +
-                             " in soil that is softer than the scene's (at most 0.1 can be "
-                             "trusted): the flow compresses it; " +
+                             " in soil that is softer than the scene's (at most " +
+                             words::text_of(largest_mach, 2) +
+                             " can be trusted): the flow compresses it; " +
                              words::set("/mpm/stiffness_scale", ending.scaled ? "auto" : "1"),
                          "/mpm/stiffness_scale"});
     if (ending.moving) flags.push_back(still_moving(ending));

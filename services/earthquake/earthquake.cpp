@@ -8,6 +8,7 @@
 
 #include "core/motion/read_motion.hpp"
 #include "core/motion/synthetic.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 
 namespace breach::earthquake {
@@ -90,7 +91,8 @@ Json transfer_of(const Section& section) {
         if (each.layer == 0) continue;
         names.push_back(each.name);
     }
-    Json transfer{{"points_per_cell", 16}, {"mapping", mapping}};
+    Json transfer{{"points_per_cell", scene::points_across_cell * scene::points_across_cell},
+                  {"mapping", mapping}};
     transfer["phreatic_line"] = points(section.phreatic);
     if (names.empty()) return transfer;
     // Half a layer: the mean strength of a layer is then that of the stability analysis.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/geometry/polyline.hpp"
+#include "core/scene/resolution.hpp"
 
 namespace breach::importing {
 
@@ -59,11 +60,16 @@ json mpm_of(const std::vector<Soil>& soils, const std::vector<Vec2>& terrain, co
     const double left = goes_on ? down(box.low.x()) : rounded(section_end);
     const json domain_x{left, rounded(left + up(box.high.x() - left))};
     const json friction{{{"from", domain_x[0]}, {"to", domain_x[1]}, {"coefficient", 0.5}}};
-    json mpm{{"cell_size", cell},           {"domain_x", domain_x},
-             {"domain_y", {floor, top}},    {"floor", {{"level", floor}, {"friction", friction}}},
-             {"terrain", as_json(terrain)}, {"fill_points", 4},
-             {"fill_stress", "overburden"}, {"overlap_correction", {{"rate", 5}}},
-             {"duration", "until_rest"},    {"runout", {{"toe", importing::as_json(toe)}}}};
+    json mpm{{"cell_size", cell},
+             {"domain_x", domain_x},
+             {"domain_y", {floor, top}},
+             {"floor", {{"level", floor}, {"friction", friction}}},
+             {"terrain", as_json(terrain)},
+             {"fill_points", scene::points_across_cell},
+             {"fill_stress", "overburden"},
+             {"overlap_correction", {{"rate", scene::usual_overlap_rate}}},
+             {"duration", "until_rest"},
+             {"runout", {{"toe", importing::as_json(toe)}}}};
     const json mobile = mobile_regions(soils, toe, cell);
     if (!mobile.empty() && mobile.size() < soils.size()) mpm["runout"]["regions"] = mobile;
     return mpm;
@@ -143,8 +149,9 @@ Document document_of(const std::string& name, const json& given, const std::vect
             guess(std::string("/mpm/") + entry, document.scene["mpm"][entry],
                   "section and terrain, with two cells below and above");
         guess("/mpm/floor/friction", 0.5, "what is usual between soil and terrain");
-        guess("/mpm/fill_points", 4, "what \"breach new\" sets");
-        guess("/mpm/overlap_correction/rate", 5, "what \"breach new\" sets");
+        guess("/mpm/fill_points", scene::points_across_cell, "what \"breach new\" sets");
+        guess("/mpm/overlap_correction/rate", scene::usual_overlap_rate,
+              "what \"breach new\" sets");
         const json& runout = document.scene["mpm"]["runout"];
         guess("/mpm/runout/toe", runout["toe"], slope ? from : "the right end of the ground");
         if (runout.contains("regions"))

@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/geometry/polyline.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 #include "services/earthquake/earthquake.hpp"
 #include "services/templates/layers.hpp"
@@ -378,9 +379,9 @@ Json runout_of(const Context& all) {
                           {0.0, 0.0},
                           {right, nanometres(terrain.at(right))}};
     if (values.or_none("pond_depth") > 0.0) mpm["water"] = {{"line", points(all.outline.phreatic)}};
-    mpm["fill_points"] = 4;
+    mpm["fill_points"] = scene::points_across_cell;
     if (!all.with_fem) mpm["fill_stress"] = "overburden";
-    mpm["overlap_correction"] = {{"rate", 5}};
+    mpm["overlap_correction"] = {{"rate", scene::usual_overlap_rate}};
     mpm["softening_length"] = rounded(H / 15.0);
     mpm["duration"] = "until_rest";
     // Twice the likely duration of a flow without friction (75 sqrt(H / g) in services/estimate).

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/fault/fault.hpp"
+#include "core/scene/resolution.hpp"
 #include "core/words/number.hpp"
 #include "services/earthquake/earthquake.hpp"
 
@@ -104,7 +105,7 @@ Options computation() {
     return {
         sized("runout_extent", 10, 10, 20000, "how far beyond the toe the soil can be followed"),
         sized(
-            "cell_size", 1.0 / 20, 0.05, 20,
+            "cell_size", 1.0 / scene::cells_over_height, 0.05, 20,
             "cells of the runout, at most half of clay_thickness by default; halve it for a result "
             "to rely on"),
     };
