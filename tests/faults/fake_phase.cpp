@@ -326,6 +326,7 @@ void mpm(const Order& order, const json& scene, const std::map<std::string, doub
                 {"volume_ratio", 1.0},       {"energy", {{"numerical", {{"share", 0.01}}}}},
                 {"cpu_seconds", 0.5},        {"at_rest", !moves}};
     result["cell_size"] = own.at("mpm").at("cell_size");
+    if (const double area = setting(wanted, "area", 0); area > 0) result["area_beyond_toe"] = area;
     result["softening"] = softening_in(own);
     add_judgement(result, moves);
     if (setting(wanted, "by_cell", 0) > 0) add_cell_error(own, shift, result);

@@ -1,7 +1,6 @@
-// Every runout that is shown gets an error, or the reason why none is known. Three sources, the
-// best first: an accuracy study that computed the same at the same setting; the repeats of this
-// sweep; neighbours in transfer time. Only the first one knows the bias; texts of the others say
-// that they are noise.
+// Every runout that is shown gets an error. Two sources, the better first: an accuracy study that
+// computed the same at the same setting; else noise and the bias of the cells, independent of each
+// other. Noise: the repeats of this sweep, else neighbours in transfer time, else the usual one.
 // Computed for each request, not stored: a later accuracy study improves the errors of earlier
 // runs.
 #include "services/orchestrator/accuracy/runout_error.hpp"
@@ -28,10 +27,11 @@ constexpr std::size_t most_studies = 20;  // only the newest
 /// to 1.5 %).
 constexpr double scatter_in_cells = 0.5;
 constexpr double scatter_of_runout = 0.015;
-constexpr const char* noise_of_points =
-    "noise of the points, not the error of the setting or of a FEM before it";
-constexpr const char* noise_of_fem =
-    "noise of the FEM and of the points, not the error of the setting";
+/// Over the cells across the mean depth beyond the toe: runouts that coarse cells miss, relative. Ladders
+/// of cells of four scenes (docs/verification/mpm_convergence.md#the-bias-of-the-cells).
+constexpr double bias_over_cells = 0.4;
+constexpr const char* noise_of_points = "noise of the points, not of a FEM before it";
+constexpr const char* noise_of_fem = "noise of the FEM and of the points";
 
 struct Estimate {
     std::optional<double> error;      ///< [m]
@@ -264,7 +264,7 @@ class OverTransferTime {
         if (found == scatter_.end()) return std::nullopt;
         return Estimate{found->second,
                         "scatter among neighbouring transfer times: noise and the curve's own "
-                        "bends, not the error of the setting or of the FEM that they share"};
+                        "bends, not of the FEM that they share"};
     }
 
   private:
@@ -272,35 +272,58 @@ class OverTransferTime {
 };
 
 /// Cell size of a runout [m]; nothing: its result does not say it.
-std::optional<double> cell_size_of(const Store& store, const ResultRow& row) {
-    const auto task = store.task(value_of(row, "mpm_task").get<std::string>());
+std::optional<double> cell_size_of(const Store& store, const std::string& mpm_task) {
+    const auto task = store.task(mpm_task);
     const json size = task && task->result ? task->result->value("cell_size", json()) : json();
     return size.is_number() ? std::optional(size.get<double>()) : std::nullopt;
 }
 
-/// Runouts at neighbouring transfer times begin with nearly equal points on one lattice. Their
-/// scatter shrinks with the spacing of the times, and does not include other lattices.
-/// An error that is too small is worse than none, so the usual scatter is the least.
-Estimate at_least_lattices(Estimate beside, double runout, const std::optional<double>& draws,
-                           const std::optional<double>& cell) {
+/// Noise of a row without repeats of its own. Runouts at neighbouring transfer times begin with nearly
+/// equal points on one lattice. Their scatter shrinks with the spacing of the times, and does not
+/// include other lattices, so the usual scatter is the least.
+Estimate noise_without_repeats(const std::optional<Estimate>& beside, double runout,
+                               const std::optional<double>& draws,
+                               const std::optional<double>& cell) {
     const double usual =
         std::max(scatter_in_cells * cell.value_or(0.0), scatter_of_runout * std::abs(runout));
     const double floor = draws.value_or(usual);
-    if (floor <= *beside.error) return beside;
+    if (beside && floor <= *beside->error) return *beside;
     const std::string why = draws
                                 ? "scatter of the repeats of other rows"
                                 : "usual scatter of lattices of points, at least half a cell and " +
                                       words::text_of(100.0 * scatter_of_runout) +
                                       " % of the runout (set \"draws\" to measure it)";
+    if (!beside) return {floor, why};
     return {floor, why + "; neighbouring transfer times share a lattice and scatter by " +
-                       words::text_of(*beside.error, 2) +
-                       " m only: noise, not the error of the setting or of the FEM"};
+                       words::text_of(*beside->error, 2) + " m only"};
 }
 
-/// Bias from an accuracy study, scatter from the repeats.
-Estimate of_mean(const std::optional<Estimate>& studied, Estimate scatter) {
-    if (!studied || !studied->bias || !scatter.error) return scatter;
-    return {*studied->bias + *scatter.error, "bias by " + studied->from + "; " + scatter.from};
+/// Bias of the cells [m] by those across the deposit; without an error where no soil is beyond the toe.
+Estimate bias_of_cells(const json& beyond_toe, const json& area_beyond_toe,
+                       const std::optional<double>& cell) {
+    const double reach = beyond_toe.is_number() ? beyond_toe.get<double>() : 0.0;
+    const double area = area_beyond_toe.is_number() ? area_beyond_toe.get<double>() : 0.0;
+    if (!cell || !(reach > 0.0 && area > 0.0))
+        return {std::nullopt, "no soil beyond the toe tells the error of the cells"};
+    const double across = area / (reach * *cell);
+    const double share = bias_over_cells / across;
+    return {share * reach, words::text_of(100.0 * share, 2) + " % for cells, " +
+                               words::text_of(across, 2) +
+                               " across the deposit's mean depth (an accuracy study measures it)"};
+}
+
+/// Of one run.
+Estimate with_bias(const Estimate& noise, const Estimate& bias) {
+    return {std::hypot(*noise.error, bias.error.value_or(0.0)), noise.from + "; " + bias.from};
+}
+
+/// Bias from an accuracy study, else that of the cells; scatter from the repeats.
+Estimate of_mean(const std::optional<Estimate>& studied, const Estimate& of_cells,
+                 Estimate scatter) {
+    if (!scatter.error) return scatter;
+    if (studied && studied->bias)
+        return {*studied->bias + *scatter.error, "bias by " + studied->from + "; " + scatter.from};
+    return {of_cells.error.value_or(0.0) + *scatter.error, scatter.from + "; " + of_cells.from};
 }
 
 }  // namespace
@@ -329,22 +352,20 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
             auto noise = scatter.estimate(row);
             // Only now: it reads every row of the run.
             if (!over_time) over_time.emplace(all_rows());
-            auto beside = over_time->estimate(row);
+            const auto beside = over_time->estimate(row);
+            const std::optional<double> cell = cell_size_of(store, value_of(row, "mpm_task"));
             if (noise && beside) {
                 noise->from += "; neighbouring transfer times scatter by " +
                                words::text_of(*beside->error, 2) +
                                " m, the curve's own bends among it";
             }
-            if (!noise && beside)
-                beside = at_least_lattices(*beside, value_of(row, "runout"), scatter.everywhere(),
-                                           cell_size_of(store, row));
-            if (noise || beside) estimate = noise ? noise : beside;
+            if (!noise)
+                noise = noise_without_repeats(beside, value_of(row, "runout"), scatter.everywhere(),
+                                              cell);
+            estimate = with_bias(*noise, bias_of_cells(value_of(row, "runout_beyond_toe"),
+                                                       value_of(row, "area_beyond_toe"), cell));
         }
-        if (!estimate)
-            estimate = Estimate{std::nullopt,
-                                "no accuracy study has this scene at this setting, and the sweep "
-                                "has no repeats and too few transfer times"};
-        if (estimate->error) value_of(row, "runout_error") = *estimate->error;
+        value_of(row, "runout_error") = *estimate->error;
         value_of(row, "runout_error_from") = estimate->from;
     }
     // By the variant that is repeated: a mean has no MPM task, so one of its repeats stands for
@@ -356,15 +377,19 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         };
         const Place place = place_at(value("variant"), value("transfer_time"));
         auto known = by_repeated.find(place.first);
-        if (const auto task = scatter.task_of(place); task && known == by_repeated.end())
+        const auto task = scatter.task_of(place);
+        if (task && known == by_repeated.end())
             known =
                 by_repeated
                     .emplace(place.first, studies.none()
                                               ? std::nullopt
                                               : studies.estimate(unless_removed(store.task(*task))))
                     .first;
+        const Estimate of_cells =
+            bias_of_cells(value("runout_beyond_toe"), value("area_beyond_toe"),
+                          task ? cell_size_of(store, *task) : std::nullopt);
         const Estimate estimate = of_mean(known == by_repeated.end() ? std::nullopt : known->second,
-                                          scatter.of_mean(place));
+                                          of_cells, scatter.of_mean(place));
         if (estimate.error) value("runout_error") = *estimate.error;
         value("runout_error_from") = estimate.from;
     }

@@ -1,6 +1,5 @@
-// Error of a runout of any sweep, if known from an accuracy study of the same scene at the same
-// setting, from the sweep's own repeats, or from its neighbours in transfer time. Otherwise the
-// reason.
+// Error of a runout of any sweep: from an accuracy study of the same scene at the same setting, else
+// noise (repeats, neighbours in transfer time) and the bias of the cells.
 #pragma once
 
 #include <functional>
@@ -22,7 +21,8 @@ using AllRows = std::function<const std::vector<ResultRow>&()>;
 /// only if needed.
 ///
 /// means: of the run's repeats, with columns of the same names (records/mean_columns.hpp). The
-/// error of a mean is the bias from an accuracy study and the remaining scatter of so few repeats.
+/// error of a mean is the bias, from an accuracy study or of the cells, and the remaining scatter of so
+/// few repeats.
 void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
                         std::vector<ResultRow>& rows, std::vector<ResultRow>& means,
                         const AllRows& all_rows);

@@ -36,9 +36,9 @@ class MeanColumns {
         add({"lower_bound", "", yes_no, "", "",
              "soil of a repeat still moved at the end: mean distances and areas are lower bounds"});
         add({"runout_error", "", number, "m", "",
-             "error of the mean runout: the bias from an accuracy study of an equal scene, if "
-             "there "
-             "is one, and t s / sqrt(n) of the n repeats with Student's 90 %; null: not known"});
+             "error of the mean runout: the bias, from an accuracy study of an equal scene or of "
+             "the cells, and t s / sqrt(n) of the n repeats with Student's 90 %; null: fewer than "
+             "two have a runout"});
         add({"runout_error_from", "", word, "", "", "source of the error, or why it is not known"});
     }
 

@@ -71,10 +71,10 @@ constexpr std::array columns{
                  "what to know before believing it: of the MPM, the transfer and the FEM"},
     ResultColumn{"runout_error", "", number, "m", "+-",
                  "how far one run's runout is off: by an accuracy study of an equal scene, else by "
-                 "the sweep's own repeats, else by its neighbours in transfer time; null: nothing "
-                 "tells it"},
+                 "noise (the sweep's own repeats, else its neighbours in transfer time, else what is "
+                 "usual) and the bias of the cells; null: there is no runout"},
     ResultColumn{"runout_error_from", "", word, "", "",
-                 "where the error comes from, or why it is unknown"},
+                 "where the error comes from"},
     ResultColumn{
         "factor_of_safety", "", number, "1", "FS",
         "the least valid factor of all surfaces, of the variant's stability analysis or of "

@@ -268,10 +268,8 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     const auto rows = [&](const std::string& run) {
         return service.get("/v1/runs/" + run + "/results").body.at("rows");
     };
-    for (const json& row : rows(before)) {
-        EXPECT_TRUE(row.at("runout_error").is_null());
-        EXPECT_TRUE(row.at("runout_error_from").get<std::string>().starts_with("no accuracy"));
-    }
+    for (const json& row : rows(before))
+        EXPECT_TRUE(row.at("runout_error_from").get<std::string>().starts_with("usual scatter"));
     const std::string study = service.submit(accuracy_study());
     service.wait_for_end(study);
     const json found = rows(before);
@@ -281,7 +279,8 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     EXPECT_NEAR(found[0].at("runout_error").get<double>(), wanted, 1e-6);
     EXPECT_NEAR(found[1].at("runout_error").get<double>(), wanted, 1e-6);
     EXPECT_NE(found[0].at("runout_error_from").get<std::string>().find(study), std::string::npos);
-    EXPECT_TRUE(found[2].at("runout_error").is_null()) << "its cells are on no ladder";
+    EXPECT_TRUE(found[2].at("runout_error_from").get<std::string>().starts_with("usual scatter"))
+        << "its cells are on no ladder";
     EXPECT_NE(service.get("/v1/runs/" + before + "/results?format=csv").text.find("runout_error"),
               std::string::npos);
 
@@ -291,7 +290,9 @@ TEST(RunoutError, ComesFromTheAccuracyStudyOfAnEqualScene) {
     sweep["scene"]["materials"]["slope_soil"]["density"] = 1900;
     const std::string other = service.submit(sweep);
     service.wait_for_end(other);
-    EXPECT_TRUE(rows(other)[0].at("runout_error").is_null()) << "another soil";
+    EXPECT_TRUE(
+        rows(other)[0].at("runout_error_from").get<std::string>().starts_with("usual scatter"))
+        << "another soil";
 }
 
 /// Results of a sweep with the accuracy study's scene, other entries and no ladders.
@@ -316,6 +317,24 @@ TEST(RunoutError, ComesFromTheSweepsOwnDraws) {
     for (const json& row : rows)
         EXPECT_NEAR(row.at("runout_error").get<double>(), std::sqrt(squares / 2), 1e-12);
     EXPECT_GT(squares, 0.0);
+}
+
+// 0.4 over the cells across the mean depth; independent of the noise.
+TEST(RunoutError, WithoutAnAccuracyStudyIncludesTheBiasOfTheCells) {
+    json sweep = study("area=3 fem_steps=1 mpm_steps=1", {0.5});
+    sweep["scene"]["mpm"]["cell_size"] = 1;
+    const json row = rows_of_sweep(sweep).at(0);
+    const double beyond = 0.5, noise = 0.5, across = 3 / (beyond * 1.0);
+    EXPECT_NEAR(row.at("runout_error").get<double>(), std::hypot(noise, 0.4 / across * beyond),
+                1e-9);
+    const std::string from = row.at("runout_error_from");
+    EXPECT_NE(from.find("6.7 % for cells, 6 across the deposit's mean depth"), std::string::npos)
+        << from;
+
+    sweep["draws"] = 2;
+    const json repeated = rows_of_sweep(sweep).at(0);
+    EXPECT_TRUE(repeated.at("runout_error_from").get<std::string>().starts_with("scatter of 2"));
+    EXPECT_GT(repeated.at("runout_error").get<double>(), 0.4 / across * beyond);
 }
 
 TEST(RunoutError, ComesFromNeighboursInTransferTimeWhereNothingWasRepeated) {
