@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "core/phases/files.hpp"
+#include "core/scene/resolution.hpp"
 #include "fem_solver/model/stages.hpp"
 #include "fem_solver/solve/trial.hpp"
 
@@ -53,6 +55,23 @@ void report_crest(Course& course) {
     course.session.flag({"far_crest", fault::Severity::warning, text.str(), "/fem/crest"});
 }
 
+/// The check of a scene does not read a mesh file.
+void flag_short_lengths(const Model& model, process::Session& session) {
+    const scene::Scene& scene = session.scene();
+    if (!scene::fem_of(scene).mesh.msh_file) return;
+    std::map<std::size_t, double> largest;  // by material [m2]
+    for (const Zone& zone : model.zones) {
+        if (zone.nonlocal_length <= 0.0) continue;
+        const auto region = static_cast<std::size_t>(model.mesh.region_of_element[zone.first]);
+        double& area = largest[scene.section.regions[region].material];
+        for (std::size_t e = zone.first; e < zone.first + zone.count; ++e)
+            area = std::max(area, model.volume[e] / scene.thickness);
+    }
+    for (const auto& [material, area] : largest)
+        if (const auto flag = scene::short_length(scene.materials[material], std::sqrt(area)))
+            session.flag(*flag);
+}
+
 }  // namespace
 
 Course::Course(process::Session& its_session, Model its_model)
@@ -70,6 +89,7 @@ Course::Course(process::Session& its_session, Model its_model)
     if (fem.changes_the_body()) check_changes();
     prediction = prediction_for(model);
     report_crest(*this);
+    flag_short_lengths(model, session);
     const bool resumed = session.settings().start == process::Start::resume &&
                          std::filesystem::exists(session.output(phases::files::checkpoint));
     if (resumed) {

@@ -213,20 +213,6 @@ std::optional<double> largest_element(const Scene& scene, std::size_t material) 
     return largest;
 }
 
-void judge_length_in_fem(const Material& soil, double size, Resolved& resolved) {
-    const double wanted = *soil.nonlocal_length / nonlocal_cells_wanted;
-    // The size of divisions has round-off.
-    if (size <= wanted * (1.0 + 1e-9)) return;
-    resolved.flags.push_back(
-        {"short_nonlocal_length",
-         size > *soil.nonlocal_length ? fault::Severity::questionable : fault::Severity::warning,
-         "is " + text_of(*soil.nonlocal_length / size) + " elements of " + text_of(size) + " m (" +
-             text_of(nonlocal_cells_wanted) +
-             " are wanted): bands depend on the mesh; take elements of at most " +
-             text_of(words::rounded_down(wanted)) + " m, or a longer length",
-         length_of(soil)});
-}
-
 void judge_lack_of_length_in_mpm(const Material& soil, const Mpm& mpm, Resolved& resolved) {
     resolved.flags.push_back(
         {"local_softening", fault::Severity::warning,
@@ -271,7 +257,8 @@ void judge_softening(const Scene& scene, std::size_t material, bool in_mpm, Reso
                                        "/law/softening, or leave the length out"});
     } else if (soil.nonlocal_length) {
         if (in_mpm) judge_length_in_mpm(soil, *scene.mpm, resolved);
-        if (element) judge_length_in_fem(soil, *element, resolved);
+        if (const auto flag = element ? short_length(soil, *element) : std::nullopt)
+            resolved.flags.push_back(*flag);
     } else if (is_brittle(soil) && in_mpm) {
         judge_lack_of_length_in_mpm(soil, *scene.mpm, resolved);
     } else if (is_brittle(soil) && element) {
@@ -461,6 +448,20 @@ double area_of_section(const Scene& scene) {
 double mobile_height(const Scene& scene, const Mpm& mpm) {
     const geometry::Box box = mobile_extent(scene, mpm);
     return std::max(box.high.y() - box.low.y(), 0.0);
+}
+
+std::optional<fault::Flag> short_length(const Material& soil, double element) {
+    const double wanted = *soil.nonlocal_length / nonlocal_cells_wanted;
+    // The size of divisions has round-off.
+    if (element <= wanted * (1.0 + 1e-9)) return std::nullopt;
+    return fault::Flag{
+        "short_nonlocal_length",
+        element > *soil.nonlocal_length ? fault::Severity::questionable : fault::Severity::warning,
+        "is " + text_of(*soil.nonlocal_length / element) + " elements of " + text_of(element) +
+            " m (" + text_of(nonlocal_cells_wanted) +
+            " are wanted): bands depend on the mesh; take elements of at most " +
+            text_of(words::rounded_down(wanted)) + " m, or a longer length",
+        length_of(soil)};
 }
 
 Resolved resolution_of(const Scene& scene) {

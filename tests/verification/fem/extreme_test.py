@@ -241,6 +241,22 @@ def a_folded_quad_of_a_mesh_file_is_refused_by_its_name(folder):
     return passed
 
 
+def a_length_below_the_elements_of_a_mesh_file_has_a_flag(folder):
+    """Elements of 1 m; the check of the scene does not read the file."""
+    nodes = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (2.0, 0.0), (2.0, 1.0)]
+    softening = {"epsilon_q_start": 0.01, "epsilon_q_end": 1, "c_residual_kPa": 5, "phi_residual_deg": 20}
+    law = {"type": "mohr_coulomb", "E_MPa": 10, "nu": 0.3, "c_kPa": 50, "phi_deg": 20, "softening": softening}
+    passed = True
+    for length, severity in ((0.9, "questionable"), (1.5, "warning"), (1.7, None)):
+        box(folder, {"soil": {"density": 1800, "law": law, "nonlocal_length": length}},
+            [block("soil", "soil", [[0, 0], [2, 0], [2, 1], [0, 1]], [2, 1])], 2, 1, [{"type": "static", "name": "gravity"}], msh_file="soil.msh")
+        write_msh(folder / "soil.msh", nodes, [(0, 1, 2, 3), (1, 4, 5, 2)], [0, 0], ["soil"])
+        found = {each["code"]: each for each in Run(folder).result["flags"]}.get("short_nonlocal_length")
+        passed &= (found and found["severity"]) == severity
+        print(f"    {length} m: {found}")
+    return passed
+
+
 def steps_a_hundred_times_too_large_are_cut_or_end_clearly(folder):
     """0.43 s, most of a period of the shaking, instead of 5e-3 s."""
     file = coarse_slope.write(folder, duration=2.0)
