@@ -38,7 +38,10 @@ def results_name_what_changed():
     assert "has changed since" in told({"measured": sound["measured"] | {"key": "0"}}, measurement)
     sound["measured"]["phases"]["MPM"] |= {"same_in": raised["MPM"], "machine": "another"}
     assert told(sound, measurement, raised) == ""
-    assert "one and another" in write.measured_by({"one": sound})
+    assert "one and another" in write.measured_by({"one": sound}, {"one": measurement}, now)
+    later, kept = raised | {"MPM": raised["MPM"] + 1}, measurement | {"earlier_numerics": "it agrees"}
+    assert told(sound, kept, later) == "" and "is of MPM" in told(sound, measurement, later)
+    assert f"`one` is of earlier numerics than MPM {later['MPM']}: it agrees." in write.measured_by({"one": sound}, {"one": kept}, later)
     sound["measured"]["phases"]["MPM"]["commit"] = "12345678+"
     assert "in no commit" in told(sound, measurement)
 
