@@ -12,11 +12,11 @@ namespace breach::scene {
 /// Free-fall speed from the highest mobile soil to the lowest ground [m/s].
 double fall_speed(const Scene& scene, const Mpm& mpm);
 
-/// Waves of so many fall speeds leave the runouts of five lattices as they are at full stiffness; three
-/// times lengthened them by 7 % (docs/verification/mpm_convergence.md).
+/// At this speed runouts of five lattices are those at full stiffness; at three falls they were 7 %
+/// longer (docs/verification/mpm_convergence.md).
 inline constexpr double waves_per_fall = 5.0;
 
-/// Limit of compression wave speeds for `"stiffness_scale": "auto"` [m/s]: waves_per_fall x fall_speed.
+/// Limit of compression wave speeds for `"stiffness_scale": "auto"` [m/s]: 5 times fall_speed.
 /// None if soil keeps its stiffness: no material yields, the time step is given, the shaking
 /// continues, or there is no gravity.
 std::optional<double> wave_speed_limit(const Scene& scene, const Mpm& mpm);

@@ -40,7 +40,7 @@ arrows = {
     "element_bench": every_core_room,
     "transfer_tool": every_core_room,
     "mpm_solver": every_core_room,
-    "services/earthquake": {"core/geometry", "core/mechanics", "core/motion", "core/words"},
+    "services/earthquake": {"core/geometry", "core/mechanics", "core/motion", "core/scene", "core/words"},
     "services/templates": {"services/earthquake", "core/fault", "core/geometry", "core/scene", "core/words"},
     "services/estimate": {"core/geometry", "core/materials", "core/phases", "core/scene"},
     "services/outflow": {"core/exchange", "core/fault", "core/geometry", "core/phases", "core/statistics", "core/words"},

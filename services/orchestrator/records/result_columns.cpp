@@ -69,12 +69,12 @@ constexpr std::array columns{
                  "the result is not one to rely on; null: there is none yet"},
     ResultColumn{"flags", "", ColumnKind::flags, "", "",
                  "what to know before believing it: of the MPM, the transfer and the FEM"},
-    ResultColumn{"runout_error", "", number, "m", "+-",
-                 "how far one run's runout is off: by an accuracy study of an equal scene, else by "
-                 "noise (the sweep's own repeats, else its neighbours in transfer time, else what is "
-                 "usual) and the bias of the cells; null: there is no runout"},
-    ResultColumn{"runout_error_from", "", word, "", "",
-                 "where the error comes from"},
+    ResultColumn{
+        "runout_error", "", number, "m", "+-",
+        "how far one run's runout is off: by an accuracy study of an equal scene, else by "
+        "noise (the sweep's own repeats, else its neighbours in transfer time, else what is "
+        "usual) and the bias of the cells; null: there is no runout"},
+    ResultColumn{"runout_error_from", "", word, "", "", "where the error comes from"},
     ResultColumn{
         "factor_of_safety", "", number, "1", "FS",
         "the least valid factor of all surfaces, of the variant's stability analysis or of "

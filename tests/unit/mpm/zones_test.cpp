@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/unit/mpm/bodies.hpp"
 
@@ -130,12 +131,27 @@ TEST(Zones, EveryFieldOfAFileGoesInAndComesOutAgain) {
     });
     double next = 1.0;
     for (double* number : numbers_of(state)) *number = next++;
+    // Larger than drawn it would begin with a gap.
+    for (std::size_t p = 0; p < state.size(); ++p) state.volume_0[p] = state.mass[p] / 1800.0;
     const exchange::ParticleState out =
         particle_state(scene, zoned_points(scene, state, "test").points);
     const auto before = numbers_of(state);
     const auto after = numbers_of(out);
     ASSERT_EQ(after.size(), before.size());
     for (std::size_t k = 0; k < after.size(); ++k) ASSERT_EQ(*after[k], *before[k]) << k;
+}
+
+TEST(Zones, WhatAFemHasStretchedBeginsWithAGap) {
+    const scene::Scene scene = softening_soil();
+    exchange::ParticleState state = fill_section(scene).state;
+    const double drawn = state.volume_0[0];
+    state.volume_0[0] = 4.0 * drawn;
+    state.volume_0[1] = 1.05 * drawn;
+    const Points points = zoned_points(scene, state, "test").points;
+    EXPECT_NEAR(points.V_0[0], 1.1 * drawn, 1e-12);
+    EXPECT_NEAR(points.gap[0], std::log(4.0 / 1.1), 1e-12);
+    EXPECT_EQ(points.V_0[1], 1.05 * drawn);
+    EXPECT_EQ(points.gap[1], 0.0);
 }
 
 }  // namespace
