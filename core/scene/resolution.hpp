@@ -16,8 +16,7 @@ namespace breach::scene {
 /// its points share the same nodes.
 constexpr double cells_wanted = 8.0;
 constexpr double least_cells = 2.0;
-/// The setting of templates and imports, and what flags recommend. Half the cells or more points change
-/// Mochikoshi's runout by less than its lattices scatter or by less than a tenth
+/// The setting of templates and imports, and what flags recommend
 /// (docs/verification/mpm_convergence.md).
 inline constexpr double cells_over_height = 20.0;
 inline constexpr int points_across_cell = 4;

@@ -1,5 +1,5 @@
 // Stiffness of soil in the runout. Its compression waves limit the time step. A flow needs waves of
-// only some times the free-fall speed; undrained soil has about 2 km/s.
+// only ten times the free-fall speed; undrained soil has about 2 km/s.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace breach::scene {
 /// Free-fall speed from the highest mobile soil to the lowest ground [m/s].
 double fall_speed(const Scene& scene, const Mpm& mpm);
 
-/// At this speed runouts of five lattices are those at full stiffness; at three falls they were 7 %
-/// longer (docs/verification/mpm_convergence.md).
-inline constexpr double waves_per_fall = 5.0;
+/// Five would halve the cost. But runouts of two scenes were then 10 to 14 % shorter than at full stiffness
+/// (docs/verification/mpm_convergence.md).
+inline constexpr double waves_per_fall = 10.0;
 
-/// Limit of compression wave speeds for `"stiffness_scale": "auto"` [m/s]: 5 times fall_speed.
+/// Limit of compression wave speeds for `"stiffness_scale": "auto"` [m/s]: 10 times fall_speed.
 /// None if soil keeps its stiffness: no material yields, the time step is given, the shaking
 /// continues, or there is no gravity.
 std::optional<double> wave_speed_limit(const Scene& scene, const Mpm& mpm);

@@ -43,9 +43,8 @@ constexpr double usual_tension_share = 0.03;
 constexpr double usual_damping_ratio = 0.1;
 
 /// Limit of the Mach number for soil softer than in the scene: beyond it the flow compresses the
-/// soil by 4 % and more. Runouts at 0.13 were those of full stiffness within the scatter of lattices
-/// (docs/verification/mpm_convergence.md).
-constexpr double largest_mach = 0.2;
+/// soil by 1 % and more, as in any weakly compressible method.
+constexpr double largest_mach = 0.1;
 
 /// End state of a run, for the flags.
 struct Ending {

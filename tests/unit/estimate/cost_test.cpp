@@ -39,7 +39,7 @@ TEST(Counts, AreThoseOfThePhases) {
     EXPECT_EQ(points_of(shipped("slope"), 1215.0), 4860.0);
     EXPECT_NEAR(searches_of(shipped("slope")).surfaces, 18424.0, 1842.0);
     EXPECT_NEAR(runout_step(shipped("column")), 9.1 / 3168, 0.3 * 9.1 / 3168);
-    EXPECT_NEAR(runout_step(shipped("slope")), 13.3 / 3115, 0.3 * 13.3 / 3115);
+    EXPECT_NEAR(runout_step(shipped("slope")), 5.05 / 2541, 0.3 * 5.05 / 2541);
 }
 
 TEST(Counts, SoilFlowsLongerTheLessStrengthItKeeps) {

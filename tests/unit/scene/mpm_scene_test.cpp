@@ -41,9 +41,9 @@ TEST(MpmScene, SoilThatYieldsIsAsStiffAsItsFallNeeds) {
     const auto limit = [](const std::vector<std::string>& overrides) {
         return scene::parse_scene(column().dump(), "test", ".", overrides).mpm->wave_speed_limit;
     };
-    EXPECT_NEAR(limit({}).value(), 5.0 * std::sqrt(2.0 * 9.81 * 22.0), 1e-9);
-    EXPECT_NEAR(limit({"/mpm/terrain=[[-1,0],[61,0]]"}).value(), 5.0 * std::sqrt(2.0 * 9.81 * 20.0),
-                1e-9);
+    EXPECT_NEAR(limit({}).value(), 10.0 * std::sqrt(2.0 * 9.81 * 22.0), 1e-9);
+    EXPECT_NEAR(limit({"/mpm/terrain=[[-1,0],[61,0]]"}).value(),
+                10.0 * std::sqrt(2.0 * 9.81 * 20.0), 1e-9);
     EXPECT_FALSE(limit({"/mpm/stiffness_scale=1"}));
     EXPECT_FALSE(limit({"/mpm/time_step=1e-4"}));
     EXPECT_FALSE(limit({"/gravity=0"}));

@@ -107,14 +107,14 @@ def test_breakdown_repeats_warnings(scratch):
 
 
 def test_banks(scratch):
-    """Undrained banks at a factor of safety of 1.6 and more stand, and rest within 40 s (their waves decay slowly); below 1 they do not stand."""
+    """Undrained banks at a factor of safety of 1.6 and more stand, and rest within seconds; below 1 they do not stand."""
     # Vertical, 5 m: F = 3.83 c / (gamma H) (Taylor 1937), gamma H = 88.3 kPa.
     for name, scene in (("vertical, c 300 kPa", bank(300, 0)), ("vertical, nu 0.3", bank(300, 0, nu=0.3)),
                         ("vertical, F 1.6", bank(37, 0)), ("vertical, stiff", bank(100, 0, E=100)),
                         ("45 degrees, c 60 kPa", bank(60, 5)), ("45 degrees, nu 0.49", bank(60, 5, nu=0.49))):
         run = Run(scratch, scene)
         print(f"{name}: runout {run.result['runout']:+.3f} m, at rest after {run.result['end_time']:.1f} s, {[each['code'] for each in run.result['flags']]}")
-        assert run.result["at_rest"] and run.result["end_time"] < 40 and not run.result["questionable"], run.result["flags"]
+        assert run.result["at_rest"] and run.result["end_time"] < 10 and not run.result["questionable"], run.result["flags"]
         assert run.result["runout"] < 0.1 and abs(run.result["volume_ratio"] - 1) < 0.02, (run.result["runout"], run.result["volume_ratio"])
     failing = Run(scratch, bank(12, 0))
     print(f"vertical, F 0.52: runout {failing.result['runout']:+.2f} m")
