@@ -160,7 +160,7 @@ TEST(ResultsThatMove, AreQuestionableWhereverTheyAreShown) {
     EXPECT_EQ(rows[1].at("flags")[0].at("pointer"), "/mpm/duration");
     const std::string csv = service.get(path + "?format=csv").text;
     EXPECT_NE(csv.find("0.5,\"questionable\","), std::string::npos) << csv;
-    EXPECT_NE(csv.find(",true,\"still_moving;implausible\",,\"no accuracy"), std::string::npos)
+    EXPECT_NE(csv.find(",true,\"still_moving;implausible\",0.5,\"usual scatter"), std::string::npos)
         << csv;
     EXPECT_EQ(service.get(path + "?state=questionable").body.at("rows").size(), 2u);
     EXPECT_EQ(service.get(path + "?flag=implausible&from=2").body.at("rows").size(), 1u);
