@@ -27,8 +27,8 @@ constexpr std::size_t most_studies = 20;  // only the newest
 /// to 1.5 %).
 constexpr double scatter_in_cells = 0.5;
 constexpr double scatter_of_runout = 0.015;
-/// Over the cells across the mean depth beyond the toe: runouts that coarse cells miss, relative. Ladders
-/// of cells of four scenes (docs/verification/mpm_convergence.md#the-bias-of-the-cells).
+/// Over the cells across the mean depth beyond the toe: runouts that coarse cells miss, relative. Bounds
+/// the ladders of four scenes (docs/verification/mpm_convergence.md#the-bias-of-the-cells).
 constexpr double bias_over_cells = 0.4;
 constexpr const char* noise_of_points = "noise of the points, not of a FEM before it";
 constexpr const char* noise_of_fem = "noise of the FEM and of the points";
