@@ -39,8 +39,8 @@ std::optional<double> nonlocal_length_in_runout(const Material& material, const 
 /// Width of a shear band [m]: one cell, or that of nonlocal softening.
 double band_width(const Material& material, const Mpm& mpm);
 
-/// Of a soil that has a length, in elements of this size [m]; none: they are small enough. For a mesh from a
-/// file the FEM asks, which reads it.
+/// Of a soil that has a length, in elements of this size [m]; none: they are small enough. For a
+/// mesh from a file the FEM asks, which reads it.
 std::optional<fault::Flag> short_length(const Material& soil, double element);
 
 bool is_mobile(const Region& region, const Mpm& mpm);

@@ -12,8 +12,8 @@ namespace breach::scene {
 /// Free-fall speed from the highest mobile soil to the lowest ground [m/s].
 double fall_speed(const Scene& scene, const Mpm& mpm);
 
-/// Five would halve the cost. But runouts of two scenes were then 10 to 14 % shorter than at full stiffness
-/// (docs/verification/mpm_convergence.md).
+/// Five would halve the cost. But runouts of two scenes were then 10 to 14 % shorter than at full
+/// stiffness (docs/verification/mpm_convergence.md).
 inline constexpr double waves_per_fall = 10.0;
 
 /// Limit of compression wave speeds for `"stiffness_scale": "auto"` [m/s]: 10 times fall_speed.

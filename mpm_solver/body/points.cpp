@@ -167,8 +167,9 @@ void for_each_shared(AnyPoints& points, std::size_t p, AnyState& state, std::siz
     visit(points.tan_phi_residual[p], strength.tan_phi_residual[s]);
 }
 
-/// V_0 and V for the stress with the zone's scaled K. What the FEM stretched beyond `loosest` is a gap: few points of an opened
-/// crest, at up to 4.5 times their drawn volume, had made every step of Mochikoshi's runout five times as short.
+/// V_0 and V for the stress with the zone's scaled K. What the FEM stretched beyond `loosest` is a
+/// gap: an opened crest's few points, at up to 3.6 times their drawn volume, had doubled the steps
+/// of Mochikoshi's late runouts.
 void settle_volumes(Points& points, Zone& zone, double density) {
     constexpr double loosest = 1.1;  // of the drawn volume
     const double K = zone.elasticity.bulk_modulus();
