@@ -272,8 +272,7 @@ class OverTransferTime {
 };
 
 /// Cell size of a runout [m]; nothing: its result does not say it.
-std::optional<double> cell_size_of(const Store& store, const std::string& mpm_task) {
-    const auto task = store.task(mpm_task);
+std::optional<double> cell_size_of(const std::optional<Task>& task) {
     const json size = task && task->result ? task->result->value("cell_size", json()) : json();
     return size.is_number() ? std::optional(size.get<double>()) : std::nullopt;
 }
@@ -326,6 +325,12 @@ Estimate of_mean(const std::optional<Estimate>& studied, const Estimate& of_cell
     return {of_cells.error.value_or(0.0) + *scatter.error, scatter.from + "; " + of_cells.from};
 }
 
+/// The same at every transfer time and repeat of a variant.
+struct OfVariant {
+    std::optional<Estimate> studied;  ///< by an accuracy study
+    std::optional<double> cell;       ///< [m]
+};
+
 }  // namespace
 
 void tell_runout_errors(const Store& store, const DataFolder& data, const std::string& run,
@@ -334,26 +339,25 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
     Studies studies(store, data);
     const Scatter scatter(store, run, all_rows);
     std::optional<OverTransferTime> over_time;
-    std::map<std::string, std::optional<Estimate>> by_variant;
+    const auto look_up = [&](const std::string& mpm_task) {
+        const auto task = store.task(mpm_task);
+        return OfVariant{studies.none() ? std::nullopt : studies.estimate(unless_removed(task)),
+                         cell_size_of(task)};
+    };
+    std::map<std::string, OfVariant> by_variant;
     for (ResultRow& row : rows) {
         if (!value_of(row, "runout").is_number()) continue;
         const std::string variant = value_of(row, "variant");
-        // Once per variant: an accuracy study's error is used at every transfer time.
         auto known = by_variant.find(variant);
-        if (known == by_variant.end()) {
-            std::optional<Estimate> found;
-            if (!studies.none())
-                found = studies.estimate(
-                    unless_removed(store.task(value_of(row, "mpm_task").get<std::string>())));
-            known = by_variant.emplace(variant, std::move(found)).first;
-        }
-        std::optional<Estimate> estimate = known->second;
+        if (known == by_variant.end())
+            known = by_variant.emplace(variant, look_up(value_of(row, "mpm_task"))).first;
+        const std::optional<double>& cell = known->second.cell;
+        std::optional<Estimate> estimate = known->second.studied;
         if (!estimate || !estimate->error) {
             auto noise = scatter.estimate(row);
             // Only now: it reads every row of the run.
             if (!over_time) over_time.emplace(all_rows());
             const auto beside = over_time->estimate(row);
-            const std::optional<double> cell = cell_size_of(store, value_of(row, "mpm_task"));
             if (noise && beside) {
                 noise->from += "; neighbouring transfer times scatter by " +
                                words::text_of(*beside->error, 2) +
@@ -370,7 +374,7 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
     }
     // By the variant that is repeated: a mean has no MPM task, so one of its repeats stands for
     // all.
-    std::map<std::string, std::optional<Estimate>> by_repeated;
+    std::map<std::string, OfVariant> by_repeated;
     for (ResultRow& mean : means) {
         const auto value = [&](const char* name) -> json& {
             return value_of(mean, name, mean_columns());
@@ -379,17 +383,11 @@ void tell_runout_errors(const Store& store, const DataFolder& data, const std::s
         auto known = by_repeated.find(place.first);
         const auto task = scatter.task_of(place);
         if (task && known == by_repeated.end())
-            known =
-                by_repeated
-                    .emplace(place.first, studies.none()
-                                              ? std::nullopt
-                                              : studies.estimate(unless_removed(store.task(*task))))
-                    .first;
+            known = by_repeated.emplace(place.first, look_up(*task)).first;
+        const OfVariant of = known == by_repeated.end() ? OfVariant{} : known->second;
         const Estimate of_cells =
-            bias_of_cells(value("runout_beyond_toe"), value("area_beyond_toe"),
-                          task ? cell_size_of(store, *task) : std::nullopt);
-        const Estimate estimate = of_mean(known == by_repeated.end() ? std::nullopt : known->second,
-                                          of_cells, scatter.of_mean(place));
+            bias_of_cells(value("runout_beyond_toe"), value("area_beyond_toe"), of.cell);
+        const Estimate estimate = of_mean(of.studied, of_cells, scatter.of_mean(place));
         if (estimate.error) value("runout_error") = *estimate.error;
         value("runout_error_from") = estimate.from;
     }
