@@ -22,8 +22,7 @@ quick = {
     "flow_slope": [],
 }
 changes = quick | {
-    "mochikoshi_runout": ["/mpm/cell_size=2.5", "/materials/embankment/nonlocal_length=4",
-                          "/materials/embankment_saturated/nonlocal_length=4", "/mpm/cfl=0.8", "/mpm/blending_rate=0.1"],
+    "mochikoshi_runout": ["/mpm/cell_size=2.5", "/mpm/cfl=0.8", "/mpm/blending_rate=0.1"],
 }
 
 
