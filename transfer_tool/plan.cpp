@@ -63,11 +63,11 @@ PlanLine stress_line(const scene::Scene& scene) {
 
 PlanLine cells_line(const scene::Transfer& settings) {
     if (!settings.points_per_cell)
-        return {"elements cut for the MPM's cells", Use::left_out,
+        return {"points for the MPM's cells", Use::left_out,
                 "every element gets its points per direction", "/transfer/points_per_cell"};
     return {
-        "elements cut for the MPM's cells", Use::on,
-        "every filled cell gets at least " + std::to_string(*settings.points_per_cell) + " points",
+        "points for the MPM's cells", Use::on,
+        std::to_string(*settings.points_per_cell) + " in a filled cell on the mean, half in each",
         "/transfer/points_per_cell"};
 }
 

@@ -8,7 +8,7 @@
 namespace breach::transfer {
 
 /// Raise it when results change for the same input: the cache then reuses no older result.
-inline constexpr int numerics = 13;
+inline constexpr int numerics = 14;
 
 process::Plan plan(const scene::Scene& scene);
 process::Outcome run(process::Session& session);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <limits>
+#include <tuple>
 
 #include "core/fault/fault.hpp"
 
@@ -12,6 +13,8 @@ namespace {
 constexpr double most_points = 50e6;
 constexpr double area_round_off = 1e-9;  // of a cell's area
 constexpr int most_rounds = 40;
+// The FEM has stretched elements a little: whole numbers of points need not follow.
+constexpr double almost = 0.9;
 
 /// The cells in the mesh's bounding box, with the areas that elements cover.
 class CellCover {
@@ -118,9 +121,9 @@ Vec2 lengths(const Corners& x) {
             std::max((x.col(3) - x.col(0)).norm(), (x.col(2) - x.col(1)).norm())};
 }
 
-void refuse_too_many(const std::vector<Panels>& panels, int n) {
+void refuse_too_many(const std::vector<Numbers>& numbers) {
     double points = 0.0;
-    for (const Panels& p : panels) points += static_cast<double>(n * p[0]) * (n * p[1]);
+    for (const Numbers& each : numbers) points += static_cast<double>(each[0]) * each[1];
     if (points <= most_points) return;
     throw fault::BadInput(
         "scene", {{"/transfer/points_per_cell",
@@ -129,13 +132,12 @@ void refuse_too_many(const std::vector<Panels>& panels, int n) {
 }
 
 std::vector<std::size_t> counts(const std::vector<Corners>& elements,
-                                const std::vector<Panels>& panels, const CellDemand& demand,
+                                const std::vector<Numbers>& numbers, const Shift& shift,
                                 const CellCover& cover) {
-    const int n = demand.points_per_panel;
     std::vector<std::size_t> count(cover.share.size(), 0);
     for (std::size_t e = 0; e < elements.size(); ++e) {
-        const GaussRule along = geometry::shifted_rule(n, panels[e][0], demand.shift[0]);
-        const GaussRule across = geometry::shifted_rule(n, panels[e][1], demand.shift[1]);
+        const GaussRule along = geometry::even_rule(numbers[e][0], shift[0]);
+        const GaussRule across = geometry::even_rule(numbers[e][1], shift[1]);
         for (const double eta : across.position)
             for (const double xi : along.position)
                 ++count[cover.cell(elements[e] * shape_functions({xi, eta}))];
@@ -145,7 +147,28 @@ std::vector<std::size_t> counts(const std::vector<Corners>& elements,
 
 std::size_t owed(double share, int asked) {
     // Rounded down: a cell at the soil's border may have a share too small for a single point.
-    return static_cast<std::size_t>(std::floor((share + 1e-6) * asked));
+    return static_cast<std::size_t>(std::floor((share + 1e-6) * std::max(1.0, 0.5 * asked)));
+}
+
+/// Of the four numbers around an even distance: the fewest points that are `wanted`, of these the
+/// most even.
+Numbers fewest_for(double wanted, const Vec2& length, double distance, int least) {
+    const auto around = [&](double edge) {
+        const int below = static_cast<int>(edge / distance);
+        return std::array{std::max(least, below), std::max(least, below + 1)};
+    };
+    Numbers best{};
+    double points = std::numeric_limits<double>::infinity(), apart = points;
+    for (const int along : around(length[0]))
+        for (const int across : around(length[1])) {
+            const double now = static_cast<double>(along) * across;
+            const double distance_now = std::max(length[0] / along, length[1] / across);
+            if (now < wanted || std::tie(now, distance_now) >= std::tie(points, apart)) continue;
+            best = {along, across};
+            points = now;
+            apart = distance_now;
+        }
+    return best;
 }
 
 CellSupply supply_of(const CellCover& cover, const std::vector<std::size_t>& count, int asked) {
@@ -163,26 +186,22 @@ CellSupply supply_of(const CellCover& cover, const std::vector<std::size_t>& cou
 
 }  // namespace
 
-Sampling one_panel_each(std::size_t elements) {
-    return {std::vector<Panels>(elements, Panels{1, 1}), std::nullopt};
+Sampling equal_numbers(std::size_t elements, int per_direction) {
+    return {std::vector<Numbers>(elements, Numbers{per_direction, per_direction}), std::nullopt};
 }
 
 Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand) {
-    const int n = demand.points_per_panel;
     const int asked = demand.points_per_cell;
-    // That of a square lattice with enough points per cell, of which the loop below corrects the
-    // exceptions.
-    const double distance =
-        demand.cell_size / std::ceil(std::sqrt(static_cast<double>(asked)) - 1e-9);
-    Sampling sampling = one_panel_each(elements.size());
+    const double per_area = asked / (demand.cell_size * demand.cell_size);
+    Sampling sampling = equal_numbers(elements.size(), demand.least_per_direction);
     for (std::size_t e = 0; e < elements.size(); ++e)
-        for (int d = 0; d < 2; ++d)
-            sampling.panels[e][d] = std::max(
-                1, static_cast<int>(std::ceil(lengths(elements[e])[d] / (n * distance) - 1e-9)));
-    refuse_too_many(sampling.panels, n);
+        sampling.numbers[e] =
+            fewest_for(almost * per_area * geometry::corner_jacobians(elements[e]).sum(),
+                       lengths(elements[e]), 1.0 / std::sqrt(per_area), demand.least_per_direction);
+    refuse_too_many(sampling.numbers);
 
     const CellCover cover(elements, demand);
-    std::vector<std::size_t> count = counts(elements, sampling.panels, demand, cover);
+    std::vector<std::size_t> count = counts(elements, sampling.numbers, demand.shift, cover);
     std::vector<char> refined(elements.size());
     for (int round = 0; round < most_rounds; ++round) {
         std::ranges::fill(refined, char{0});
@@ -194,13 +213,13 @@ Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDema
             if (refined[part.element]) continue;
             refined[part.element] = 1;
             any = true;
-            Panels& panels = sampling.panels[part.element];
+            Numbers& numbers = sampling.numbers[part.element];
             const Vec2 length = lengths(elements[part.element]);
-            ++panels[length[0] / panels[0] >= length[1] / panels[1] ? 0 : 1];
+            ++numbers[length[0] / numbers[0] >= length[1] / numbers[1] ? 0 : 1];
         }
         if (!any) break;
-        refuse_too_many(sampling.panels, n);
-        count = counts(elements, sampling.panels, demand, cover);
+        refuse_too_many(sampling.numbers);
+        count = counts(elements, sampling.numbers, demand.shift, cover);
     }
     // Cells that are short after the last round are reported and logged, not refused.
     sampling.supply = supply_of(cover, count, asked);

@@ -13,12 +13,13 @@ namespace {
 
 Sampling sampling_of(const std::vector<Corners>& shapes, const scene::Scene& scene) {
     const scene::Transfer& settings = scene::transfer_of(scene);
-    if (!settings.points_per_cell) return one_panel_each(shapes.size());
+    if (!settings.points_per_cell)
+        return equal_numbers(shapes.size(), settings.points_per_direction);
     const scene::Mpm& mpm = scene::mpm_of(scene);
     return sampling_for_cells(shapes, {.cell_size = mpm.cell_size,
                                        .origin = {mpm.domain_x[0], mpm.floor.level},
                                        .points_per_cell = *settings.points_per_cell,
-                                       .points_per_panel = settings.points_per_direction,
+                                       .least_per_direction = settings.points_per_direction,
                                        .shift = settings.point_shift});
 }
 
@@ -67,8 +68,8 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.rebuilt = std::move(shapes.rebuilt);
     const Sampling sampling = sampling_of(shapes.corners, scene);
     t.supply = sampling.supply;
-    Points points = place_points(mesh, std::move(shapes.corners), sampling.panels,
-                                 settings.points_per_direction, settings.point_shift);
+    Points points =
+        place_points(mesh, std::move(shapes.corners), sampling.numbers, settings.point_shift);
     carry_nodal_fields(mesh, points);
     const auto gauss_fields = carry_gauss_fields(mesh, settings, work, points);
     if (!gauss_fields) return std::nullopt;

@@ -95,20 +95,9 @@ GaussRule gauss_legendre(int n) {
 
 namespace {
 
-GaussRule repeated(const GaussRule& one, int n, int panels) {
-    if (panels == 1) return one;
-    GaussRule rule;
-    for (int p = 0; p < panels; ++p)
-        for (int i = 0; i < n; ++i) {
-            rule.position.push_back((2 * p + 1 + one.position[i]) / panels - 1.0);
-            rule.weight.push_back(one.weight[i] / panels);
-        }
-    return rule;
-}
-
 /// Points and weights from eigenvalues and first eigenvector components of the Jacobi matrix (Golub
 /// & Welsch 1969). The shift changes its last diagonal entry (Golub 1973, for Radau's rule).
-GaussRule one_shifted_panel(int n, double shift) {
+GaussRule moved_rule(int n, double shift) {
     Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, n);
     for (int k = 1; k < n; ++k) J(k, k - 1) = J(k - 1, k) = k / std::sqrt(4.0 * k * k - 1.0);
     J(n - 1, n - 1) = shift * n / (2.0 * n - 1.0);
@@ -123,11 +112,26 @@ GaussRule one_shifted_panel(int n, double shift) {
 
 }  // namespace
 
-GaussRule gauss_legendre(int n, int panels) { return repeated(gauss_legendre(n), n, panels); }
+GaussRule shifted_rule(int n, double shift) {
+    return shift == 0.0 ? gauss_legendre(n) : moved_rule(n, shift);
+}
 
-GaussRule shifted_rule(int n, int panels, double shift) {
-    if (shift == 0.0) return gauss_legendre(n, panels);
-    return repeated(one_shifted_panel(n, shift), n, panels);
+GaussRule even_rule(int n, double shift) {
+    if (n <= 3) return shifted_rule(n, shift);
+    const int panels = n / 2;
+    GaussRule rule;
+    double from = -1.0;
+    for (int p = 0; p < panels; ++p) {
+        const int k = n % 2 == 1 && p == panels / 2 ? 3 : 2;
+        const GaussRule part = shifted_rule(k, shift);
+        const double share = static_cast<double>(k) / n;
+        for (int i = 0; i < k; ++i) {
+            rule.position.push_back(from + share * (part.position[i] + 1.0));
+            rule.weight.push_back(share * part.weight[i]);
+        }
+        from += 2.0 * share;
+    }
+    return rule;
 }
 
 }  // namespace breach::geometry

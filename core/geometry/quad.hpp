@@ -37,12 +37,12 @@ struct GaussRule {
     std::vector<double> weight;
 };
 GaussRule gauss_legendre(int n);
-/// The same rule in each of `panels` equal parts of [-1, 1]: n * panels points, ascending, exact to
-/// the same degree. With two points per panel all weights are equal, for any number of panels.
-GaussRule gauss_legendre(int n, int panels);
 /// Like gauss_legendre, with the points moved towards +1 (shift > 0) or -1: the roots of P_n -
-/// shift P_(n-1) in each panel. |shift| < 1; 0: Gauss-Legendre, +-1: Radau. The weights stay
-/// positive; exact to degree 2 n - 2.
-GaussRule shifted_rule(int n, int panels, double shift);
+/// shift P_(n-1). |shift| < 1; 0: Gauss-Legendre, +-1: Radau. The weights stay positive; exact to
+/// degree 2 n - 2.
+GaussRule shifted_rule(int n, double shift);
+/// n points, nearly even: shifted_rule of two points in each of n / 2 parts of [-1, 1], the middle
+/// one longer and with three where n is odd. Exact to degree 3 (2 with a shift) for every n >= 2.
+GaussRule even_rule(int n, double shift);
 
 }  // namespace breach::geometry

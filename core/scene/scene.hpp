@@ -490,8 +490,8 @@ enum class OutOfPlaneStress { carried, zero };
 
 struct Transfer {
     int points_per_direction;
-    std::optional<int> points_per_cell{};  ///< in every filled cell of the MPM
-    /// Moves the points along xi and eta: 0 Gauss points, +-1 to the panel's border [-]
+    std::optional<int> points_per_cell{};  ///< mean in the MPM's filled cells
+    /// Moves the points along xi and eta: 0 Gauss points, +-1 to the border of their part [-]
     std::array<double, 2> point_shift{};
     Interpolation interpolation;
     int neighbours;

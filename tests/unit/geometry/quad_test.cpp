@@ -56,7 +56,7 @@ TEST(GaussRule, IsExactToItsDegree) {
 TEST(ShiftedRule, IsExactToOneDegreeLessAndItsPointsMove) {
     for (int n = 1; n <= 8; ++n)
         for (const double shift : {-0.9, -0.3, 0.5, 0.9}) {
-            const GaussRule rule = shifted_rule(n, 1, shift);
+            const GaussRule rule = shifted_rule(n, shift);
             const GaussRule plain = gauss_legendre(n);
             for (int degree = 0; degree <= 2 * n - 2; ++degree) {
                 double sum = 0.0;
@@ -75,7 +75,7 @@ TEST(ShiftedRule, IsExactToOneDegreeLessAndItsPointsMove) {
 
 // Radau's two points: -1/3 and the border, with weights 3/2 and 1/2.
 TEST(ShiftedRule, EndsAtRadaus) {
-    const GaussRule rule = shifted_rule(2, 1, 1.0 - 1e-12);
+    const GaussRule rule = shifted_rule(2, 1.0 - 1e-12);
     EXPECT_NEAR(rule.position[0], -1.0 / 3.0, 1e-9);
     EXPECT_NEAR(rule.position[1], 1.0, 1e-9);
     EXPECT_NEAR(rule.weight[0], 1.5, 1e-9);
@@ -83,8 +83,28 @@ TEST(ShiftedRule, EndsAtRadaus) {
 }
 
 TEST(ShiftedRule, WithoutAShiftIsGausssToTheLastBit) {
-    EXPECT_EQ(shifted_rule(3, 4, 0.0).position, gauss_legendre(3, 4).position);
-    EXPECT_EQ(shifted_rule(3, 4, 0.0).weight, gauss_legendre(3, 4).weight);
+    EXPECT_EQ(shifted_rule(3, 0.0).position, gauss_legendre(3).position);
+    EXPECT_EQ(shifted_rule(3, 0.0).weight, gauss_legendre(3).weight);
+}
+
+TEST(EvenRule, IsExactToDegreeThreeForAnyNumberAndNearlyEven) {
+    for (int n = 2; n <= 11; ++n)
+        for (const double shift : {0.0, 0.6}) {
+            const GaussRule rule = even_rule(n, shift);
+            ASSERT_EQ(rule.position.size(), static_cast<std::size_t>(n));
+            for (int degree = 0; degree <= (shift == 0.0 ? 3 : 2); ++degree) {
+                double sum = 0.0;
+                for (int i = 0; i < n; ++i)
+                    sum += rule.weight[i] * std::pow(rule.position[i], degree);
+                EXPECT_NEAR(sum, degree % 2 == 0 ? 2.0 / (degree + 1) : 0.0, 1e-13)
+                    << n << " points, degree " << degree;
+            }
+            for (int i = 1; i < n; ++i) {
+                EXPECT_GT(rule.position[i] - rule.position[i - 1], 1.6 / n);
+                EXPECT_LT(rule.position[i] - rule.position[i - 1], 2.6 / n);
+            }
+        }
+    for (const double w : even_rule(14, 0.0).weight) EXPECT_DOUBLE_EQ(w, 1.0 / 7.0);
 }
 
 TEST(Quad, ClosedFormIntegralsAgreeWithQuadrature) {
