@@ -22,9 +22,8 @@ namespace {
 
 // Recombined quads are smaller than requested (Mochikoshi at 1 m: 5,494 for an area of 4,450).
 constexpr double gmsh_excess = 1.25;
-// Panels are whole, so cells get more points than requested (Mochikoshi at 4 m: 2,744 for 2,112),
-// and elements are split where cells at their border lack points (four scenes: 1.6 to 2.1 times).
-constexpr double panel_excess = 1.25, split_excess = 1.5;
+// Elements have whole numbers of points (Mochikoshi with 9, 16 and 25 in a cell: 1.16 to 1.02).
+constexpr double points_excess = 1.1;
 
 /// Blocks and strips have even numbers of elements along their sides.
 double even(double divisions) { return 2.0 * std::max(1.0, std::round(0.5 * divisions)); }
@@ -282,8 +281,7 @@ double points_of(const scene::Scene& scene, double elements) {
     const int n = scene.transfer->points_per_direction;
     const double by_element = elements * n * n;
     if (!scene.transfer->points_per_cell || !scene.mpm) return by_element;
-    return panel_excess *
-           std::max(split_excess * by_element, cells * *scene.transfer->points_per_cell);
+    return points_excess * std::max(by_element, cells * *scene.transfer->points_per_cell);
 }
 
 double runout_duration(const scene::Scene& scene) {
