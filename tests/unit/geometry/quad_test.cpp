@@ -100,7 +100,7 @@ TEST(EvenRule, IsExactToDegreeThreeForAnyNumberAndNearlyEven) {
                     << n << " points, degree " << degree;
             }
             for (int i = 1; i < n && shift == 0.0; ++i) {
-                EXPECT_GT(rule.position[i] - rule.position[i - 1], 1.6 / n);
+                EXPECT_GT(rule.position[i] - rule.position[i - 1], 1.5 / n);
                 EXPECT_LT(rule.position[i] - rule.position[i - 1], 2.4 / n);
             }
         }
