@@ -66,8 +66,8 @@ void carry_ratio(const MeshSnapshot& mesh, std::size_t e, Points& points) {
 
 }  // namespace
 
-Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
-                    const std::vector<Numbers>& numbers, const Shift& shift) {
+Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes, const Sampling& sampling,
+                    const Shift& shift) {
     Points points;
     points.shape = std::move(shapes);
     exchange::ParticleState& s = points.state;
@@ -76,13 +76,14 @@ Points place_points(const MeshSnapshot& mesh, std::vector<Corners> shapes,
     s.regions = mesh.regions;
     s.materials_of_regions = mesh.materials_of_regions;
     std::size_t count = 0;
-    for (const Numbers& each : numbers) count += static_cast<std::size_t>(each[0] * each[1]);
+    for (const Numbers& each : sampling.numbers)
+        count += static_cast<std::size_t>(each[0] * each[1]);
     s.resize(count);
     points.xi.reserve(count);
     points.first.push_back(0);
     for (std::size_t e = 0; e < mesh.quads.size(); ++e)
-        place_in_element(mesh, e, geometry::even_rule(numbers[e][0], shift[0]),
-                         geometry::even_rule(numbers[e][1], shift[1]), points);
+        place_in_element(mesh, e, sampling.rule(sampling.numbers[e][0], shift[0]),
+                         sampling.rule(sampling.numbers[e][1], shift[1]), points);
     return points;
 }
 

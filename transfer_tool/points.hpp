@@ -22,11 +22,11 @@ struct Points {
     std::vector<Vec2> acceleration;  ///< [n_points] for the ledger only [m/s2]
 };
 
-/// Points at the positions of even_rule in each deformed element. With weights w and thickness t:
-/// mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for any numbers, as J is linear;
-/// with a shift for two or more.
+/// Points at the positions of the sampling's rule in each deformed element. With weights w and
+/// thickness t: mass = rho_0 J_0 w t and volume = J_t w t. Both sums are exact for any numbers, as J
+/// is linear; with a shift for two or more.
 Points place_points(const exchange::MeshSnapshot& mesh, std::vector<Corners> shapes,
-                    const std::vector<Numbers>& numbers, const Shift& shift = {});
+                    const Sampling& sampling, const Shift& shift = {});
 
 /// By shape functions: velocity v = sum N_i v_i, its gradient L = sum v_i (dN_i/dx)^T on the
 /// deformed element, acceleration; if the snapshot has them, pore pressure u = sum N_i u_i and r_u

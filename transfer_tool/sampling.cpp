@@ -187,17 +187,19 @@ CellSupply supply_of(const CellCover& cover, const std::vector<std::size_t>& cou
 }  // namespace
 
 Sampling equal_numbers(std::size_t elements, int per_direction) {
-    return {std::vector<Numbers>(elements, Numbers{per_direction, per_direction}), std::nullopt};
+    return {.numbers = std::vector<Numbers>(elements, Numbers{per_direction, per_direction}),
+            .rule = geometry::shifted_rule,
+            .supply = {}};
 }
 
 Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand) {
     const int asked = demand.points_per_cell;
     const double per_area = asked / (demand.cell_size * demand.cell_size);
-    Sampling sampling = equal_numbers(elements.size(), demand.least_per_direction);
-    for (std::size_t e = 0; e < elements.size(); ++e)
-        sampling.numbers[e] =
-            fewest_for(almost * per_area * geometry::corner_jacobians(elements[e]).sum(),
-                       lengths(elements[e]), 1.0 / std::sqrt(per_area), demand.least_per_direction);
+    Sampling sampling{.numbers = {}, .rule = geometry::even_rule, .supply = {}};
+    for (const Corners& x : elements)
+        sampling.numbers.push_back(
+            fewest_for(almost * per_area * geometry::corner_jacobians(x).sum(), lengths(x),
+                       1.0 / std::sqrt(per_area), demand.least_per_direction));
     refuse_too_many(sampling.numbers);
 
     const CellCover cover(elements, demand);

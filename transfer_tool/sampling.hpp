@@ -19,7 +19,7 @@ using mechanics::Vec2;
 
 /// Of points along xi and along eta.
 using Numbers = std::array<int, 2>;
-/// Along xi and along eta, as defined by even_rule [-].
+/// Along xi and along eta, as defined by shifted_rule [-].
 using Shift = std::array<double, 2>;
 
 /// The MPM's cells and their required number of points.
@@ -42,12 +42,14 @@ struct CellSupply {
 
 struct Sampling {
     std::vector<Numbers> numbers;  ///< [n_elements]
+    GaussRule (*rule)(int n, double shift);
     std::optional<CellSupply> supply;
 };
 
+/// Gauss points.
 Sampling equal_numbers(std::size_t elements, int per_direction);
 
-/// The fewest points that give each element its share of the mean, then more where a cell has too
+/// Nearly even points. The fewest points that give each element its share of the mean, then more where a cell has too
 /// few, in the direction with the larger distance. To ask for the full number in each cell takes up
 /// to twice as many, because elements do not fit the cells. Throws BadInput above fifty million.
 Sampling sampling_for_cells(const std::vector<Corners>& elements, const CellDemand& demand);

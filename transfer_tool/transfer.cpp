@@ -68,8 +68,7 @@ std::optional<Transferred> transfer(const exchange::MeshSnapshot& mesh, const sc
     t.rebuilt = std::move(shapes.rebuilt);
     const Sampling sampling = sampling_of(shapes.corners, scene);
     t.supply = sampling.supply;
-    Points points =
-        place_points(mesh, std::move(shapes.corners), sampling.numbers, settings.point_shift);
+    Points points = place_points(mesh, std::move(shapes.corners), sampling, settings.point_shift);
     carry_nodal_fields(mesh, points);
     const auto gauss_fields = carry_gauss_fields(mesh, settings, work, points);
     if (!gauss_fields) return std::nullopt;

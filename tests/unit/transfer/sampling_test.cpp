@@ -37,7 +37,7 @@ TEST(Sampling, AWideElementBesideSmallCellsLeavesNoGaps) {
     EXPECT_LT(counted(plain).size(), 22u * 4u);
 
     const Sampling sampling = sampling_for_cells(shapes(mesh), {2.5, {0.0, 0.0}, 4, 2});
-    const Points points = place_points(mesh, shapes(mesh), sampling.numbers);
+    const Points points = place_points(mesh, shapes(mesh), sampling);
     const auto count = counted(points);
     EXPECT_EQ(count.size(), 22u * 4u);
     for (const auto& [cell, n] : count) EXPECT_GE(n, 2);
@@ -64,7 +64,7 @@ TEST(Sampling, ADeformedMeshThatFitsNoCellIsStillServed) {
 TEST(Sampling, TakesHardlyMoreThanTheMeanAskedFor) {
     const auto mesh = meshes::grid({.nx = 30, .ny = 20, .width = 30.0, .height = 20.0});
     const Sampling sampling = sampling_for_cells(shapes(mesh), {1.25, {0.0, 0.0}, 9, 2});
-    const Points points = place_points(mesh, shapes(mesh), sampling.numbers);
+    const Points points = place_points(mesh, shapes(mesh), sampling);
     const double per_cell = static_cast<double>(points.xi.size()) / (24.0 * 16.0);
     EXPECT_GE(per_cell, 9.0);
     EXPECT_LT(per_cell, 10.0);
@@ -76,7 +76,7 @@ TEST(Sampling, MovedPointsKeepMassVolumeAndMomentum) {
     meshes::set_in_motion(mesh);
     const auto sums = [&](const Shift& shift) {
         Points points =
-            place_points(mesh, shapes(mesh), equal_numbers(mesh.quads.size(), 2).numbers, shift);
+            place_points(mesh, shapes(mesh), equal_numbers(mesh.quads.size(), 2), shift);
         carry_nodal_fields(mesh, points);
         double mass = 0.0, volume = 0.0;
         Vec2 momentum = Vec2::Zero();

@@ -123,7 +123,7 @@ inline scene::Transfer settings(int n = 3,
 /// n x n points in every element, without fields.
 inline Points points_on(const MeshSnapshot& s, int n) {
     return place_points(s, shapes_of_elements(s, scene::Entangled::refuse, "mesh").corners,
-                        equal_numbers(s.quads.size(), n).numbers);
+                        equal_numbers(s.quads.size(), n));
 }
 
 /// A transfer that is not stopped.
