@@ -118,14 +118,14 @@ GaussRule shifted_rule(int n, double shift) {
 
 GaussRule even_rule(int n, double shift) {
     if (n <= 3) return shifted_rule(n, shift);
-    const int panels = n / 2;
+    const GaussRule two = shifted_rule(2, shift), three = shifted_rule(3, shift);
+    const int parts = n / 2;
     GaussRule rule;
     double from = -1.0;
-    for (int p = 0; p < panels; ++p) {
-        const int k = n % 2 == 1 && p == panels / 2 ? 3 : 2;
-        const GaussRule part = shifted_rule(k, shift);
-        const double share = static_cast<double>(k) / n;
-        for (int i = 0; i < k; ++i) {
+    for (int p = 0; p < parts; ++p) {
+        const GaussRule& part = n % 2 == 1 && p == parts / 2 ? three : two;
+        const double share = static_cast<double>(part.position.size()) / n;
+        for (std::size_t i = 0; i < part.position.size(); ++i) {
             rule.position.push_back(from + share * (part.position[i] + 1.0));
             rule.weight.push_back(share * part.weight[i]);
         }
